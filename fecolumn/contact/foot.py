@@ -1,0 +1,95 @@
+"""The column's foot as the time integration sees it: a dynamic part filtered to the step, and a static rest."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.dynamics.effective import blocks, unit_loads
+
+
+class FilteredFoot:
+    """Contact of the foot's nodes with what a time step resolves, the rest treated statically.
+
+    The elastic modes of single foot nodes are a thousand times faster than a step. Left to an implicit method they keep
+    the contact force in their acceleration memory and ring at the Nyquist frequency. With S = M + theta^2 K, theta the
+    substep of the effective matrix m S, a contact force r is therefore split,
+
+        r acts on the body as            U r,      U = M Y,  Y = S^-1 B^T   (smooth: spread as far as waves run in theta),
+        the foot's position is           U^T d + C r,  d the displacement in the body's frame,
+        with the static remainder        C = theta^2 (B Y + Y^T M Y),
+
+    B picking the foot's nodes. In a mode of frequency w the factors are 1/(1 + q), q = (w theta)^2: exact for rigid motion,
+    second order in dt for what is resolved; statically U^T K^-1 U + C = B K^-1 B^T for any dt, so that the contact always
+    sees the exact finite-element compliance. Force and position are conjugate, so the work of contact is exact, and
+    C has no memory. This is the residual flexibility of component mode synthesis (Rubin 1975; Craig and Chang 1977)
+    with the effective matrix in place of a modal cut.
+
+    Arrays are in the body's frame, rows those of this rank: `push` = U (3 n_owned, 3 n), `jump` = Y likewise;
+    `static` = C and `mobility` = U^T Y (n, n, 3, 3) on every rank.
+    """
+
+    filtered = True
+
+    def __init__(self, body, nodes, factor, mass_factor: float, stiffness_factor: float):
+        self.body, self.nodes = body, nodes
+        self.jump = mass_factor * factor.solve_many(unit_loads(body, nodes))
+        self.push = body.apply_many(body.mass, self.jump)
+        foot = body.gather(nodes, self.jump.reshape(body.n_owned, 3, -1)).reshape(3 * len(nodes), -1)
+        mobility = body.sum(self.push.T @ self.jump)
+        self.mobility = blocks(mobility)
+        self.static = blocks(stiffness_factor / mass_factor * (foot + mobility))
+
+    def position(self, displacement: np.ndarray) -> np.ndarray:
+        """Filtered displacement or velocity (n, 3) of the foot from a field (n_owned, 3), both in the body's frame."""
+        return self.body.sum(self.push.T @ displacement.reshape(-1)).reshape(-1, 3)
+
+    def load(self, forces: np.ndarray) -> np.ndarray:
+        """Nodal forces (n_owned, 3) of contact forces (n, 3), both in the body's frame."""
+        return _combine(self.push, forces)
+
+    def acceleration(self, forces: np.ndarray) -> np.ndarray:
+        """M^-1 of `load`: acceleration of contact forces, or velocity jump of contact impulses."""
+        return _combine(self.jump, forces)
+
+
+class PlainFoot:
+    """Contact of the foot's nodes without filter: forces and positions are those of the nodes."""
+
+    filtered = False
+
+    def __init__(self, body, nodes):
+        self.body, self.nodes = body, nodes
+        self.push = unit_loads(body, nodes)
+        self.static = np.zeros((len(nodes), len(nodes), 3, 3))
+
+    def position(self, displacement: np.ndarray) -> np.ndarray:
+        return self.body.gather(self.nodes, displacement)
+
+    def load(self, forces: np.ndarray) -> np.ndarray:
+        return self.body.spread(self.nodes, forces)
+
+
+class Response:
+    """Positions that contact forces cause within one implicit stage, x = A^-1 U r.
+
+    Args:
+        foot: FilteredFoot or PlainFoot.
+        factor: of the stage's effective matrix.
+    """
+
+    def __init__(self, foot, factor):
+        self._columns = factor.solve_many(foot.push)
+        self.compliance = blocks(foot.body.sum(foot.push.T @ self._columns))
+
+    def displacement(self, forces: np.ndarray) -> np.ndarray:
+        """Displacement (n_owned, 3) of contact forces (n, 3), both in the frame of the factored matrix."""
+        return _combine(self._columns, forces)
+
+
+def _combine(columns: np.ndarray, forces: np.ndarray) -> np.ndarray:
+    """Sum of columns times forces, over the loaded nodes only: few while rocking."""
+    loaded = np.flatnonzero(np.any(forces != 0, axis=1))
+    if len(loaded) * 3 > columns.shape[1] // 2:
+        return (columns @ forces.ravel()).reshape(-1, 3)
+    picked = (3 * loaded[:, None] + np.arange(3)).ravel()
+    return (columns[:, picked] @ forces[loaded].ravel()).reshape(-1, 3)

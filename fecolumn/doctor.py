@@ -1,0 +1,227 @@
+"""What this machine offers: the version of everything fecolumn rests on, and the traps it would step into.
+
+Stands alone: it needs neither the rest of the package nor any library it looks for. The libraries are looked at in a child
+process, in the order an analysis loads them, so that one that crashes is a line in the table and not the end of it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import importlib.util
+import json
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+INSTALL = "run through ./containers/run, which installs it"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One line of the table; `warning` names a trap and its remedy, `fit` is False if no analysis can run."""
+
+    component: str
+    version: str
+    note: str = ""
+    warning: str = ""
+    fit: bool = True
+
+
+def origin(name: str) -> str:
+    """Debian, or the folder of a wheel; without importing the module."""
+    folder = str(Path(importlib.util.find_spec(name).origin).parent.parent)
+    return "Debian" if folder.startswith("/usr/lib/") else folder
+
+
+def loaded_libraries(pattern: str) -> list[str]:
+    """Shared libraries of this process whose file name begins like this, those of wheels left out."""
+    files = {line.split()[-1] for line in Path("/proc/self/maps").read_text().splitlines() if ".so" in line}
+    return sorted(file for file in files if re.match(pattern, Path(file).name) and "site-packages" not in file)
+
+
+def look_at_machine() -> list[Finding]:
+    """System, Python, compiler, cores, memory and environment variables."""
+    release = dict(re.findall(r'^(\w+)="?(.*?)"?$', Path("/etc/os-release").read_text(), re.MULTILINE))
+    known = release.get("VERSION_CODENAME") in ("bookworm", "trixie")
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    threads = os.environ.get("OMP_NUM_THREADS")
+    untried = "tried on Debian 12 and 13 only: use a container of one of them"
+    foreign = "not the Python that Debian's dolfinx was built for: run through ./containers/run"
+    crowded = "analyses side by side would fight for the cores: export OMP_NUM_THREADS=1"
+    findings = [
+        Finding("system", release.get("PRETTY_NAME", "unknown"), platform.machine(), "" if known else untried),
+        Finding("Python", platform.python_version(), sys.prefix, "" if sys.base_prefix == "/usr" else foreign),
+        Finding("cores", str(len(os.sched_getaffinity(0))), f"of {os.cpu_count()}"),
+        Finding("memory", f"{memory:.1f} GiB"),
+        Finding("OMP_NUM_THREADS", threads or "unset", "", "" if threads == "1" else crowded),
+    ]
+    if not (shutil.which("mpicc") or shutil.which("cc")):
+        findings.append(Finding("C compiler", "missing", "", f"dolfinx compiles forms with it: {INSTALL}", fit=False))
+    if os.geteuid() == 0 and not os.environ.get("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"):
+        remedy = "Open MPI refuses root: export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"
+        findings.append(Finding("mpirun", "as root", "", remedy))
+    if importlib.util.find_spec("netCDF4") and origin("netCDF4") != "Debian":
+        findings.append(Finding("netCDF4", "wheel", "", "crashes beside dolfinx: pip uninstall netCDF4"))
+    return findings
+
+
+# ---- the libraries: each function returns (version, note, warning) and may raise ---------------------------------------
+
+
+def look_at_numpy():
+    import numpy
+
+    debian = origin("numpy") == "Debian"
+    return numpy.__version__, origin("numpy"), "" if debian else "petsc4py was built for Debian's numpy: pip uninstall numpy"
+
+
+def look_at_scipy():
+    import scipy.stats
+
+    return scipy.__version__, origin("scipy") + ("" if hasattr(scipy.stats, "ecdf") else ", without stats.ecdf"), ""
+
+
+def look_at_mpi():
+    import mpi4py
+    from mpi4py import MPI
+
+    trap = "mpi4py.futures needs petsc4py.init(comm=MPI.COMM_SELF) before dolfinx, or it hangs"
+    return re.split(r"[,\n]", MPI.Get_library_version())[0].strip(), f"mpi4py {mpi4py.__version__}; {trap}", ""
+
+
+def look_at_petsc():
+    import petsc4py
+    from petsc4py import PETSc
+
+    scalar = PETSc.ScalarType().dtype
+    if scalar.kind != "f":
+        raise RuntimeError("complex scalars: apt install python3-dolfinx-real, and unset PETSC_DIR and PETSC_ARCH")
+    return ".".join(map(str, PETSc.Sys.getVersion())), f"petsc4py {petsc4py.__version__}, scalars real ({scalar})", ""
+
+
+def look_at_mumps():
+    from petsc4py import PETSc
+
+    matrix = PETSc.Mat().createAIJ([1, 1], csr=([0, 1], [0], [2.0]), comm=PETSc.COMM_SELF)
+    solver = PETSc.PC().create(PETSc.COMM_SELF)
+    solver.setOperators(matrix)
+    solver.setType("lu")
+    solver.setFactorSolverType("mumps")
+    solver.setUp()
+    return "yes", ", ".join(loaded_libraries("libdmumps")), ""
+
+
+def look_at_blas():
+    import numpy.linalg  # noqa: F401  loads BLAS
+    from petsc4py import PETSc  # noqa: F401  loads BLAS
+
+    # Debian puts every BLAS behind the name libblas.so.3; the folder tells which it is, "blas" being the reference
+    library = Path(loaded_libraries(r"lib(open)?blas|libmkl_rt|libblis|libatlas")[0])
+    slow = "the reference BLAS makes MUMPS three times slower: apt install libopenblas0-pthread"
+    return library.parent.name, str(library), slow if library.parent.name == "blas" else ""
+
+
+def look_at_dolfinx():
+    import dolfinx.io
+
+    return dolfinx.__version__, "with VTXWriter" if hasattr(dolfinx.io, "VTXWriter") else "no VTXWriter: fields go to XDMF", ""
+
+
+def look_at_h5py():
+    if origin("h5py") != "Debian":  # not imported: it may take the process down
+        raise RuntimeError(f"a wheel in {origin('h5py')}, which crashes beside dolfinx: pip uninstall h5py")
+    import h5py
+
+    beside = ", ".join(Path(file).name for file in loaded_libraries("libhdf5_(openmpi|mpich).so"))
+    return h5py.__version__, f"Debian, HDF5 {h5py.version.hdf5_version}, beside dolfinx's {beside or '(not loaded)'}", ""
+
+
+def look_at_gmsh():
+    import gmsh
+
+    gmsh.initialize()
+    return gmsh.option.getString("General.Version"), origin("gmsh"), ""
+
+
+def look_at_pyvista():
+    import pyvista
+
+    plotter = pyvista.Plotter(off_screen=True, window_size=(64, 64))
+    plotter.add_mesh(pyvista.Sphere())
+    blank = plotter.screenshot(None, return_img=True).std() == 0
+    note = f"VTK {'.'.join(map(str, pyvista.vtk_version_info))}, {type(plotter.render_window).__name__}"
+    return pyvista.__version__, note, "draws blank pictures: apt install libegl1 libgl1" if blank else ""
+
+
+def look_at_other(name: str):
+    return importlib.import_module(name).__version__, origin(name), ""
+
+
+# in the order an analysis loads them; h5py after dolfinx, whose HDF5 it must get along with
+LIBRARIES = {
+    "numpy": look_at_numpy, "scipy": look_at_scipy, "MPI": look_at_mpi, "PETSc": look_at_petsc, "MUMPS": look_at_mumps,
+    "BLAS": look_at_blas, "dolfinx": look_at_dolfinx, "h5py": look_at_h5py, "Gmsh": look_at_gmsh,
+    "numba": lambda: look_at_other("numba"), "meshio": lambda: look_at_other("meshio"),
+    "matplotlib": lambda: look_at_other("matplotlib"), "pyvista": look_at_pyvista,
+}  # fmt: skip
+OPTIONAL = {"matplotlib", "pyvista"}
+
+
+def look_at_library(name: str) -> Finding:
+    """One library's line, whatever its import raises."""
+    try:
+        return Finding(name, *LIBRARIES[name]())
+    except Exception as error:  # noqa: BLE001  a broken library may raise anything
+        state = "missing" if isinstance(error, ModuleNotFoundError) or "NoneType" in str(error) else "broken"
+        reason = " ".join(str(error).split())[:200]
+        remedy = reason if re.search("pip |apt ", reason) else f"{reason}: {INSTALL}"
+        return Finding(name, state, "", remedy, fit=name in OPTIONAL)
+
+
+def look_at_libraries() -> list[Finding]:
+    """Every library's line, from a child process, and another child after each crash."""
+    # a child is no rank of the MPI job that the doctor may be part of
+    environment = {k: v for k, v in os.environ.items() if not re.match("OMPI_(?!ALLOW)|ORTE|PMI|PRTE", k)}
+    findings, left = [], list(LIBRARIES)
+    while left:
+        command = [sys.executable, "-P", __file__, "--child", *left]
+        child = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+        found = [Finding(**json.loads(line[1:])) for line in child.stdout.splitlines() if line.startswith("@{")]
+        findings += found
+        left = left[len(found) :]
+        if left:
+            name = left.pop(0)
+            remedy = f"ends the process with exit code {child.returncode}; to see why: python -c 'import {name.lower()}'"
+            findings.append(Finding(name, "crashes", "", remedy, fit=name in OPTIONAL))
+    return findings
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Print the table and the warnings; 0 if analyses can run here, 1 if something essential is missing or broken."""
+    parser = argparse.ArgumentParser(prog="fecolumn doctor", description=__doc__.splitlines()[0])
+    parser.add_argument("--child", nargs="+", help=argparse.SUPPRESS)
+    for name in (child := parser.parse_args(argv).child) or []:
+        print("@" + json.dumps(asdict(look_at_library(name))), flush=True)
+    if child:
+        return 0
+    findings = look_at_machine() + look_at_libraries()
+    wide = [max(len(getattr(finding, column)) for finding in findings) for column in ("component", "version")]
+    for finding in findings:
+        print(f"{finding.component:{wide[0]}}  {finding.version:{wide[1]}}  {finding.note}".rstrip())
+    print()
+    for finding in findings:
+        if finding.warning:
+            print(f"{'warning' if finding.fit else 'ERROR'}: {finding.component}: {finding.warning}")
+    fit = all(finding.fit for finding in findings)
+    print("fit to run" if fit else "NOT fit to run")
+    return 0 if fit else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,91 @@
+"""From a case to the mechanical system."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.case import GRAVITY, Case
+from fecolumn.contact.base_plate import BasePlate
+from fecolumn.contact.law import interface_compliance
+from fecolumn.dynamics.body import Body
+from fecolumn.dynamics.corotated import Corotated
+from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.system import System
+from fecolumn.mesh.bricks import LOWER, UPPER, boundary_quads
+from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
+from fecolumn.mesh.surface import face_basis, face_points, nodal_areas
+from fecolumn.mesh.tie import project_to_quads
+from fecolumn.schema import InputError
+
+
+def share_specimen_mesh(case: Case, comm) -> SpecimenMesh:
+    """The specimen's mesh, made on rank 0 and known on every rank; a refusal is raised on every rank."""
+    result = None
+    if comm.rank == 0:
+        try:
+            result = specimen_mesh(case)
+        except InputError as error:
+            result = error.file, error.key, error.value, error.allowed
+    result = comm.bcast(result)
+    if isinstance(result, tuple):
+        raise InputError(*result)
+    return result
+
+
+def column_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
+    """Column and cap as one body with their ties."""
+    def ties(body):
+        return {slave: link for one in specimen.ties for slave, link in _tie_links(body, specimen.body, one)}, ()
+
+    return Body(comm, specimen.body, case.material, case.mesh.element_order, ties)
+
+
+def _tie_links(body: Body, mesh, tie):
+    """(slave node, (master nodes, weights)) of one tie, at the Lagrange nodes of the body's order."""
+    slave_quads = boundary_quads(mesh, tie.slave_part, mesh.points[tie.slave_nodes, 2].mean(), 1e-6 * np.ptp(mesh.points[:, 2]))
+    slaves = np.unique(body.find_nodes(face_points(mesh.points[slave_quads], body.order).reshape(-1, 3), tie.slave_part))
+    corners = mesh.points[tie.master_quads]
+    masters = body.find_nodes(face_points(corners, body.order).reshape(-1, 3), tie.master_part).reshape(len(corners), -1)
+    quad, xi, _, _ = project_to_quads(body.all_X[slaves], corners)
+    weights = face_basis(xi, body.order)
+    for slave, nodes, row in zip(slaves, masters[quad], weights):
+        kept = np.abs(row) > 1e-12
+        yield int(slave), (nodes[kept], row[kept] / row[kept].sum())
+
+
+def base_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
+    """Base plate, held at its bottom."""
+    def held(body):
+        bottom = body.all_X[:, 2].min()
+        return {}, np.flatnonzero(body.all_X[:, 2] < bottom + 1e-9 * case.base.thickness_m)
+
+    return Body(comm, specimen.base, case.base, 1, held)
+
+
+def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (n,) of the foot in an order that does not depend on the partition, and their tributary areas (n,) [m2]."""
+    mesh = specimen.body
+    part = LOWER if mesh.has_part(LOWER) else UPPER
+    quads = boundary_quads(mesh, part, 0.0, 1e-6 * case.column.height_m)
+    found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
+    foot, position = np.unique(found, return_inverse=True)
+    order = np.lexsort(np.round(column.all_X[foot, :2].T / case.column.outer_diameter_m, 9))
+    foot, position = foot[order], np.argsort(order)[position]
+    return foot, nodal_areas(mesh.points[quads], position.reshape(len(quads), -1), len(foot), column.order)
+
+
+def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> System:
+    """Bodies, contact and loads of a case."""
+    specimen = specimen or share_specimen_mesh(case, comm)
+    column = column_body(case, specimen, comm)
+    if case.integration.kinematics == "total_lagrangian":
+        from fecolumn.dynamics.total_lagrangian import TotalLagrangian
+
+        kinematics = TotalLagrangian(column)
+    else:
+        kinematics = Corotated(column)
+    foot, areas = foot_of(case, specimen, column)
+    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, areas)
+    return System(column, kinematics, BasePlate(base_body(case, specimen, comm)), foot, areas, case.contact.friction_coefficient,
+                  own, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
+                  filtered=case.contact.impact == "plastic")

@@ -1,0 +1,72 @@
+"""Effective matrices of implicit time integration, factored once, and responses to many loads at once."""
+
+from __future__ import annotations
+
+import numpy as np
+from petsc4py import PETSc
+
+
+class Factor:
+    """Cholesky factor (MUMPS) of a symmetric positive definite matrix of a body; the matrix is taken over."""
+
+    def __init__(self, body, matrix: PETSc.Mat):
+        self.body, self._matrix = body, body.constraint.pinned(matrix)
+        self._matrix.setOption(PETSc.Mat.Option.SPD, True)
+        self._solver = PETSc.KSP().create(body.comm)
+        self._solver.setOperators(self._matrix)
+        self._solver.setType("preonly")
+        preconditioner = self._solver.getPC()
+        preconditioner.setType("cholesky")
+        preconditioner.setFactorSolverType("mumps")
+        self._solver.setUp()
+
+    def solve(self, forces: np.ndarray) -> np.ndarray:
+        """Displacements (n_owned, 3) of all nodes from reduced forces (n_owned, 3)."""
+        source, target = self.body.work
+        source.array[:] = forces.reshape(-1)
+        self._solver.solve(source, target)
+        return self.body.constraint.expand(target.array.reshape(-1, 3).copy())
+
+    def solve_many(self, forces: np.ndarray) -> np.ndarray:
+        """Displacements (3 n_owned, m) of all nodes from m columns of reduced forces (3 n_owned, m)."""
+        sizes = (3 * self.body.n_owned, None), (None, forces.shape[1])
+        source = PETSc.Mat().createDense(sizes, array=np.asfortranarray(forces), comm=self.body.comm)
+        target = PETSc.Mat().createDense(sizes, comm=self.body.comm)
+        for matrix in (source, target):
+            matrix.setUp()
+            matrix.assemble()
+        self._solver.getPC().getFactorMatrix().matSolve(source, target)
+        projection = self.body.constraint.projection
+        expanded = target if projection is None else projection.matMult(target)
+        result = expanded.getDenseArray().copy(order="F")
+        for matrix in (source, target) if projection is None else (source, target, expanded):
+            matrix.destroy()
+        return result
+
+    def destroy(self) -> None:
+        self._solver.destroy()
+        self._matrix.destroy()
+
+
+def effective_factor(body, mass_factor: float, stiffness_factor: float, stiffness: PETSc.Mat | None = None) -> Factor:
+    """Factor of mass_factor M + stiffness_factor K, with the body's reference stiffness unless another is given."""
+    matrix = (stiffness or body.stiffness).copy()
+    matrix.scale(stiffness_factor)
+    if mass_factor:
+        matrix.axpy(mass_factor, body.mass, structure=PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
+    return Factor(body, matrix)
+
+
+def unit_loads(body, nodes) -> np.ndarray:
+    """Unit forces in x, y, z at `nodes` as columns (3 n_owned, 3 len(nodes))."""
+    loads = np.zeros((3 * body.n_owned, 3 * len(nodes)), order="F")
+    here, local = body.owned(nodes)
+    for axis in range(3):
+        loads[3 * local + axis, 3 * here + axis] = 1.0
+    return loads
+
+
+def blocks(matrix: np.ndarray) -> np.ndarray:
+    """Symmetric (3 n, 3 n) matrix as node blocks (n, n, 3, 3)."""
+    n = len(matrix) // 3
+    return np.ascontiguousarray(((matrix + matrix.T) / 2).reshape(n, 3, n, 3).transpose(0, 2, 1, 3))

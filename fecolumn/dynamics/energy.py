@@ -1,0 +1,47 @@
+"""The energy ledger: where every joule comes from and where it goes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+#: State terms, then accumulated terms, in the order they are written.
+TERMS = ("kinetic", "strain", "gravity", "base_work", "friction", "impact", "contact", "algorithmic", "closure")
+
+
+class Ledger:
+    """Energy in the table frame [J].
+
+    kinetic + strain + gravity = start + base_work + friction + impact + contact + algorithmic + closure
+
+    base_work is the work of the base motion's inertia forces; friction, impact, contact and algorithmic are what these
+    add, so a loss is negative. Each is computed from forces and displacements of the step, independent of the state's
+    energy; closure is what is left over, the error of solver and bookkeeping.
+    """
+
+    def __init__(self, system):
+        self.system = system
+        self.work = dict.fromkeys(TERMS[3:-1], 0.0)
+        self.start: float | None = None
+
+    def state_terms(self, state) -> dict[str, float]:
+        """Kinetic, strain and gravity energy now; gravity is relative to the reference configuration."""
+        system, column = self.system, self.system.column
+        weight = np.einsum("c,cna->na", system.gravity, column.unit_loads)
+        return dict(kinetic=0.5 * column.dot(state.v, column.apply(column.mass, state.v)),
+                    strain=state.strain + state.static,
+                    gravity=-column.dot(weight, state.x - column.X))
+
+    def open(self, state) -> None:
+        """Take the energy now as the start."""
+        self.start = sum(self.state_terms(state).values())
+
+    def add(self, **terms: float) -> None:
+        """Book the work of one step."""
+        for name, value in terms.items():
+            self.work[name] += float(value)
+
+    def row(self, state) -> np.ndarray:
+        """All terms in the order of TERMS."""
+        now = self.state_terms(state)
+        closure = sum(now.values()) - self.start - sum(self.work.values())
+        return np.array([*now.values(), *self.work.values(), closure])

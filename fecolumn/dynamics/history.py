@@ -1,0 +1,62 @@
+"""The history of an analysis: one row a step in memory, written atomically as HDF5 with units."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.dynamics.energy import TERMS
+
+UNITS = {"time": "s", "u_top": "m", "tilt": "rad", "twist": "rad", "slide": "m", "contact_force": "N",
+         "active_nodes": "-", "penetration": "m", "ground": "m/s2", "iterations": "-"}
+MEANING = {"u_top": "displacement of the top's centre relative to the base", "slide": "horizontal displacement of the foot's centre",
+           "tilt": "angle of the column's axis to the vertical", "twist": "rotation about the vertical",
+           "contact_force": "force of the base on the column", "active_nodes": "foot nodes in contact",
+           "penetration": "largest penetration of a foot node", "ground": "acceleration of the base",
+           "iterations": "position iterations of the step"}
+
+
+class History:
+    """Rows of measures and energy terms."""
+
+    def __init__(self, rows: dict[str, np.ndarray] | None = None):
+        self._columns: dict[str, list] = {name: list(values) for name, values in (rows or {}).items()}
+
+    def __len__(self) -> int:
+        return len(self._columns.get("time", ()))
+
+    def add(self, measures: dict, energy: np.ndarray, iterations: int) -> None:
+        """Append a row; `energy` in the order of energy.TERMS [J]."""
+        row = dict(measures, iterations=iterations, **{f"energy/{name}": value for name, value in zip(TERMS, energy)})
+        for name, value in row.items():
+            self._columns.setdefault(name, []).append(value)
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Columns by name, first axis time."""
+        return {name: np.asarray(values) for name, values in self._columns.items()}
+
+    def write(self, path: Path, attributes: dict) -> None:
+        """Write all rows; a reader sees the old file or the new one, never a part."""
+        import h5py
+
+        partial = path.with_name(path.name + ".partial")
+        with h5py.File(partial, "w") as file:
+            file.attrs.update(attributes)
+            for name, values in self.arrays().items():
+                dataset = file.create_dataset(name, data=values, compression="gzip" if values.size > 1000 else None)
+                dataset.attrs["unit"] = UNITS.get(name, "J")
+                if name in MEANING:
+                    dataset.attrs["meaning"] = MEANING[name]
+        os.replace(partial, path)
+
+
+def read_history(path) -> dict[str, np.ndarray]:
+    """Columns of a history file; energy terms as "energy/<term>"."""
+    import h5py
+
+    with h5py.File(path) as file:
+        names = []
+        file.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
+        return {name: file[name][()] for name in names}

@@ -1,0 +1,33 @@
+"""Rotations: mean rotation of a body, rotation vectors, tilt and twist."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def rotation_matrix(vector) -> np.ndarray:
+    """Rotation (3, 3) of the rotation vector (3,) [rad], by Rodrigues' formula."""
+    vector = np.asarray(vector, float)
+    angle = np.linalg.norm(vector)
+    spin = np.array([[0, -vector[2], vector[1]], [vector[2], 0, -vector[0]], [-vector[1], vector[0], 0]])
+    # sinc-like quotients stay exact at small angles
+    a = np.sinc(angle / np.pi)
+    b = 0.5 * np.sinc(angle / (2 * np.pi)) ** 2
+    return np.eye(3) + a * spin + b * spin @ spin
+
+
+def polar_rotation(moment: np.ndarray) -> np.ndarray:
+    """Rotation R (3, 3) nearest to `moment` = sum m x X^T, so that x ~ R X in the mass-weighted mean."""
+    left, _, right = np.linalg.svd(moment)
+    flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
+    return left @ flip @ right
+
+
+def tilt_angle(rotation: np.ndarray) -> float:
+    """Angle between the body's axis and the vertical [rad]."""
+    return float(np.arctan2(np.hypot(rotation[0, 2], rotation[1, 2]), rotation[2, 2]))
+
+
+def twist_angle(rotation: np.ndarray) -> float:
+    """Rotation about the vertical left when the tilt is undone the short way [rad]."""
+    return float(np.arctan2(rotation[1, 0] - rotation[0, 1], rotation[0, 0] + rotation[1, 1]))

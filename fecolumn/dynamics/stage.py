@@ -1,0 +1,125 @@
+"""One implicit stage: positions of the column and contact forces in equilibrium at the end of a step."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.contact.base_top import OffBase
+from fecolumn.contact.delassus import turned
+from fecolumn.contact.interface import NEAR, Footing
+
+# Points of the foot that are not in the contact problem may not sink deeper than this [m]
+PENETRATION = 1e-11
+# Residual of the contact laws above which a stage has failed [m]
+CONTACT_TOLERANCE = 1e-10
+
+
+class Stop(enum.Enum):
+    """Why the iteration of a stage ended."""
+
+    CONVERGED = "converged"
+    ITERATIONS = "no convergence within max_iterations"
+    CONTACT = "the contact problem did not converge"
+    DIVERGED = "the residual grew without bound"
+    OFF_BASE = "the column left the base plate"
+
+
+@dataclass(slots=True)
+class Stage:
+    """What an implicit stage asks for: m M (x - target) + s f(x) = load + scale U r.
+
+    target: (n_owned, 3) where the column would go without internal forces at the end [m].
+    load: (n_owned, 3) effective forces known beforehand [N].
+    start: (n_owned, 3) first guess of the positions [m].
+    scale: effective force per contact force.
+    anchors: (n, 2) stick positions [m]. forces: (n, 3) first guess of the contact forces [N].
+    """
+
+    target: np.ndarray
+    load: np.ndarray
+    start: np.ndarray
+    scale: float
+    anchors: np.ndarray
+    forces: np.ndarray
+
+
+@dataclass(slots=True)
+class Outcome:
+    """Positions, internal forces and strain energy of the column, contact forces and kinematics, and the record."""
+
+    stop: Stop
+    x: np.ndarray
+    internal: np.ndarray
+    strain: float
+    rotation: np.ndarray
+    forces: np.ndarray
+    relative: np.ndarray | None
+    footing: Footing | None
+    iterations: int
+    residual: float
+    contact_iterations: int
+    message: str = ""
+
+
+def equilibrate(system, operators, stage: Stage, tolerance: float, max_iterations: int) -> Outcome:
+    """Newton iteration with the factored operators turned into the column's present rotation.
+
+    The strains are small, so that the turned operator is an almost exact tangent: one or two iterations reach the
+    tolerance. A total Lagrangian column whose residual falls too slowly gets its tangent afresh.
+
+    Args:
+        tolerance: largest unbalanced nodal force allowed, relative to the larger of weight and contact forces;
+            never below the rounding of the internal forces.
+    """
+    interface, column, scale = system.interface, system.column, stage.scale
+    x, forces, active = np.array(stage.start), stage.forces, np.zeros(0, np.int64)
+    first = previous = size = np.inf
+    contact_iterations, relative, footing = 0, None, None
+
+    def ended(stop, message=""):
+        return Outcome(stop, x, internal, strain, rotation, forces, relative, footing, iteration, size, contact_iterations, message)
+
+    for iteration in range(max_iterations + 1):
+        rotation, internal, strain = system.kinematics.internal(x)
+        residual = operators.mass_factor * column.apply(column.mass, stage.target - x) + stage.load - operators.stiffness_factor * internal
+        position = interface.dynamic_position(x, rotation)
+        try:
+            footing = interface.project(position)
+        except OffBase as error:
+            return ended(Stop.OFF_BASE, str(error))
+        total = residual
+        if iteration:
+            relative = position + interface.static_displacement(forces, rotation, footing)
+            total = residual + scale * interface.foot.load(forces @ rotation) @ rotation.T
+        reference = max(system.weight, scale * np.abs(forces).max(initial=0.0))
+        size = column.max(np.abs(total).max(initial=0.0)) / reference
+        sunk = np.zeros(interface.size, bool)
+        if iteration:
+            sunk = relative[:, 2] < -PENETRATION
+            sunk[active] = False
+            if size <= max(tolerance, system.rounding / reference) and not sunk.any():
+                return ended(Stop.CONVERGED)
+        if iteration == max_iterations:
+            break
+        first = size if iteration == 1 else first
+        if not np.isfinite(size) or (iteration > 1 and size > 1e3 * max(first, 1.0)):
+            return ended(Stop.DIVERGED)
+        if iteration > 1 and size > 0.3 * previous and not sunk.any() and hasattr(system.kinematics, "tangent"):
+            operators = system.refresh(operators, x)
+        previous = size
+
+        turn = rotation @ operators.rotation.T
+        x = x + operators.factor.solve(residual @ turn) @ turn.T
+        free = interface.dynamic_position(x, rotation)
+        active = np.flatnonzero((free[:, 2] < NEAR) | (forces[:, 2] > 0) | sunk)
+        dynamic = scale * turned(operators.response.compliance, active, turn)
+        static = interface.static_compliance(active, rotation, footing)
+        forces, solution = interface.solve(active, dynamic, static, free, stage.anchors, forces)
+        contact_iterations += solution.iterations + solution.sweeps
+        if solution.residual > CONTACT_TOLERANCE:
+            return ended(Stop.CONTACT, f"contact residual {solution.residual:.2e} m")
+        x = x + scale * operators.response.displacement(forces @ turn) @ turn.T
+    return ended(Stop.ITERATIONS)

@@ -1,0 +1,176 @@
+"""Time stepping with contact: HHT-alpha, contact forces at the end of the step, plastic impact when a contact closes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.contact.delassus import turned
+from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.stage import Stage, Stop, equilibrate
+from fecolumn.dynamics.system import State
+
+# A foot node farther than this above the base is open [m]
+OPEN = 1e-9
+# A sticking node that moves less keeps its anchor to the last digit, so that stick does not creep [m]
+STUCK = 1e-11
+
+
+class StepFailed(RuntimeError):
+    """A step did not converge even after the allowed cuts; `stop` says why."""
+
+    def __init__(self, stop: Stop, message: str):
+        super().__init__(message)
+        self.stop = stop
+
+
+@dataclass(slots=True)
+class Record:
+    """What the steps cost: iterations of positions and of contact problems, impacts, cuts."""
+
+    iterations: int = 0
+    contact_iterations: int = 0
+    impacts: int = 0
+    cuts: int = 0
+
+
+class Stepper:
+    """Advances a system by steps of HHT-alpha.
+
+    impact = "plastic" (default). Contact forces act at the end of the step and are kept out of the accelerations that HHT
+    blends (Kane, Repetto, Ortiz and Marsden 1999):
+
+        x1 = x0 + dt v0 + dt^2 [(1/2 - beta) a0 + beta a1 + w1 / 2],   w = M^-1 U r
+        v1 = v0 + dt [(1 - gamma) a0 + gamma a1 + w1],                 M a1 = (1+al) (F1 - f1) - al (F0 - f0)
+
+    For alpha = 0 the contact's work is r1 (g1 - g0) <= 0 exactly, so that contact only takes energy. When a contact closes
+    in a step, the velocities are projected at its end: impulses of all touching points are replaced by those of a plastic
+    impact with friction (Moreau 1988), the state of least kinetic energy that non-adhesive impulses reach. This removes
+    the rebound that the trapezoidal rule invents; in the rigid limit it is Housner's impact.
+
+    impact = "none" is the literal HHT scheme: contact forces are part of the accelerations, without filter or impact law.
+
+    Args:
+        system: bodies, contact, loads.
+        ledger: energy ledger to book into.
+        impact: "plastic" or "none".
+        tolerance, max_iterations, max_cuts: of the [integration] section of a case.
+    """
+
+    def __init__(self, system, ledger, impact="plastic", tolerance=1e-7, max_iterations=20, max_cuts=4):
+        self.system, self.ledger, self.plastic = system, ledger, impact == "plastic"
+        self.tolerance, self.max_iterations, self.max_cuts = tolerance, max_iterations, max_cuts
+        self.record = Record()
+
+    def step(self, state: State, ground: np.ndarray) -> State:
+        """State one dt later, under the ground acceleration `ground` (3,) [m/s2] at that time.
+
+        Raises:
+            StepFailed: no convergence after max_cuts halvings; `state` is unharmed.
+        """
+        return self._advance(state, ground, self.system.hht, 0)
+
+    def _advance(self, state, ground, hht, cuts) -> State:
+        booked = dict(self.ledger.work)
+        try:
+            return self._hht_step(state, ground, hht)
+        except StepFailed as failure:
+            self.ledger.work.update(booked)
+            if cuts == self.max_cuts or failure.stop is Stop.OFF_BASE:
+                cut = f" (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else ""
+                raise StepFailed(failure.stop, f"t = {state.time:.6g} s: {failure}{cut}") from None
+            self.record.cuts += 1
+            half = HHT(hht.dt / 2, hht.alpha)
+            middle = self._advance(state, (state.ground + ground) / 2, half, cuts + 1)
+            return self._advance(middle, ground, half, cuts + 1)
+
+    def _hht_step(self, state, ground, hht) -> State:
+        system, column, interface = self.system, self.system.column, self.system.interface
+        dt, al, be, ga = hht.dt, hht.alpha, hht.beta, hht.gamma
+        F0, F1 = system.load(state.ground), system.load(ground)
+        stage = Stage(
+            target=state.x + dt * state.v + dt**2 * (0.5 - be) * state.a,
+            load=(1 + al) * F1 - al * F0 + al * state.internal,
+            start=state.x + dt * state.v + dt**2 / 2 * (state.a + state.contact_a),
+            scale=1 / (2 * be) if self.plastic else 1.0, anchors=state.anchors, forces=state.forces)
+        operators = system.operators(hht.mass_factor, hht.stiffness_factor)
+        outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
+        self.record.iterations += outcome.iterations
+        self.record.contact_iterations += outcome.contact_iterations
+        if outcome.stop is not Stop.CONVERGED:
+            detail = outcome.message or f"residual {outcome.residual:.2e} of the weight after {outcome.iterations} iterations"
+            raise StepFailed(outcome.stop, f"{outcome.stop.value}: {detail}")
+
+        R, forces = outcome.rotation, outcome.forces
+        after = State(
+            time=state.time + dt, x=outcome.x, v=state.v, a=state.a, contact_a=state.contact_a, internal=outcome.internal,
+            strain=outcome.strain, rotation=R, forces=forces, anchors=self._anchors(state, outcome),
+            relative=outcome.relative, static=self._static_energy(outcome), ground=np.array(ground, float))
+        push = interface.foot.load(forces @ R) @ R.T
+        if self.plastic:
+            w = interface.foot.acceleration(forces @ R) @ R.T
+            worked = push
+        else:
+            w = np.zeros_like(state.x)
+            worked = (1 - ga) * interface.foot.load(state.forces @ R) @ R.T + ga * push
+        after.contact_a = w
+        after.a = hht.mass_factor * (after.x - stage.target) - w / (2 * be)
+        after.v = state.v + dt * ((1 - ga) * state.a + ga * after.a + w)
+        self._book(state, after, hht, F0 + F1, worked)
+        landing = (state.forces[:, 2] <= 0) & (state.relative[:, 2] > OPEN) & (forces[:, 2] > 0)
+        if self.plastic and landing.any():
+            self._impact(after, dt)
+        return after
+
+    def _anchors(self, state, outcome) -> np.ndarray:
+        """Where the points stick from now on: a slipping penalty spring keeps its elastic part."""
+        elastic = self.system.interface.own[:, :2] * outcome.forces[:, :2]
+        here = outcome.relative[:, :2] + elastic
+        moved = (np.linalg.norm(here - state.anchors, axis=1) > STUCK) | (outcome.forces[:, 2] <= 0)
+        return np.where(moved[:, None], here, state.anchors)
+
+    def _static_energy(self, outcome) -> float:
+        loaded = np.flatnonzero(outcome.forces[:, 2] > 0)
+        if not len(loaded):
+            return 0.0
+        forces = outcome.forces[loaded].ravel()
+        return float(forces @ self.system.interface.static_compliance(loaded, outcome.rotation, outcome.footing) @ forces / 2)
+
+    def _book(self, state, after, hht, load_sum, worked) -> None:
+        """Energy of an HHT step, from the identity
+        dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean = (1-ga) a0 + ga a1."""
+        column, step = self.system.column, after.x - state.x
+        mean = column.apply(column.mass, (1 - hht.gamma) * state.a + hht.gamma * after.a)
+        total = mean + worked if self.plastic else mean
+        smooth = mean if self.plastic else mean - worked
+        algorithmic = column.dot(step, smooth - (load_sum - state.internal - after.internal) / 2)
+        algorithmic -= hht.dt**2 * hht.alpha**2 / 4 * column.dot(after.a - state.a, total)
+        carried = column.sum(np.einsum("cna,na->c", column.unit_loads, step))
+        contact = column.dot(step, worked) + after.static - state.static
+        touching = after.forces[:, 2] > 0
+        slip = np.where(touching[:, None], after.anchors - state.anchors, 0.0)
+        friction = float(np.sum(after.forces[:, :2] * slip))
+        landing = touching & (state.forces[:, 2] <= 0)
+        landed = float(after.forces[landing, 2] @ (after.relative - state.relative)[landing, 2])
+        self.ledger.add(base_work=-np.dot((state.ground + after.ground) / 2, carried), algorithmic=algorithmic,
+                        friction=friction, impact=landed, contact=contact - friction - landed)
+
+    def _impact(self, after, dt) -> None:
+        """Replace the impulses of the step by those of a plastic impact; changes the velocities of `after`."""
+        interface, R = self.system.interface, after.rotation
+        active = np.flatnonzero(after.forces[:, 2] > 0)
+        velocity = interface.dynamic_velocity(after.v, R)
+        given = dt * after.forces
+        mobility = turned(interface.foot.mobility, active, R)
+        before = velocity.copy()
+        before[active] -= (mobility @ given[active].ravel()).reshape(-1, 3)
+        impulses, solution = interface.impact(active, mobility, before, given)
+        self.record.contact_iterations += solution.iterations + solution.sweeps
+        if solution.residual > 1e-8 * max(np.abs(velocity[active]).max(), 1e-3):
+            raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: impact residual {solution.residual:.2e} m/s")
+        jump = interface.foot.acceleration((impulses - given) @ R) @ R.T
+        column = self.system.column
+        self.ledger.add(impact=column.dot(after.v + jump / 2, column.apply(column.mass, jump)))
+        after.v = after.v + jump
+        self.record.impacts += 1

@@ -1,0 +1,117 @@
+"""The mechanical system of one analysis and its state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from fecolumn.contact.foot import FilteredFoot, PlainFoot, Response
+from fecolumn.contact.interface import Interface
+from fecolumn.dynamics.effective import Factor, effective_factor
+from fecolumn.dynamics.hht import HHT
+
+
+@dataclass(slots=True)
+class State:
+    """Everything the next step needs, in the table frame.
+
+    x, v: (n_owned, 3) positions [m] and velocities [m/s] of the column.
+    a: (n_owned, 3) acceleration that HHT remembers [m/s2]; with the plastic impact law it is that of all forces but the
+        contact's. contact_a: (n_owned, 3) that of the contact forces.
+    internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (3, 3) mean rotation.
+    forces: (n, 3) contact forces on the foot [N]; anchors: (n, 2) where its points stick [m];
+    relative: (n, 3) position of its points relative to the base, the third column the gap [m];
+    static: strain energy of base, foot's static rest and penalty springs [J].
+    ground: (3,) acceleration of the base [m/s2].
+    """
+
+    time: float
+    x: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    contact_a: np.ndarray
+    internal: np.ndarray
+    strain: float
+    rotation: np.ndarray
+    forces: np.ndarray
+    anchors: np.ndarray
+    relative: np.ndarray
+    static: float
+    ground: np.ndarray
+
+    def copy(self) -> "State":
+        return State(*(np.copy(value) if isinstance(value, np.ndarray) else value
+                       for value in (getattr(self, field.name) for field in fields(self))))
+
+
+@dataclass(slots=True)
+class Operators:
+    """Factored effective matrix of one stage and what contact forces do in it; `rotation` is the frame of the matrix."""
+
+    mass_factor: float
+    stiffness_factor: float
+    factor: Factor
+    response: Response
+    rotation: np.ndarray
+
+
+class System:
+    """Column, its kinematics, its contact with the base, and the operators of each step size.
+
+    Args:
+        column: Body.
+        kinematics: Corotated or TotalLagrangian of the column.
+        base: BasePlate.
+        foot_nodes: (n,) column nodes that may touch; areas: (n,) their tributary areas [m2].
+        friction, own: of the Interface.
+        gravity: (3,) [m/s2].
+        hht: time integration whose step decides the filter of the contact.
+        filtered: contact by FilteredFoot, as the plastic impact law needs it, or PlainFoot.
+    """
+
+    def __init__(self, column, kinematics, base, foot_nodes, areas, friction, own, gravity, hht: HHT, filtered=True):
+        self.column, self.kinematics, self.base = column, kinematics, base
+        self.foot_nodes, self.areas = foot_nodes, areas
+        self.gravity, self.hht = np.asarray(gravity, float), hht
+        self.weight = column.total_mass * np.linalg.norm(self.gravity)
+        # internal forces are stiffness times (position - position): their rounding [N]
+        self.rounding = np.finfo(float).eps * column.stiffness_scale * np.ptp(column.all_X, axis=0).max()
+        self.factorizations = 1  # the base's
+        self._operators: dict[tuple, Operators] = {}
+        factor = self._factor(hht.mass_factor, hht.stiffness_factor)
+        foot = FilteredFoot(column, foot_nodes, factor, hht.mass_factor, hht.stiffness_factor) if filtered \
+            else PlainFoot(column, foot_nodes)
+        self.interface = Interface(foot, column.all_X[foot_nodes], base, friction, own)
+        self._add(hht.mass_factor, hht.stiffness_factor, factor, np.eye(3))
+
+    def _factor(self, mass_factor, stiffness_factor, tangent=None) -> Factor:
+        self.factorizations += 1
+        return effective_factor(self.column, mass_factor, stiffness_factor, tangent)
+
+    def _add(self, mass_factor, stiffness_factor, factor, rotation) -> Operators:
+        operators = Operators(mass_factor, stiffness_factor, factor, Response(self.interface.foot, factor), rotation)
+        self._operators[mass_factor, stiffness_factor] = operators
+        return operators
+
+    def operators(self, mass_factor: float, stiffness_factor: float) -> Operators:
+        """Operators of mass_factor M + stiffness_factor K, built once."""
+        known = self._operators.get((mass_factor, stiffness_factor))
+        return known or self._add(mass_factor, stiffness_factor, self._factor(mass_factor, stiffness_factor), np.eye(3))
+
+    def refresh(self, old: Operators, x: np.ndarray) -> Operators:
+        """Operators with the column's tangent at positions x; only where the kinematics has one."""
+        tangent = self.kinematics.tangent(x)
+        factors = old.mass_factor, old.stiffness_factor
+        self.forget(*factors)
+        fresh = self._add(*factors, self._factor(*factors, tangent), self.kinematics.rotation(x))
+        tangent.destroy()
+        return fresh
+
+    def forget(self, mass_factor: float, stiffness_factor: float) -> None:
+        """Free the operators of a stage."""
+        self._operators.pop((mass_factor, stiffness_factor)).factor.destroy()
+
+    def load(self, ground: np.ndarray) -> np.ndarray:
+        """Gravity and base-motion forces (n_owned, 3) on the column for a ground acceleration (3,)."""
+        return np.einsum("c,cna->na", self.gravity - ground, self.column.unit_loads)

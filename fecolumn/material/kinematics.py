@@ -1,0 +1,16 @@
+"""Strain measures in UFL."""
+
+from __future__ import annotations
+
+import ufl
+
+
+def linear_strain(u):
+    """Small strain, sym(grad u)."""
+    return ufl.sym(ufl.grad(u))
+
+
+def green_lagrange_strain(u):
+    """Green-Lagrange strain, (F^T F - I) / 2 with F = I + grad u."""
+    gradient = ufl.grad(u)
+    return (gradient + gradient.T + gradient.T * gradient) / 2

@@ -1,0 +1,82 @@
+"""Bricks of the base plate: a tensor-product grid, fine under the column and coarser outside."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import brentq
+
+from fecolumn.case import Case
+from fecolumn.mesh.bricks import BASE, BrickMesh
+from fecolumn.mesh.column import divisions
+from fecolumn.mesh.gmsh_section import swept_grid
+
+GROWTH = 1.5  # largest ratio of neighbouring bricks
+
+
+def base_mesh(case: Case) -> BrickMesh:
+    """Rectangular plate centred on the axis, its top at z = 0.
+
+    Squares of `fine_size_m` cover the footprint and the slide allowance; outside and downwards the bricks grow
+    geometrically to `base_size_m`. Contact finds the brick below a point from the grid lines alone, so the mesh is
+    a strict tensor-product grid (see `swept_grid` for its numbering).
+    """
+    base, fine, largest = case.base, case.mesh.fine_size_m, case.mesh.base_size_m
+    fine_width = case.column.outer_diameter_m + 2 * base.slide_allowance_m
+    x, y = (_symmetric_line(fine_width, length, fine, largest) for length in (base.length_m, base.width_m))
+    z = -_growing_line(fine, base.thickness_m, fine, largest)[::-1]
+    return swept_grid(x, y, z, BASE)
+
+
+def grid_lines(mesh: BrickMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Grid lines x, y, z [m] of a tensor-product grid.
+
+    Raises:
+        ValueError: the points are not the product of the lines in the order of `swept_grid`.
+    """
+    x, y, z = (np.unique(coordinate) for coordinate in mesh.points.T)
+    product = np.stack(np.meshgrid(z, y, x, indexing="ij")[::-1], axis=-1).reshape(-1, 3)
+    if product.shape != mesh.points.shape or not np.array_equal(product, mesh.points):
+        raise ValueError("the mesh is not a tensor-product grid")
+    return x, y, z
+
+
+def _symmetric_line(fine_width, length, fine, largest) -> np.ndarray:
+    """Grid line from -length/2 to length/2, equal steps near `fine` in the middle."""
+    # A margin below half a fine brick would be a sliver: the fine bricks stretch over it.
+    if (length - fine_width) / 2 < fine / 2:
+        fine_width = length
+    middle = np.linspace(-fine_width / 2, fine_width / 2, divisions(fine_width, fine) + 1)
+    outside = length / 2 - fine_width / 2
+    if outside == 0:
+        return middle
+    margin = fine_width / 2 + np.cumsum(growing_steps(outside, fine, largest))
+    margin[-1] = length / 2
+    return np.concatenate([-margin[::-1], middle, margin])
+
+
+def _growing_line(first, length, fine, largest) -> np.ndarray:
+    """Grid line from 0 to `length`: one step `first`, then growing ones."""
+    if length - first < fine / 2:
+        return np.array([0.0, length])
+    line = np.concatenate([[0.0, first], first + np.cumsum(growing_steps(length - first, fine, largest))])
+    line[-1] = length
+    return line
+
+
+def growing_steps(length: float, fine: float, largest: float) -> np.ndarray:
+    """Steps that fill `length`, each at most GROWTH times the one before, none above `largest` [m].
+
+    With n steps, step k is min(fine g^k, largest), k = 1..n; n is the smallest number that reaches the length
+    with g = GROWTH, and g is then lowered until the steps fit.
+    """
+    def steps(growth, n):
+        return np.minimum(fine * growth ** np.arange(1.0, n + 1), largest)
+
+    n = 1
+    while steps(GROWTH, n).sum() < length * (1 - 1e-12):
+        n += 1
+    if steps(1.0, n).sum() < length < steps(GROWTH, n).sum():
+        found = steps(brentq(lambda growth: steps(growth, n).sum() - length, 1.0, GROWTH, xtol=1e-14), n)
+    else:
+        found = steps(1.0, n)
+    return found * (length / found.sum())

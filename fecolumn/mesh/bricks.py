@@ -1,0 +1,95 @@
+"""Meshes of 8-node bricks as plain arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+LOWER, UPPER, CAP, BASE = 1, 2, 3, 4
+PART_NAMES = {LOWER: "lower column", UPPER: "upper column", CAP: "cap", BASE: "base"}
+
+# Faces of the VTK hexahedron, seen from outside counter-clockwise.
+FACES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+
+
+@dataclass(frozen=True, slots=True)
+class BrickMesh:
+    """Bricks of one or several parts.
+
+    Attributes:
+        points: (n_points, 3) [m].
+        cells: (n_cells, 8) point numbers in VTK hexahedron order.
+        part: (n_cells,) part of each brick: LOWER, UPPER, CAP or BASE.
+    """
+
+    points: np.ndarray
+    cells: np.ndarray
+    part: np.ndarray
+
+    def shifted(self, z: float) -> BrickMesh:
+        """The mesh moved up by `z` [m]."""
+        return replace(self, points=self.points + [0.0, 0.0, z])
+
+    def has_part(self, part: int) -> bool:
+        """Whether any brick belongs to `part`."""
+        return bool(np.any(self.part == part))
+
+    def part_nodes(self, part: int) -> np.ndarray:
+        """(n,) sorted point numbers of the bricks of `part`."""
+        return np.unique(self.cells[self.part == part])
+
+
+def brick_mesh(points, cells, part: int) -> BrickMesh:
+    """Mesh of one part, its bricks turned to positive volume.
+
+    Args:
+        points: (n_points, 3) [m].
+        cells: (n_cells, 8) point numbers; bottom and top face may be exchanged.
+        part: part of all bricks.
+    """
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    cells = np.array(cells, dtype=np.int64, order="C")
+    # Opposite faces give the Jacobian at the brick's centre; its sign is the node order's.
+    corners = points[cells]
+    edges = np.stack([corners[:, face].sum(axis=1) - corners[:, opposite].sum(axis=1)
+                      for face, opposite in ((FACES[3], FACES[5]), (FACES[4], FACES[2]), (FACES[1], FACES[0]))], axis=1)
+    inverted = np.linalg.det(edges) < 0
+    cells[inverted] = cells[inverted][:, [4, 5, 6, 7, 0, 1, 2, 3]]
+    return BrickMesh(points, cells, np.full(len(cells), part, dtype=np.int8))
+
+
+def merge(meshes) -> BrickMesh:
+    """One mesh of several; coincident points stay apart, so the parts stay disconnected."""
+    meshes = list(meshes)
+    offsets = np.cumsum([0] + [len(m.points) for m in meshes[:-1]])
+    return BrickMesh(np.concatenate([m.points for m in meshes]),
+                     np.concatenate([m.cells + offset for m, offset in zip(meshes, offsets)]),
+                     np.concatenate([m.part for m in meshes]))
+
+
+def outer_faces(mesh: BrickMesh, part: int) -> np.ndarray:
+    """(n_faces, 4) faces of `part` that no two of its bricks share, counter-clockwise seen from outside."""
+    faces = mesh.cells[mesh.part == part][:, FACES].reshape(-1, 4)
+    _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
+    return faces[np.sort(first[count == 1])]
+
+
+def boundary_quads(mesh: BrickMesh, part: int, z: float, tolerance: float) -> np.ndarray:
+    """Outer faces of `part` that lie in a horizontal plane.
+
+    Args:
+        mesh: bricks.
+        part: the part whose faces are sought.
+        z: height of the plane [m].
+        tolerance: largest distance of a corner from the plane [m].
+
+    Returns:
+        (n_quads, 4) point numbers, counter-clockwise in plan (seen from +z).
+    """
+    faces = outer_faces(mesh, part)
+    faces = faces[np.all(np.abs(mesh.points[faces, 2] - z) <= tolerance, axis=1)]
+    diagonals = mesh.points[faces[:, 2:], :2] - mesh.points[faces[:, :2], :2]
+    clockwise = diagonals[:, 0, 0] * diagonals[:, 1, 1] - diagonals[:, 0, 1] * diagonals[:, 1, 0] < 0
+    faces[clockwise] = faces[clockwise][:, ::-1]
+    return faces

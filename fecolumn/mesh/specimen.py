@@ -1,0 +1,66 @@
+"""The meshed specimen: body (column and cap, tied) and base."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.case import Case
+from fecolumn.mesh.base_plate import base_mesh
+from fecolumn.mesh.bricks import CAP, LOWER, UPPER, BrickMesh, boundary_quads, merge
+from fecolumn.mesh.cap_plate import cap_mesh
+from fecolumn.mesh.column import column_mesh, section
+from fecolumn.mesh.imported import imported_column
+from fecolumn.mesh.tie import Tie, adjust, tie
+
+
+@dataclass(frozen=True, slots=True)
+class SpecimenMesh:
+    """What the solver stands on.
+
+    Attributes:
+        body: lower column, upper column and cap in one mesh, slaves already on their master surfaces.
+        base: base plate, a tensor-product grid with its top at z = 0.
+        ties: slaves and masters, as point numbers of the body.
+        foot_nodes: (n_foot,) point numbers of the body in the plane z = 0, sorted.
+    """
+
+    body: BrickMesh
+    base: BrickMesh
+    ties: tuple[Tie, ...]
+    foot_nodes: np.ndarray
+
+
+def specimen_mesh(case: Case) -> SpecimenMesh:
+    """Meshes of a case, built or imported.
+
+    Raises:
+        InputError: the imported mesh does not fit the case, or parts cannot be tied.
+    """
+    column = imported_column(case) if case.column.mesh_file else column_mesh(case)
+    cap = cap_mesh(case)
+    height = column.points[:, 2].max()
+    body = column
+    if cap is not None:
+        body = merge([column, cap.shifted(height - case.column.height_m)])
+    flat = 1e-6 * case.column.height_m
+    top_part = UPPER if column.has_part(UPPER) else LOWER
+
+    ties = []
+    if column.has_part(LOWER) and column.has_part(UPPER):
+        ties.append(tie(body, LOWER, UPPER, case.column.fine_height_m, flat, _reach(case),
+                        "mesh.fine_size_m, mesh.coarse_size_m"))
+    if cap is not None:
+        ties.append(tie(body, top_part, CAP, height, flat, _reach(case), "column.height_m, cap"))
+
+    body = adjust(body, ties)
+    foot = np.unique(boundary_quads(body, LOWER if column.has_part(LOWER) else UPPER, 0.0, flat))
+    return SpecimenMesh(body, base_mesh(case), tuple(ties), foot)
+
+
+def _reach(case: Case) -> float:
+    """How far a slave may be moved [m]: the sagitta of an upper brick's chord and a tenth of a fine brick."""
+    sagitta = case.column.outer_diameter_m / 2 * (1 - math.cos(math.pi / section(case, UPPER).n_around))
+    return sagitta + 0.1 * case.mesh.fine_size_m

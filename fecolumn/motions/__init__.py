@@ -1,0 +1,1 @@
+"""Ground motions: recorded acceleration histories, read, checked, and brought to the step of the analysis."""

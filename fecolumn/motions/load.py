@@ -1,0 +1,121 @@
+"""From the case's [motion] table to the ground motion its analysis is run with."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from fecolumn.case import Motion
+from fecolumn.motions.at2 import looks_like_at2, read_at2
+from fecolumn.motions.columns import read_columns
+from fecolumn.motions.fema_p695 import PREFIX, read_fema_p695
+from fecolumn.motions.processing import resample, rotate, scale, scale_time, strong_part, without_vertical
+from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording, UnusableRecord
+from fecolumn.motions.text import read_text
+from fecolumn.schema import InputError
+
+AXES = "xyz"
+_DT_TOLERANCE = 1e-4
+_LENGTH_TOLERANCE = 0.01
+
+
+def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
+    """Ground motion of a case: read, in m/s2, rotated, scaled, compressed, trimmed, resampled, in this order.
+
+    Args:
+        motion: the case's [motion] table.
+        dt: step of the analysis, integration.dt_s [s].
+        file: the case's file, for messages.
+
+    Raises:
+        InputError: a file cannot be used, contradicts the case or another component, or is shorter than dt.
+
+    Warns:
+        AliasingWarning: dt is too coarse for the motion.
+    """
+    ground = rotate(read_motion(motion, file), motion.rotation_deg)
+    if not motion.vertical:
+        ground = without_vertical(ground)
+    ground = scale_time(scale(ground, motion.scale), motion.time_scale)
+    ground = strong_part(ground, motion.strong_part)
+    if dt > ground.duration:
+        raise InputError(file, "integration.dt_s", dt, f"must be at most the motion's length, {ground.duration:g} s")
+    return resample(ground, dt)
+
+
+def read_motion(motion: Motion, file) -> GroundMotion:
+    """Ground motion as recorded, in m/s2, along the axes of the record.
+
+    Components in files of their own must have one step. A component up to 1 % shorter than the longest is followed by
+    zeros: processed records end at rest, and PEER's often differ by a few samples.
+
+    Raises:
+        InputError: as load_motion.
+    """
+    keys = [key for key in ("source", "source_y", "source_z") if getattr(motion, key)]
+    columns, dt, names, sources = {}, None, [], []
+    for key in keys:
+        recording = _recording(motion, key, file)
+        step = _step(motion, key, recording, file)
+        if dt is not None and not math.isclose(step, dt, rel_tol=_DT_TOLERANCE):
+            raise InputError(file, f"motion.{key}", getattr(motion, key), f"is sampled at {step:g} s but motion.source at {dt:g} s")
+        dt = dt or step
+        in_metres = recording.values * METRES_PER_S2[_units(motion, key, recording, file)]
+        columns.update(zip(_axes(motion, key, recording, len(keys) > 1, file), in_metres.T))
+        names.append(recording.name)
+        sources.append(recording.source)
+    longest = max(map(len, columns.values()))
+    acceleration = np.zeros((longest, 3))
+    for axis, column in columns.items():
+        if len(column) < (1 - _LENGTH_TOLERANCE) * longest:
+            key = "source" if axis == "x" else f"source_{axis}"
+            raise InputError(file, f"motion.{key}", getattr(motion, key),
+                             f"has {len(column)} samples where another component has {longest}; they may differ by 1 %")
+        acceleration[:len(column), AXES.index(axis)] = column
+    return GroundMotion(acceleration, dt, " + ".join(names), " | ".join(dict.fromkeys(sources)))
+
+
+def _recording(motion: Motion, key: str, file) -> Recording:
+    source = getattr(motion, key)
+    try:
+        if source.startswith(PREFIX):
+            recording = read_fema_p695(source)
+        elif looks_like_at2(source, read_text(source)):
+            recording = read_at2(source)
+        else:
+            recording = read_columns(source, motion.dt_s)
+        if len(recording.values) < 2:
+            raise UnusableRecord(f"holds {len(recording.values)} samples; at least 2 are needed")
+    except UnusableRecord as error:
+        hint = f"; must be a file (.AT2, .csv, .txt) or {PREFIX}SET/INDEX" if str(error) == "no such file" else ""
+        raise InputError(file, f"motion.{key}", source, f"{error}{hint}") from None
+    return recording
+
+
+def _step(motion: Motion, key: str, recording: Recording, file) -> float:
+    if recording.dt is None and motion.dt_s == 0:
+        raise InputError(file, "motion.dt_s", motion.dt_s, f"must be given: {getattr(motion, key)} does not state its sampling step")
+    if recording.dt is not None and motion.dt_s and not math.isclose(recording.dt, motion.dt_s, rel_tol=_DT_TOLERANCE):
+        raise InputError(file, "motion.dt_s", motion.dt_s, f"contradicts {getattr(motion, key)}, which states {recording.dt:g} s")
+    return recording.dt or motion.dt_s
+
+
+def _units(motion: Motion, key: str, recording: Recording, file) -> str:
+    if not (recording.units or motion.units):
+        raise InputError(file, "motion.units", motion.units,
+                         f"must be one of {', '.join(METRES_PER_S2)}: {getattr(motion, key)} does not state its units")
+    if recording.units and motion.units and recording.units != motion.units:
+        raise InputError(file, "motion.units", motion.units, f"contradicts {getattr(motion, key)}, which states {recording.units}")
+    return recording.units or motion.units
+
+
+def _axes(motion: Motion, key: str, recording: Recording, several_files: bool, file) -> tuple[str, ...]:
+    """Axis of each component: the file's own, or that of the key it stands under."""
+    axis = {"source": "x", "source_y": "y", "source_z": "z"}[key]
+    if not several_files:
+        return tuple(own or axis for own in recording.axes)
+    if len(recording.axes) > 1 or recording.axes[0] not in ("", axis):
+        raise InputError(file, f"motion.{key}", getattr(motion, key),
+                         f"holds {', '.join('a' + own for own in recording.axes)}; beside other files it must hold a{axis} alone")
+    return (axis,)

@@ -1,0 +1,80 @@
+"""A ground motion as analyses use it, and a recording as files state it."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.case import GRAVITY
+
+METRES_PER_S2 = {"g": GRAVITY, "m/s2": 1.0, "cm/s2": 1e-2, "mm/s2": 1e-3}
+
+
+class UnusableRecord(ValueError):
+    """A file or record name cannot be used; the message says where in it and why."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GroundMotion:
+    """Acceleration of the ground, sampled evenly from t = 0.
+
+    Attributes:
+        acceleration: (n_steps, 3) along x, y and z (up), read-only [m/s2].
+        dt: sampling step [s].
+        name: short name for figures and tables.
+        source: where the motion comes from, to be cited.
+    """
+
+    acceleration: np.ndarray
+    dt: float
+    name: str
+    source: str
+
+    def __post_init__(self):
+        acceleration = np.array(self.acceleration, dtype=np.float64, order="C")
+        if acceleration.ndim != 2 or acceleration.shape[1] != 3 or len(acceleration) < 2:
+            raise ValueError(f"acceleration must be (n_steps >= 2, 3), not {acceleration.shape}")
+        if not self.dt > 0:
+            raise ValueError(f"dt must be positive, not {self.dt}")
+        acceleration.flags.writeable = False
+        object.__setattr__(self, "acceleration", acceleration)
+
+    @property
+    def duration(self) -> float:
+        """Time from the first to the last sample [s]."""
+        return (len(self.acceleration) - 1) * self.dt
+
+    @property
+    def pga(self) -> np.ndarray:
+        """Peak absolute acceleration (3,) [m/s2]."""
+        return np.abs(self.acceleration).max(axis=0)
+
+
+def motion_hash(motion: GroundMotion) -> str:
+    """SHA-256 of samples and step, as 64 hexadecimal digits; name and source do not count."""
+    digest = hashlib.sha256(np.float64(motion.dt).tobytes())
+    digest.update(motion.acceleration.tobytes())
+    return digest.hexdigest()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Recording:
+    """What one file says.
+
+    Attributes:
+        values: (n_steps, n_components) [units].
+        axes: axis of each component, "x", "y" or "z"; "" where the file does not say.
+        dt: sampling step [s], None where the file does not say.
+        units: a key of METRES_PER_S2, "" where the file does not say.
+        name: short name.
+        source: what the file says about its origin.
+    """
+
+    values: np.ndarray
+    axes: tuple[str, ...]
+    dt: float | None
+    units: str
+    name: str
+    source: str

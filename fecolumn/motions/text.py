@@ -1,0 +1,91 @@
+"""What all text formats share: reading a file, numbers as Fortran writes them, names of units."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.motions.record import UnusableRecord
+
+_SPELLINGS = {"g": ("g", "g's"),
+              "m/s2": ("m/s2", "m/s/s"),
+              "cm/s2": ("cm/s2", "cm/s/s", "gal", "gals"),
+              "mm/s2": ("mm/s2", "mm/s/s")}
+_UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
+
+
+def read_text(path) -> str:
+    """Text of a file in UTF-8, or else Latin-1 as in older headers; without byte order mark.
+
+    Raises:
+        UnusableRecord: there is no such file, it may not be read, is empty, or is not text.
+    """
+    try:
+        data = Path(path).read_bytes()
+    except FileNotFoundError:
+        raise UnusableRecord("no such file") from None
+    except IsADirectoryError:
+        raise UnusableRecord("is a directory; a file is needed") from None
+    except OSError as error:
+        raise UnusableRecord(f"may not be read ({error.strerror})") from None
+    data = data.rstrip(b"\x1a")  # DOS marked the end of a text so
+    if re.search(rb"[\x00-\x08\x0e-\x1f\x7f]", data):
+        raise UnusableRecord("is not a text file (it holds control characters)")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    if not text.strip():
+        raise UnusableRecord("is empty")
+    return text
+
+
+def number(word: str) -> float:
+    """Value of a number such as `-.1234E-02` or `.1D+01`.
+
+    Raises:
+        ValueError: not a number.
+    """
+    try:
+        return float(word)
+    except ValueError:
+        return float(word.upper().replace("D", "E", 1))
+
+
+def unit_named(text: str) -> str:
+    """Unit of acceleration by any of its spellings, such as CM/SEC**2; "" for none of ours."""
+    word = text.strip().lower().replace("²", "2").replace("**", "").replace("^", "").replace(" ", "")
+    return _UNITS.get(word.replace("sec", "s"), "")
+
+
+def uniform_step(time: np.ndarray, lines: list[int], dt_s: float) -> float:
+    """Sampling step of a column of times [s].
+
+    No sample may lie further than a twentieth of a step from an even grid. Times rounded more coarsely are accepted
+    once the case states the step: then none may lie further than half a step from its grid, and no gap can hide.
+
+    Args:
+        time: (n_steps,) [s].
+        lines: line of the file each time stands in.
+        dt_s: step stated by the case [s], 0 if none.
+
+    Raises:
+        UnusableRecord: times fall, repeat, or are not even.
+    """
+    steps = np.diff(time)
+    dt = (time[-1] - time[0]) / len(steps)
+    rounded = dt_s > 0 and abs(dt - dt_s) * len(steps) < 0.5 * dt_s
+    worst = int(np.argmin(steps))
+    if steps[worst] < 0 or (steps[worst] == 0 and not rounded):
+        what = "falls" if steps[worst] < 0 else "repeats"
+        raise UnusableRecord(f"line {lines[worst + 1]}: time {what}, t = {time[worst + 1]:g} s after {time[worst]:g} s; "
+                             "it must rise evenly")
+    grid, tolerance = (dt_s, 0.5) if rounded else (dt, 0.05)
+    if np.abs(time - time[0] - grid * np.arange(len(time))).max() > tolerance * grid:
+        usual = float(np.median(steps))
+        worst = int(np.argmax(np.abs(steps - usual)))
+        raise UnusableRecord(f"line {lines[worst + 1]}: step of {steps[worst]:g} s before t = {time[worst + 1]:g} s where {usual:g} s "
+                             "is usual; samples must be even, without gaps (where times are only rounded, state motion.dt_s)")
+    return grid

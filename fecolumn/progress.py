@@ -1,0 +1,43 @@
+"""The progress line of one analysis."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+
+class Progress:
+    """Writes t, step, tilt, contact nodes, iterations and the time left to stderr: in place on a terminal, every
+    ten seconds in a log."""
+
+    def __init__(self, steps: int, dt: float, quiet: bool = False):
+        self.steps, self.dt, self.quiet = steps, dt, quiet
+        self._terminal = sys.stderr.isatty()
+        self._began = self._shown = time.perf_counter()
+        self._first: int | None = None
+        self._iterations = 0
+
+    def show(self, step: int, measures: dict, record) -> None:
+        """Show the state after `step`, at most a few times a second."""
+        now = time.perf_counter()
+        if self._first is None:
+            self._first, self._iterations, self._counted = step - 1, record.iterations, step
+        if self.quiet or now - self._shown < (0.3 if self._terminal else 10.0):
+            return
+        left = (now - self._began) / (step - self._first) * (self.steps - step)
+        mean = (record.iterations - self._iterations) / max(step - self._counted, 1)
+        line = (f"t {measures['time']:8.4f} of {self.steps * self.dt:.2f} s  step {step}  tilt {measures['tilt']:.5f} rad  "
+                f"contact {measures['active_nodes']:3d} nodes  iterations {mean:.1f}/step  left {_clock(left)}")
+        print(("\r" + line + "\x1b[K") if self._terminal else line, end="" if self._terminal else "\n", file=sys.stderr, flush=True)
+        self._shown, self._iterations, self._counted = now, record.iterations, step
+
+    def end(self) -> None:
+        """Close the line on a terminal."""
+        if self._terminal and not self.quiet:
+            print(file=sys.stderr)
+
+
+def _clock(seconds: float) -> str:
+    minutes, seconds = divmod(int(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"

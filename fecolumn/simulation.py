@@ -1,0 +1,274 @@
+"""One analysis from a case to its result folder: run, checkpoint, resume, stop at overturn."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import fcntl
+import json
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.case import Case
+from fecolumn.schema import InputError
+
+CHECKPOINT = "checkpoint.npz"
+
+
+class AnalysisFailed(RuntimeError):
+    """The analysis could not go on; its state is saved in the result folder."""
+
+
+def run(case: Case, folder, *, comm=None, file: str = "case", quiet: bool = False) -> dict:
+    """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
+
+    Args:
+        case: what to analyse.
+        folder: result folder; one case has one folder.
+        comm: MPI communicator, all of MPI.COMM_WORLD unless given.
+        file: the case's file, for messages.
+        quiet: no progress on stderr.
+
+    Raises:
+        InputError: the folder belongs to another case, or the motion cannot be used.
+        AnalysisFailed: a step did not converge after all cuts, or the column left the base plate.
+    """
+    from mpi4py import MPI
+
+    comm = comm or MPI.COMM_WORLD
+    folder = Path(folder)
+    with _claimed(folder, case, comm, file):
+        summary = folder / "summary.json"
+        if summary.is_file():
+            return json.loads(summary.read_text())
+        return _Analysis(case, folder, comm, file, quiet).run()
+
+
+def read_folder_case(folder) -> tuple[Case, str]:
+    """The case of a result folder, and its file's name."""
+    from fecolumn.case import case_from_tables
+
+    path = Path(folder) / "case.json"
+    try:
+        saved = json.loads(path.read_text())
+    except FileNotFoundError:
+        raise InputError(folder, "", None, "not a result folder of fecolumn run (no case.json)") from None
+    except (json.JSONDecodeError, UnicodeDecodeError):
+        raise InputError(path, "", None, "damaged: not valid JSON") from None
+    tables = {key: value for key, value in saved["case"].items() if value is not None}
+    return case_from_tables(tables, path), saved["file"]
+
+
+def write_json(path: Path, content: dict) -> None:
+    """Write JSON so that a reader sees all of it or the old file."""
+    partial = path.with_name(path.name + ".partial")
+    partial.write_text(json.dumps(content, indent=1) + "\n")
+    os.replace(partial, path)
+
+
+@contextlib.contextmanager
+def _claimed(folder: Path, case: Case, comm, file):
+    """Hold the folder for this case alone; nothing is written where it is another's."""
+    refusal, lock = None, None
+    if comm.rank == 0:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            known = folder / "case.json"
+            if known.is_file():
+                other = json.loads(known.read_text())["id"]
+                if other != case.id:
+                    refusal = "-o", str(folder), f"holds the results of another case ({other}, this one is {case.id}); give a new folder"
+            elif any(folder.iterdir()) and not (folder / ".lock").exists():
+                refusal = "-o", str(folder), "must be a new or empty folder, or one of this case"
+            if refusal is None:
+                lock = open(folder / ".lock", "w")
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                if not known.is_file():
+                    write_json(known, {"id": case.id, "file": str(file), "case": dataclasses.asdict(case)})
+        except BlockingIOError:
+            refusal = "-o", str(folder), "another run is writing into this folder"
+        except (NotADirectoryError, FileExistsError):
+            refusal = "-o", str(folder), "is a file; a folder is needed"
+        except PermissionError:
+            refusal = "-o", str(folder), "may not be written (permission denied)"
+        except (json.JSONDecodeError, KeyError):
+            refusal = "-o", str(folder), "its case.json is damaged; give a new folder"
+    refusal = comm.bcast(refusal)
+    if refusal:
+        raise InputError(file, *refusal)
+    try:
+        yield
+    finally:
+        if lock:
+            lock.close()
+
+
+class _Analysis:
+    """State of a running analysis."""
+
+    def __init__(self, case, folder, comm, file, quiet):
+        from fecolumn.dynamics import gravity
+        from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
+        from fecolumn.dynamics.checkpoint import read_checkpoint
+        from fecolumn.dynamics.energy import TERMS, Ledger
+        from fecolumn.dynamics.hht import HHT
+        from fecolumn.dynamics.history import History
+        from fecolumn.dynamics.observer import Observer
+        from fecolumn.dynamics.stepper import Record, Stepper
+
+        self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
+        self.began = time.perf_counter()
+        plan = case.integration
+        self.motion = self._load_motion(file)
+        self.steps = int(round(self._duration() / plan.dt_s))
+        specimen = share_specimen_mesh(case, comm)
+        self.system = build_system(case, comm, specimen)
+        self.ledger = Ledger(self.system)
+        self.stepper = Stepper(self.system, HHT(plan.dt_s, plan.alpha_hht), self.ledger, case.contact.impact,
+                               plan.tolerance, plan.max_iterations, plan.max_cuts)
+        self.observer = Observer(self.system, specimen, case.overturn.displacement_m)
+        self.fields = self._fields(specimen) if case.output.fields_every_s else None
+        self.stepping_s = self.earlier_s = 0.0
+        if (folder / CHECKPOINT).is_file():
+            self.state, extra = read_checkpoint(folder / CHECKPOINT, self.system)
+            self.history = History({name[5:]: values for name, values in extra.items() if name.startswith("rows.")})
+            self.ledger.start = float(extra["start"])
+            self.ledger.work = dict(zip(TERMS[3:-1], extra["work"].tolist()))
+            self.stepper.record = Record(*extra["record"].tolist())
+            self.step, self.stepping_s, self.earlier_s = int(extra["step"]), float(extra["stepping_s"]), float(extra["wall_s"])
+            self.observer.last_tilt = float(extra["last_tilt"])
+            self._say(f"resuming at t = {self.state.time:.4f} s")
+        else:
+            start = case.initial
+            self.state = gravity.tilted(self.system, start.tilt_rad, np.radians(start.direction_deg)) if start.tilt_rad \
+                else gravity.standing(self.system)
+            self.state.ground = self._ground(0)
+            self.history, self.step = History(), 0
+            self.ledger.open(self.state)
+            self._note(0)
+
+    def _load_motion(self, file):
+        if self.case.motion is None:
+            return None
+        from fecolumn.motions.load import load_motion
+
+        return load_motion(self.case.motion, self.case.integration.dt_s, file)
+
+    def _duration(self) -> float:
+        if self.case.integration.duration_s:
+            return self.case.integration.duration_s
+        return len(self.motion.acceleration) * self.motion.dt + self.case.motion.free_vibration_s
+
+    def _ground(self, step: int) -> np.ndarray:
+        if self.motion is None or step >= len(self.motion.acceleration):
+            return np.zeros(3)
+        return self.motion.acceleration[step]
+
+    def _fields(self, specimen):
+        from fecolumn.post.fields import FieldWriter
+
+        return FieldWriter(self.folder / "fields", self.system, specimen)
+
+    def run(self) -> dict:
+        from fecolumn.dynamics.stepper import StepFailed
+        from fecolumn.progress import Progress
+
+        cadence = self.case.output
+        progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet or self.comm.rank > 0)
+        saved = time.perf_counter()
+        field_steps = max(1, round(cadence.fields_every_s / self.case.integration.dt_s)) if self.fields else 0
+        measures = self.observer.measure(self.state)
+        overturned = False
+        try:
+            while self.step < self.steps and not overturned:
+                began, before = time.perf_counter(), self.stepper.record.iterations
+                state = self.stepper.step(self.state, self._ground(self.step + 1))
+                self.state, self.step = state, self.step + 1
+                self.stepping_s += time.perf_counter() - began
+                measures = self._note(self.stepper.record.iterations - before)
+                overturned = self.observer.overturned(measures)
+                progress.show(self.step, measures, self.stepper.record)
+                if self.fields and self.step % field_steps == 0:
+                    self.fields.write(self.state)
+                if self._all_agree(time.perf_counter() - saved > cadence.checkpoint_every_s):
+                    self._save()
+                    saved = time.perf_counter()
+        except StepFailed as failure:
+            self._save()
+            raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+        except KeyboardInterrupt:
+            self._save()
+            progress.end()
+            raise
+        progress.end()
+        return self._finish(overturned)
+
+    def _all_agree(self, wish: bool) -> bool:
+        """Rank 0's clock decides for all."""
+        return wish if self.comm.size == 1 else self.comm.bcast(wish)
+
+    def _note(self, iterations: int) -> dict:
+        measures = self.observer.measure(self.state)
+        self.history.add(measures, self.ledger.row(self.state), iterations)
+        return measures
+
+    def _attributes(self) -> dict:
+        from fecolumn import __version__
+
+        return {"case_id": self.case.id, "version": __version__, "title": self.case.title}
+
+    def _save(self) -> None:
+        from fecolumn.dynamics.checkpoint import write_checkpoint
+
+        extra = {f"rows.{name}": values for name, values in self.history.arrays().items()}
+        extra |= dict(start=self.ledger.start, work=list(self.ledger.work.values()), step=self.step,
+                      record=dataclasses.astuple(self.stepper.record), last_tilt=self.observer.last_tilt,
+                      stepping_s=self.stepping_s, wall_s=self.earlier_s + time.perf_counter() - self.began)
+        write_checkpoint(self.folder / CHECKPOINT, self.system, self.state, extra)
+        if self.comm.rank == 0:
+            self.history.write(self.folder / "history.h5", self._attributes())
+        self.comm.barrier()
+
+    def _finish(self, overturned: bool) -> dict:
+        from fecolumn import __version__
+        from fecolumn.dynamics.energy import TERMS
+
+        rows, plan, record = self.history.arrays(), self.case.integration, self.stepper.record
+        top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
+        fall = rows["u_top"][-1]
+        summary = dict(
+            case_id=self.case.id, title=self.case.title, version=__version__, engine=plan.engine, kinematics=plan.kinematics,
+            dofs=3 * sum(body.n_nodes for body in self.system.bodies), steps=self.step, dt=plan.dt_s, alpha_hht=plan.alpha_hht,
+            motion=self.motion.name if self.motion else "", duration_s=float(self.state.time), u_max_m=float(top.max()),
+            overturned=overturned, overturn_time_s=float(self.state.time) if overturned else None,
+            overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0]))) if overturned else None,
+            tilt_max_rad=float(rows["tilt"].max()), residual_slide_m=float(np.hypot(*rows["slide"][-1])),
+            penetration_max_m=float(rows["penetration"].max()), ranks=self.comm.size,
+            wall_s=self.earlier_s + time.perf_counter() - self.began, s_per_step=self.stepping_s / max(self.step, 1),
+            iterations=record.iterations, contact_iterations=record.contact_iterations, closing_steps=record.closings,
+            cuts=record.cuts, factorizations=self.system.factorizations, energy_closure_rel=energy_closure(rows),
+            energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS})
+        if self.comm.rank == 0:
+            self.history.write(self.folder / "history.h5", self._attributes())
+            write_json(self.folder / "summary.json", summary)
+            (self.folder / CHECKPOINT).unlink(missing_ok=True)
+        self.comm.barrier()
+        return summary
+
+    def _say(self, text: str) -> None:
+        if not self.quiet and self.comm.rank == 0:
+            import sys
+
+            print(text, file=sys.stderr, flush=True)
+
+
+def energy_closure(rows: dict) -> float:
+    """Largest closure error relative to the largest mechanical energy that moved [-].
+
+    Reference is the largest of kinetic energy, swing of the gravity energy, and work of the base motion.
+    """
+    moved = max(rows["energy/kinetic"].max(), np.ptp(rows["energy/gravity"]), np.abs(rows["energy/base_work"]).max())
+    return float(np.abs(rows["energy/closure"]).max() / moved) if moved > 0 else 0.0

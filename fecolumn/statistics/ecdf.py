@@ -1,0 +1,96 @@
+"""Empirical distribution of the peak displacement of an ensemble in which some columns overturn."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from statistics import NormalDist
+
+import numpy as np
+
+
+@dataclass(frozen=True, slots=True)
+class Ecdf:
+    """Right-continuous step function F with its pointwise confidence band.
+
+    Attributes:
+        x: (m,) distinct finite values, rising [unit of the sample].
+        cdf, lower, upper: (m,) F at and right of x, and its band, in [0, 1].
+        n: size of the sample, overturned runs included.
+        overturned: number of overturned runs; F ends at 1 - overturned / n.
+    """
+
+    x: np.ndarray
+    cdf: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+    n: int
+    overturned: int
+
+
+def ecdf(u_max, overturned, confidence: float = 0.95) -> Ecdf:
+    """Distribution of u_max, overturned runs censored at the right.
+
+    An overturned run says only that its peak lies beyond every peak of a run that stood. Then Kaplan and Meier's
+    estimate is the plain fraction k/n of the runs that stood below x, and Greenwood's variance is F (1 - F) / n
+    (Greenwood 1926; Kaplan & Meier 1958, J. Am. Stat. Assoc. 53; what MATLAB's `ecdf` draws). The band is
+    F +- z sqrt(F (1 - F) / n), clipped to [0, 1]: pointwise, and of no width where F is 0 or 1.
+
+    Args:
+        u_max: (n,) peak displacement of each run; ignored where the run overturned.
+        overturned: (n,) True where the column overturned.
+        confidence: level of the band, in (0, 1).
+
+    Raises:
+        ValueError: empty sample, lengths that differ, or a run that stood without a finite u_max.
+    """
+    standing, n = _standing(u_max, overturned)
+    x, counts = np.unique(standing, return_counts=True)
+    cdf = np.cumsum(counts) / n
+    reach = normal_quantile(confidence) * np.sqrt(cdf * (1 - cdf) / n)
+    return Ecdf(x, cdf, np.maximum(cdf - reach, 0.0), np.minimum(cdf + reach, 1.0), n, n - standing.size)
+
+
+def percentile(u_max, overturned, fraction: float) -> float:
+    """Smallest u with F(u) >= fraction, from a sample with overturned runs; inf where that run overturned.
+
+    The inverse of the ECDF (type 1 of Hyndman & Fan 1996, The American Statistician 50): no interpolation, which
+    would have no meaning between a run that stood and one that overturned.
+    """
+    if not 0 < fraction <= 1:
+        raise ValueError(f"fraction = {fraction}: must lie in (0, 1]")
+    standing, n = _standing(u_max, overturned)
+    rank = math.ceil(round(fraction * n, 9))  # 0.07 * 100 is 7.000000000000001 in binary
+    return float(np.sort(standing)[rank - 1]) if rank <= standing.size else math.inf
+
+
+def proportion_interval(k: int, n: int, confidence: float = 0.95, method: str = "wilson") -> tuple[float, float]:
+    """Confidence interval of a probability after k of n runs, such as P(overturn).
+
+    Args:
+        k: runs that overturned.
+        n: all runs, at least 1.
+        confidence: level, in (0, 1).
+        method: "wilson", the score interval (Wilson 1927, J. Am. Stat. Assoc. 22), close to its level on average;
+            "exact", Clopper and Pearson (1934, Biometrika 26), never below its level, wider.
+    """
+    from scipy.stats import binomtest
+
+    interval = binomtest(int(k), int(n)).proportion_ci(confidence, method=method)
+    return float(interval.low), float(interval.high)
+
+
+def normal_quantile(confidence: float) -> float:
+    """Half-width of the two-sided interval of a standard normal variable: 1.96 for 0.95."""
+    return NormalDist().inv_cdf((1 + confidence) / 2)
+
+
+def _standing(u_max, overturned) -> tuple[np.ndarray, int]:
+    """Peaks of the runs that stood, and the size of the whole sample."""
+    u_max, overturned = np.asarray(u_max, float), np.asarray(overturned, bool)
+    if u_max.ndim != 1 or u_max.shape != overturned.shape or u_max.size == 0:
+        raise ValueError(f"u_max {u_max.shape} and overturned {overturned.shape}: must be two lists of one length, not empty")
+    standing = u_max[~overturned]
+    if not np.isfinite(standing).all():
+        raise ValueError("u_max of a run that stood is not finite; a failed run is neither standing nor overturned")
+    return standing, u_max.size

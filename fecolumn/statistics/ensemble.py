@@ -1,0 +1,50 @@
+"""What an ensemble of motions says about one combination of parameters, in one row."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.statistics.ecdf import percentile, proportion_interval
+
+
+@dataclass(frozen=True, slots=True)
+class EnsembleSummary:
+    """One row of a study's table.
+
+    Attributes:
+        n: runs that ended, standing or overturned.
+        overturned: runs that overturned.
+        p_overturn: overturned / n, with Wilson's and Clopper and Pearson's 95 % intervals.
+        u16_m, u50_m, u84_m: percentiles of u_max [m]; inf where that fraction of the runs does not stand.
+        energy_closure_worst: largest magnitude of the relative closure error of the energy ledger [-].
+        s_per_step: mean wall time of a step [s].
+    """
+
+    n: int
+    overturned: int
+    p_overturn: float
+    wilson: tuple[float, float]
+    exact: tuple[float, float]
+    u16_m: float
+    u50_m: float
+    u84_m: float
+    energy_closure_worst: float
+    s_per_step: float
+
+
+def summarize(u_max, overturned, energy_closure_rel, s_per_step) -> EnsembleSummary:
+    """Row of an ensemble of n runs.
+
+    Args:
+        u_max: (n,) [m] peak displacement of the top; ignored where the run overturned.
+        overturned: (n,) True where the column overturned.
+        energy_closure_rel: (n,) [-] closure error of the energy ledger.
+        s_per_step: (n,) [s] wall time of a step.
+    """
+    overturned = np.asarray(overturned, bool)
+    n, k = overturned.size, int(overturned.sum())
+    u16, u50, u84 = (percentile(u_max, overturned, fraction) for fraction in (0.16, 0.50, 0.84))
+    return EnsembleSummary(n, k, k / n, proportion_interval(k, n), proportion_interval(k, n, method="exact"), u16, u50, u84,
+                           float(np.max(np.abs(energy_closure_rel))), float(np.mean(s_per_step)))

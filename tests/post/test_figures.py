@@ -1,0 +1,95 @@
+import struct
+
+import numpy as np
+import pytest
+from synthetic_history import write_history
+
+from fecolumn.post.axis_text import axis_text
+from fecolumn.post.cdf_figure import Panel, cdf_figure, overturn_text
+from fecolumn.post.history_figures import history_figures, read_history
+from fecolumn.post.style import BLUE, PURPLE, VERMILION
+from fecolumn.schema import InputError
+from fecolumn.statistics.ecdf import ecdf
+
+
+def _panel(title, n, seed):
+    rng = np.random.default_rng(seed)
+    samples = [rng.lognormal(-2.5, 1, n) for _ in range(5)]
+    return Panel(title, tuple((f"line {k}", ecdf(u, u > 0.25)) for k, u in enumerate(samples)))
+
+
+def _picture(file):
+    """Pixels of a PNG, (height, width, 4)."""
+    from matplotlib.image import imread
+
+    return imread(file)
+
+
+@pytest.mark.parametrize("n, titles", [(2, ["a"]), (115, ["a", "b", "c", "d"])])
+def test_cdf_figure_shows_lines_and_bands(tmp_path, n, titles):
+    png, pdf = cdf_figure([_panel(title, n, seed) for seed, title in enumerate(titles)], 0.25, tmp_path / "cdf")
+    colours = np.unique(_picture(png)[..., :3].reshape(-1, 3).round(1), axis=0)
+    assert len(colours) > 20 and pdf.read_bytes().startswith(b"%PDF")
+    width, height = struct.unpack(">II", png.read_bytes()[16:24])
+    assert width in (720, 1440) and height > 400
+
+
+def _share(picture, colour, opacity=1.0) -> float:
+    """Share of the picture's pixels in a colour laid on white."""
+    from matplotlib.colors import to_rgb
+
+    seen = 1 - opacity * (1 - np.array(to_rgb(colour)))
+    return float(np.mean(np.abs(picture[..., :3] - seen).max(axis=2) < 0.02))
+
+
+def test_band_is_as_large_as_the_distribution_says(tmp_path):
+    # 100 runs at 10 mm, half of them overturned: from 10 to 250 mm the band reaches 0.5 +- 0.098, a box of 96 % x 19.2 % of the axes
+    u = np.full(100, 0.01)
+    picture = _picture(cdf_figure([Panel("a", (("line", ecdf(u, np.arange(100) < 50)),))], 0.25, tmp_path / "cdf")[0])
+    rows, columns = np.nonzero(np.abs(picture[..., :3] - (1 - 0.2 * (1 - np.array([0, 0x72, 0xB2]) / 255))).max(axis=2) < 0.02)
+    frame = np.nonzero((picture[..., :3] < 0.6).all(axis=2).sum(axis=1) > 300)[0]
+    assert np.ptp(rows) / np.ptp(frame) == pytest.approx(0.196 / 1.02, abs=0.01)
+    assert np.ptp(columns) > 0.7 * picture.shape[1]
+
+
+def test_same_data_same_bytes(tmp_path):
+    files = [cdf_figure([_panel("a", 20, 1)], 0.25, tmp_path / name) for name in "pq"]
+    assert all(first.read_bytes() == second.read_bytes() for first, second in zip(*files))
+
+
+def test_combination_in_which_all_overturn_is_drawn(tmp_path):
+    png, _ = cdf_figure([Panel("all", (("line", ecdf([1.0, 1.0], [True, True])),))], 0.25, tmp_path / "cdf")
+    assert png.stat().st_size > 5000
+
+
+def test_overturn_text_gives_wilsons_interval():
+    assert overturn_text(ecdf(np.ones(115), np.arange(115) < 50)) == "43.5 % [34.8, 52.6]"
+
+
+def test_axis_text_carries_the_unit():
+    assert axis_text("integration.dt_s", 1e-3) == r"$\Delta t$ = 0.001 s"
+    assert axis_text("integration.alpha_hht", -0.05) == "$\\alpha$ = \N{MINUS SIGN}0.05"
+    assert axis_text("initial.tilt_rad", 0.02) == "tilt = 0.02 rad"
+    assert axis_text("contact.law", "penalty") == "law = penalty"
+
+
+@pytest.mark.parametrize("overturned", [False, True])
+def test_figures_of_one_analysis(tmp_path, overturned):
+    write_history(tmp_path, overturned=overturned)
+    files = history_figures(tmp_path)
+    assert [file.name for file in files] == ["u_top.png", "u_top.pdf", "path.png", "path.pdf", "energy.png", "energy.pdf"]
+    for png in files[::2]:
+        assert np.mean(_picture(png)[..., :3].min(axis=2) < 0.9) > 0.01
+    assert _share(_picture(tmp_path / "u_top.png"), BLUE) > 0.002
+    assert min(_share(_picture(tmp_path / "energy.png"), colour) for colour in (VERMILION, BLUE, PURPLE)) > 0.0005
+
+
+def test_history_is_read_back(tmp_path):
+    write_history(tmp_path, n=11)
+    history = read_history(tmp_path / "history.h5")
+    assert history.u_top.shape == (11, 3) and history.time[-1] == 4.0 and set(history.energy) >= {"kinetic", "closure"}
+
+
+def test_folder_without_a_history_is_named(tmp_path):
+    with pytest.raises(InputError, match="history.h5"):
+        history_figures(tmp_path)

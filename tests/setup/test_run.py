@@ -1,0 +1,74 @@
+"""containers/run hands its command through unaltered, and keeps its own words off stdout."""
+
+import os
+import shutil
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+RUN = ROOT / "containers" / "run"
+SCRIPTS = [RUN, ROOT / "containers" / "check-bare-debian", ROOT / ".ci" / "run"]
+
+
+def run(*command, **options):
+    return subprocess.run([RUN, *command], capture_output=True, text=True, check=False, **options)
+
+
+def test_exit_code_is_the_commands():
+    assert run("sh", "-c", "exit 7").returncode == 7
+
+
+def test_arguments_pass_unaltered():
+    arguments = ["", "two words", "*", "a\nb", "--help", "'\"$HOME"]
+    assert run("printf", "%s|", *arguments).stdout == "".join(f"{argument}|" for argument in arguments)
+
+
+def test_stdin_reaches_the_command():
+    assert run("cat", input="a column\n").stdout == "a column\n"
+
+
+def test_no_command_prints_the_usage():
+    report = run()
+    assert report.returncode == 2
+    assert report.stdout == ""
+    assert "usage: ./containers/run COMMAND" in report.stderr
+
+
+def test_second_call_takes_less_than_a_second():
+    start = time.perf_counter()
+    run("true")
+    assert time.perf_counter() - start < 1.0
+
+
+def test_works_from_another_folder_and_through_a_link(tmp_path):
+    link = tmp_path / "run"
+    link.symlink_to(RUN)
+    report = subprocess.run([link, "pwd"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert report.stdout.strip() == str(tmp_path)
+
+
+def test_one_thread_unless_told_otherwise():
+    bare = {name: value for name, value in os.environ.items() if name != "OMP_NUM_THREADS"}
+    assert run("printenv", "OMP_NUM_THREADS", env=bare).stdout == "1\n"
+    assert run("printenv", "OMP_NUM_THREADS", env=bare | {"OMP_NUM_THREADS": "2"}).stdout == "2\n"
+
+
+def test_python_is_the_environments_on_the_systems():
+    report = run("python", "-c", "import sys; print(sys.base_prefix, sys.prefix != sys.base_prefix)")
+    assert report.stdout == "/usr True\n"
+
+
+def test_pip_refuses_the_h5py_wheel():
+    report = run("python", "-m", "pip", "install", "--dry-run", "--no-index", "--ignore-installed", "h5py")
+    assert report.returncode != 0
+    assert "h5py<0" in report.stdout + report.stderr
+
+
+@pytest.mark.skipif(not shutil.which("shellcheck"), reason="shellcheck is not installed")
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.name)
+def test_scripts_pass_shellcheck(script):
+    report = subprocess.run(["shellcheck", script], capture_output=True, text=True, check=False)
+    assert report.stdout == ""
