@@ -114,7 +114,6 @@ class _Analysis:
         from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
         from fecolumn.dynamics.checkpoint import read_checkpoint
         from fecolumn.dynamics.energy import TERMS, Ledger
-        from fecolumn.dynamics.hht import HHT
         from fecolumn.dynamics.history import History
         from fecolumn.dynamics.observer import Observer
         from fecolumn.dynamics.stepper import Record, Stepper
@@ -127,8 +126,8 @@ class _Analysis:
         specimen = share_specimen_mesh(case, comm)
         self.system = build_system(case, comm, specimen)
         self.ledger = Ledger(self.system)
-        self.stepper = Stepper(self.system, HHT(plan.dt_s, plan.alpha_hht), self.ledger, case.contact.impact,
-                               plan.tolerance, plan.max_iterations, plan.max_cuts)
+        self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
+                               plan.max_iterations, plan.max_cuts)
         self.observer = Observer(self.system, specimen, case.overturn.displacement_m)
         self.fields = self._fields(specimen) if case.output.fields_every_s else None
         self.stepping_s = self.earlier_s = 0.0
@@ -241,14 +240,14 @@ class _Analysis:
         fall = rows["u_top"][-1]
         summary = dict(
             case_id=self.case.id, title=self.case.title, version=__version__, engine=plan.engine, kinematics=plan.kinematics,
-            dofs=3 * sum(body.n_nodes for body in self.system.bodies), steps=self.step, dt=plan.dt_s, alpha_hht=plan.alpha_hht,
+            dofs=3 * (self.system.column.n_nodes + self.system.base.body.n_nodes), steps=self.step, dt=plan.dt_s, alpha_hht=plan.alpha_hht,
             motion=self.motion.name if self.motion else "", duration_s=float(self.state.time), u_max_m=float(top.max()),
             overturned=overturned, overturn_time_s=float(self.state.time) if overturned else None,
             overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0]))) if overturned else None,
             tilt_max_rad=float(rows["tilt"].max()), residual_slide_m=float(np.hypot(*rows["slide"][-1])),
             penetration_max_m=float(rows["penetration"].max()), ranks=self.comm.size,
             wall_s=self.earlier_s + time.perf_counter() - self.began, s_per_step=self.stepping_s / max(self.step, 1),
-            iterations=record.iterations, contact_iterations=record.contact_iterations, closing_steps=record.closings,
+            iterations=record.iterations, contact_iterations=record.contact_iterations, impacts=record.impacts,
             cuts=record.cuts, factorizations=self.system.factorizations, energy_closure_rel=energy_closure(rows),
             energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS})
         if self.comm.rank == 0:

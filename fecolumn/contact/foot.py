@@ -11,18 +11,19 @@ class FilteredFoot:
     """Contact of the foot's nodes with what a time step resolves, the rest treated statically.
 
     The elastic modes of single foot nodes are a thousand times faster than a step. Left to an implicit method they keep
-    the contact force in their acceleration memory and ring at the Nyquist frequency. With S = M + theta^2 K, theta the
-    substep of the effective matrix m S, a contact force r is therefore split,
+    the contact force in their acceleration memory and ring at the Nyquist frequency. With theta the substep of the
+    effective matrix, S = M + theta^2 K, a contact force r is therefore split,
 
-        r acts on the body as            U r,      U = M Y,  Y = S^-1 B^T   (smooth: spread as far as waves run in theta),
+        r acts on the body as            U r,      U = M Y,  Y = 2 Y1 - Y2,  Y1 = S^-1 B^T,  Y2 = S^-1 M Y1,
         the foot's position is           U^T d + C r,  d the displacement in the body's frame,
-        with the static remainder        C = theta^2 (B Y + Y^T M Y),
+        with the static remainder        C = theta^2 (B Y1 + Y1^T M Y1 - 3 Y1^T M Y2 + Y2^T M Y2),
 
-    B picking the foot's nodes. In a mode of frequency w the factors are 1/(1 + q), q = (w theta)^2: exact for rigid motion,
-    second order in dt for what is resolved; statically U^T K^-1 U + C = B K^-1 B^T for any dt, so that the contact always
-    sees the exact finite-element compliance. Force and position are conjugate, so the work of contact is exact, and
-    C has no memory. This is the residual flexibility of component mode synthesis (Rubin 1975; Craig and Chang 1977)
-    with the effective matrix in place of a modal cut.
+    B picking the foot's nodes. In a mode of frequency w, with s = 1/(1 + (w theta)^2), force and position carry the factor
+    F = 2 s - s^2 and C is (1 - F^2)/w^2 >= 0: nothing for rigid motion, fourth order in dt for what is resolved, the whole
+    static compliance for what is not. U^T K^-1 U + C = B K^-1 B^T for any dt, so that the contact always sees the exact
+    finite-element compliance in statics. Force and position are conjugate, so the work of contact is exact, and C has no
+    memory. This is the residual flexibility of component mode synthesis (Rubin 1975; Craig and Chang 1977) with powers of
+    the effective matrix in place of a modal cut.
 
     Arrays are in the body's frame, rows those of this rank: `push` = U (3 n_owned, 3 n), `jump` = Y likewise;
     `static` = C and `mobility` = U^T Y (n, n, 3, 3) on every rank.
@@ -32,12 +33,16 @@ class FilteredFoot:
 
     def __init__(self, body, nodes, factor, mass_factor: float, stiffness_factor: float):
         self.body, self.nodes = body, nodes
-        self.jump = mass_factor * factor.solve_many(unit_loads(body, nodes))
+        once = mass_factor * factor.solve_many(unit_loads(body, nodes))
+        momentum = body.apply_many(body.mass, once)
+        twice = mass_factor * factor.solve_many(momentum)
+        self.jump = 2 * once - twice
         self.push = body.apply_many(body.mass, self.jump)
-        foot = body.gather(nodes, self.jump.reshape(body.n_owned, 3, -1)).reshape(3 * len(nodes), -1)
-        mobility = body.sum(self.push.T @ self.jump)
-        self.mobility = blocks(mobility)
-        self.static = blocks(stiffness_factor / mass_factor * (foot + mobility))
+        s1 = body.gather(nodes, once.reshape(body.n_owned, 3, -1)).reshape(3 * len(nodes), -1)
+        s2, s3 = body.sum(momentum.T @ once), body.sum(momentum.T @ twice)
+        s4 = body.sum(twice.T @ body.apply_many(body.mass, twice))
+        self.mobility = blocks(body.sum(self.push.T @ self.jump))
+        self.static = blocks(stiffness_factor / mass_factor * (s1 + s2 - 3 * s3 + s4))
 
     def position(self, displacement: np.ndarray) -> np.ndarray:
         """Filtered displacement or velocity (n, 3) of the foot from a field (n_owned, 3), both in the body's frame."""

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.dynamics.system import BodyState, State
+from fecolumn.dynamics.system import State
 
-_BODY = ("x", "v", "a", "inertia", "internal", "contact_a")
-_CONTACT = ("forces", "anchors", "relative", "rotation", "ground")
+_FIELDS = ("x", "v", "a", "contact_a", "internal")
+_SHARED = ("time", "strain", "rotation", "forces", "anchors", "relative", "static", "ground")
 
 
 def node_order(body) -> np.ndarray:
@@ -28,15 +28,14 @@ def gather_all(body, values: np.ndarray) -> np.ndarray | None:
 
 def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
     """Write state and `extra` arrays atomically on rank 0; called on every rank."""
-    arrays = {name: getattr(state, name) for name in _CONTACT} | {"time": state.time}
-    for label, body, now in zip(("column", "base"), system.bodies, state.bodies):
-        order = node_order(body)
-        for name in _BODY:
-            values = gather_all(body, getattr(now, name))
-            if values is not None:
-                arrays[f"{label}.{name}"] = values[order]
-        arrays[f"{label}.energy"] = now.energy
-    if system.column.comm.rank == 0:
+    column = system.column
+    order = node_order(column)
+    arrays = {name: getattr(state, name) for name in _SHARED}
+    for name in _FIELDS:
+        values = gather_all(column, getattr(state, name))
+        if values is not None:
+            arrays[name] = values[order]
+    if column.comm.rank == 0:
         partial = path.with_name(path.name + ".partial")
         with open(partial, "wb") as file:
             np.savez(file, **arrays, **{f"extra.{name}": value for name, value in extra.items()})
@@ -49,14 +48,11 @@ def read_checkpoint(path: Path, system) -> tuple[State, dict]:
     """State on this rank and the `extra` arrays of a checkpoint."""
     with np.load(path) as file:
         arrays = {name: file[name] for name in file.files}
-    bodies = []
-    for label, body in zip(("column", "base"), system.bodies):
-        order, mine = node_order(body), slice(body.first, body.first + body.n_owned)
-        values = []
-        for name in _BODY:
-            scattered = np.empty_like(arrays[f"{label}.{name}"])
-            scattered[order] = arrays[f"{label}.{name}"]
-            values.append(scattered[mine].copy())
-        bodies.append(BodyState(*values, float(arrays[f"{label}.energy"])))
-    state = State(float(arrays["time"]), *bodies, *(arrays[name] for name in _CONTACT))
-    return state, {name[6:]: value for name, value in arrays.items() if name.startswith("extra.")}
+    column = system.column
+    order, mine = node_order(column), slice(system.column.first, column.first + column.n_owned)
+    values = {name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name] for name in _SHARED}
+    for name in _FIELDS:
+        by_node = np.empty_like(arrays[name])
+        by_node[order] = arrays[name]
+        values[name] = by_node[mine].copy()
+    return State(**values), {name[6:]: value for name, value in arrays.items() if name.startswith("extra.")}

@@ -10,6 +10,8 @@ from fecolumn.dynamics.system import State
 
 # Inertia factor of the pseudo-time iteration [1/s2]: it only holds what contact and friction leave free.
 PSEUDO_INERTIA = 400.0
+# A step that moves the column less is at rest, above the rounding of positions [m]
+REST = 1e-11
 
 
 def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State:
@@ -27,13 +29,13 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
     forces = np.zeros((interface.size, 3))
     factors = PSEUDO_INERTIA, 1.0
     for _ in range(max_iterations):
-        stage = Stage(target=x, load=load, start=x, scale=1.0, anchors=anchors, forces=forces)
+        stage = Stage(target=x, load=load, start=x, scale=1.0, anchors=anchors, forces=forces, rotation=np.eye(3))
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
         if outcome.stop is not Stop.CONVERGED:
             raise RuntimeError(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
         moved = column.max(np.abs(outcome.x - x).max(initial=0.0))
         x, forces = outcome.x, outcome.forces
-        if moved < 1e-14:
+        if moved < REST:
             break
     else:
         raise RuntimeError(f"gravity equilibrium: still moving by {moved:.2e} m after {max_iterations} iterations")

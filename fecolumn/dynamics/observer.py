@@ -31,7 +31,7 @@ class Observer:
         self._top, position = np.unique(found, return_inverse=True)
         areas = nodal_areas(mesh.points[quads], position.reshape(len(quads), -1), len(self._top), column.order)
         self._weights = areas / areas.sum()
-        radius = np.linalg.norm(column.all_X[system.interface.foot, :2] - column.center[:2], axis=1).max()
+        radius = np.linalg.norm(column.all_X[system.foot_nodes, :2] - column.center[:2], axis=1).max()
         #: Tilt (slenderness) at which the centre of mass stands over the rim [rad].
         self.critical_tilt = math.atan2(radius, column.center[2])
         self.last_tilt = 0.0
@@ -39,10 +39,10 @@ class Observer:
     def measure(self, state) -> dict:
         """Measures of a state by the names of the history file, in SI units."""
         system = self.system
-        column, interface = system.column, system.interface
-        top = self._weights @ (column.gather(self._top, state.column.x) - column.all_X[self._top])
-        area = interface.areas / interface.areas.sum()
-        foot = area @ (column.gather(interface.foot, state.column.x) - column.all_X[interface.foot])
+        column = system.column
+        top = self._weights @ (column.gather(self._top, state.x) - column.all_X[self._top])
+        area = system.areas / system.areas.sum()
+        foot = area @ (column.gather(system.foot_nodes, state.x) - column.all_X[system.foot_nodes])
         return dict(
             time=state.time, u_top=top, tilt=tilt_angle(state.rotation), twist=twist_angle(state.rotation),
             slide=foot[:2], contact_force=state.forces.sum(axis=0), active_nodes=int((state.forces[:, 2] > 0).sum()),

@@ -10,6 +10,7 @@ import numpy as np
 from fecolumn.contact.base_top import OffBase
 from fecolumn.contact.delassus import turned
 from fecolumn.contact.interface import NEAR, Footing
+from fecolumn.dynamics.rotation import polar_rotation
 
 # Points of the foot that are not in the contact problem may not sink deeper than this [m]
 PENETRATION = 1e-11
@@ -36,6 +37,8 @@ class Stage:
     start: (n_owned, 3) first guess of the positions [m].
     scale: effective force per contact force.
     anchors: (n, 2) stick positions [m]. forces: (n, 3) first guess of the contact forces [N].
+    rotation: (3, 3) of the column at the start. Contact forces act on the column in the rotation halfway, so that their
+        work over a turn of the column by t is that of the foot's path up to t^3.
     """
 
     target: np.ndarray
@@ -44,6 +47,7 @@ class Stage:
     scale: float
     anchors: np.ndarray
     forces: np.ndarray
+    rotation: np.ndarray
 
 
 @dataclass(slots=True)
@@ -55,6 +59,7 @@ class Outcome:
     internal: np.ndarray
     strain: float
     rotation: np.ndarray
+    halfway: np.ndarray
     forces: np.ndarray
     relative: np.ndarray | None
     footing: Footing | None
@@ -80,10 +85,11 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     contact_iterations, relative, footing = 0, None, None
 
     def ended(stop, message=""):
-        return Outcome(stop, x, internal, strain, rotation, forces, relative, footing, iteration, size, contact_iterations, message)
+        return Outcome(stop, x, internal, strain, rotation, halfway, forces, relative, footing, iteration, size, contact_iterations, message)
 
     for iteration in range(max_iterations + 1):
         rotation, internal, strain = system.kinematics.internal(x)
+        halfway = polar_rotation(rotation + stage.rotation)
         residual = operators.mass_factor * column.apply(column.mass, stage.target - x) + stage.load - operators.stiffness_factor * internal
         position = interface.dynamic_position(x, rotation)
         try:
@@ -93,7 +99,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         total = residual
         if iteration:
             relative = position + interface.static_displacement(forces, rotation, footing)
-            total = residual + scale * interface.foot.load(forces @ rotation) @ rotation.T
+            total = residual + scale * interface.foot.load(forces @ halfway) @ halfway.T
         reference = max(system.weight, scale * np.abs(forces).max(initial=0.0))
         size = column.max(np.abs(total).max(initial=0.0)) / reference
         sunk = np.zeros(interface.size, bool)
@@ -115,11 +121,12 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         x = x + operators.factor.solve(residual @ turn) @ turn.T
         free = interface.dynamic_position(x, rotation)
         active = np.flatnonzero((free[:, 2] < NEAR) | (forces[:, 2] > 0) | sunk)
-        dynamic = scale * turned(operators.response.compliance, active, turn)
+        along = halfway @ operators.rotation.T
+        dynamic = scale * turned(operators.response.compliance, active, along)
         static = interface.static_compliance(active, rotation, footing)
         forces, solution = interface.solve(active, dynamic, static, free, stage.anchors, forces)
         contact_iterations += solution.iterations + solution.sweeps
         if solution.residual > CONTACT_TOLERANCE:
             return ended(Stop.CONTACT, f"contact residual {solution.residual:.2e} m")
-        x = x + scale * operators.response.displacement(forces @ turn) @ turn.T
+        x = x + scale * operators.response.displacement(forces @ along) @ along.T
     return ended(Stop.ITERATIONS)

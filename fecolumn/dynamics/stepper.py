@@ -93,7 +93,7 @@ class Stepper:
             target=state.x + dt * state.v + dt**2 * (0.5 - be) * state.a,
             load=(1 + al) * F1 - al * F0 + al * state.internal,
             start=state.x + dt * state.v + dt**2 / 2 * (state.a + state.contact_a),
-            scale=1 / (2 * be) if self.plastic else 1.0, anchors=state.anchors, forces=state.forces)
+            scale=1 / (2 * be) if self.plastic else 1.0, anchors=state.anchors, forces=state.forces, rotation=state.rotation)
         operators = system.operators(hht.mass_factor, hht.stiffness_factor)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
         self.record.iterations += outcome.iterations
@@ -102,10 +102,10 @@ class Stepper:
             detail = outcome.message or f"residual {outcome.residual:.2e} of the weight after {outcome.iterations} iterations"
             raise StepFailed(outcome.stop, f"{outcome.stop.value}: {detail}")
 
-        R, forces = outcome.rotation, outcome.forces
+        R, forces = outcome.halfway, outcome.forces
         after = State(
             time=state.time + dt, x=outcome.x, v=state.v, a=state.a, contact_a=state.contact_a, internal=outcome.internal,
-            strain=outcome.strain, rotation=R, forces=forces, anchors=self._anchors(state, outcome),
+            strain=outcome.strain, rotation=outcome.rotation, forces=forces, anchors=self._anchors(state, outcome),
             relative=outcome.relative, static=self._static_energy(outcome), ground=np.array(ground, float))
         push = interface.foot.load(forces @ R) @ R.T
         if self.plastic:

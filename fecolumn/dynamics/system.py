@@ -75,8 +75,8 @@ class System:
         self.foot_nodes, self.areas = foot_nodes, areas
         self.gravity, self.hht = np.asarray(gravity, float), hht
         self.weight = column.total_mass * np.linalg.norm(self.gravity)
-        # internal forces are stiffness times (position - position): their rounding [N]
-        self.rounding = np.finfo(float).eps * column.stiffness_scale * np.ptp(column.all_X, axis=0).max()
+        # internal forces are stiffness times (position - position): the rounding of a few such products [N]
+        self.rounding = 4 * np.finfo(float).eps * column.stiffness_scale * np.ptp(column.all_X, axis=0).max()
         self.factorizations = 1  # the base's
         self._operators: dict[tuple, Operators] = {}
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)

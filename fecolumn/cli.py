@@ -1,0 +1,112 @@
+"""The command line: fecolumn mesh | run | resume | study | doctor."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+
+def main(argv=None) -> int:
+    """Run a command; returns 0, 1 where an analysis failed, 2 where the input is refused, 130 after Ctrl-C."""
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    if arguments[:1] == ["doctor"]:
+        from fecolumn import doctor
+
+        return doctor.main(arguments[1:])
+    args = _parser().parse_args(arguments)
+    from fecolumn.schema import InputError
+
+    try:
+        return args.command(args)
+    except InputError as error:
+        return _refuse(error, 2)
+    except KeyboardInterrupt:
+        print("stopped; the same command goes on from the last checkpoint", file=sys.stderr)
+        return 130
+    except OSError as error:
+        import errno
+
+        if error.errno == errno.ENOSPC:
+            return _refuse("the disk is full; free room and run the same command again", 1)
+        raise
+
+
+def _refuse(message, code: int) -> int:
+    from mpi4py import MPI
+
+    if MPI.COMM_WORLD.rank == 0:
+        print(f"fecolumn: {message}", file=sys.stderr)
+    return code
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="fecolumn", description="Rocking and sliding of free-standing columns with finite elements.")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    mesh = commands.add_parser("mesh", help="build and check the meshes of a case")
+    mesh.add_argument("case", metavar="CASE.toml")
+    mesh.add_argument("-o", "--output", required=True, metavar="DIR", help="folder for meshes, picture and table")
+    mesh.set_defaults(command=_mesh)
+
+    run = commands.add_parser("run", help="run one analysis, or go on with it")
+    run.add_argument("case", metavar="CASE.toml")
+    run.add_argument("-o", "--output", required=True, metavar="DIR", help="result folder, one a case")
+    run.add_argument("-q", "--quiet", action="store_true", help="no progress line")
+    run.set_defaults(command=_run)
+
+    resume = commands.add_parser("resume", help="go on with an analysis from its last checkpoint")
+    resume.add_argument("output", metavar="DIR", help="result folder of fecolumn run")
+    resume.add_argument("-q", "--quiet", action="store_true", help="no progress line")
+    resume.set_defaults(command=_resume)
+
+    study = commands.add_parser("study", help="run a sweep of analyses and compare their CDFs")
+    from fecolumn.study import command
+
+    command.add_arguments(study)
+    study.set_defaults(command=command.main)
+    commands.add_parser("doctor", help="versions and known traps of this machine")
+    return parser
+
+
+def _mesh(args) -> int:
+    from fecolumn.case import read_case
+    from fecolumn.mesh.report import mesh_report
+
+    print(mesh_report(read_case(args.case), args.output))
+    return 0
+
+
+def _run(args) -> int:
+    from fecolumn.case import read_case
+
+    return _analyse(read_case(args.case), args.output, args.case, args.quiet)
+
+
+def _resume(args) -> int:
+    from fecolumn.simulation import read_folder_case
+
+    case, file = read_folder_case(args.output)
+    return _analyse(case, args.output, file, args.quiet)
+
+
+def _analyse(case, folder, file, quiet) -> int:
+    from mpi4py import MPI
+
+    from fecolumn.post.history_figures import history_figures
+    from fecolumn.simulation import AnalysisFailed, run
+
+    try:
+        summary = run(case, folder, file=file, quiet=quiet)
+    except AnalysisFailed as error:
+        return _refuse(error, 1)
+    if MPI.COMM_WORLD.rank == 0:
+        history_figures(folder)
+        end = f"overturned at {summary['overturn_time_s']:.3f} s" if summary["overturned"] else \
+            f"standing, residual slide {1e3 * summary['residual_slide_m']:.3f} mm"
+        print(f"{folder}: u_max {1e3 * summary['u_max_m']:.3f} mm, {end}; {summary['steps']} steps, "
+              f"{1e3 * summary['s_per_step']:.1f} ms/step, energy closure {summary['energy_closure_rel']:.1e}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
