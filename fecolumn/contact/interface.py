@@ -74,22 +74,23 @@ class Interface:
         sunk = np.vstack([sunk, np.zeros(3)])  # slot -1: not built, far away
         return moved + np.einsum("np,npa->na", footing.weights, sunk[slots])
 
-    def solve(self, active, dynamic, static, free, anchors, start) -> tuple[np.ndarray, ContactSolution]:
-        """Contact forces (n, 3) [N] and the solver's record.
+    def solve(self, active, compliance, moved, anchors, forces) -> tuple[np.ndarray, ContactSolution]:
+        """New contact forces (n, 3) [N] and the solver's record.
 
         Args:
-            active: (k,) points of the problem.
-            dynamic, static: (3 k, 3 k) compliances; their sum is the contact problem's.
-            free: (n, 3) positions without contact forces [m].
+            active: (k,) points of the problem; the others carry no force.
+            compliance: (3 k, 3 k) dynamic and static compliance [m/N].
+            moved: (n, 3) positions relative to the base under the present forces, without the contact law's own give [m].
             anchors: (n, 2) horizontal positions at which the points stick [m].
-            start: (n, 3) first guess of the forces [N].
+            forces: (n, 3) present forces, the first guess [N].
         """
-        q = free[active].copy()
+        q = moved[active] + self.own[active] * forces[active]
         q[:, :2] -= anchors[active]
-        solution = solve_contact(dynamic + static, q, self.friction, start[active])
-        forces = np.zeros((self.size, 3))
-        forces[active] = solution.forces
-        return forces, solution
+        q -= (compliance @ forces[active].ravel()).reshape(-1, 3)
+        solution = solve_contact(compliance, q, self.friction, forces[active])
+        updated = np.zeros((self.size, 3))
+        updated[active] = solution.forces
+        return updated, solution
 
     def impact(self, active, mobility, velocity, start) -> tuple[np.ndarray, ContactSolution]:
         """Impulses (n, 3) [N s] of a plastic impact with friction (Moreau 1988), and the solver's record.

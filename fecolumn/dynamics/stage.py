@@ -96,14 +96,12 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             footing = interface.project(position)
         except OffBase as error:
             return ended(Stop.OFF_BASE, str(error))
-        total = residual
-        if iteration:
-            relative = position + interface.static_displacement(forces, rotation, footing)
-            total = residual + scale * interface.foot.load(forces @ halfway) @ halfway.T
+        total = residual + scale * interface.foot.load(forces @ halfway) @ halfway.T
         reference = max(system.weight, scale * np.abs(forces).max(initial=0.0))
         size = column.max(np.abs(total).max(initial=0.0)) / reference
         sunk = np.zeros(interface.size, bool)
         if iteration:
+            relative = position + interface.static_displacement(forces, rotation, footing)
             sunk = relative[:, 2] < -PENETRATION
             sunk[active] = False
             if size <= max(tolerance, system.rounding / reference) and not sunk.any():
@@ -117,16 +115,18 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             operators = system.refresh(operators, x)
         previous = size
 
-        turn = rotation @ operators.rotation.T
-        x = x + operators.factor.solve(residual @ turn) @ turn.T
-        free = interface.dynamic_position(x, rotation)
-        active = np.flatnonzero((free[:, 2] < NEAR) | (forces[:, 2] > 0) | sunk)
-        along = halfway @ operators.rotation.T
+        # Newton about the present forces, so that a slightly turned compliance does not matter at convergence
+        turn, along = rotation @ operators.rotation.T, halfway @ operators.rotation.T
+        x = x + operators.factor.solve(total @ turn) @ turn.T
+        position = interface.dynamic_position(x, rotation)
+        active = np.flatnonzero((position[:, 2] < NEAR) | (forces[:, 2] > 0) | sunk)
         dynamic = scale * turned(operators.response.compliance, active, along)
         static = interface.static_compliance(active, rotation, footing)
-        forces, solution = interface.solve(active, dynamic, static, free, stage.anchors, forces)
+        moved = position + interface.static_displacement(forces, rotation, footing)
+        old = forces
+        forces, solution = interface.solve(active, dynamic + static, moved, stage.anchors, old)
         contact_iterations += solution.iterations + solution.sweeps
         if solution.residual > CONTACT_TOLERANCE:
             return ended(Stop.CONTACT, f"contact residual {solution.residual:.2e} m")
-        x = x + scale * operators.response.displacement(forces @ along) @ along.T
+        x = x + scale * operators.response.displacement((forces - old) @ along) @ along.T
     return ended(Stop.ITERATIONS)
