@@ -1,0 +1,20 @@
+"""A coarse column for the tests of the engine: a hundred-millimetre tube with cap on a small base."""
+
+from mpi4py import MPI
+
+from fecolumn.case import case_from_tables, read_toml
+from fecolumn.dynamics.assembly import build_system
+from fecolumn.schema import merge
+
+SPECIMEN = "meshes/specimen.toml"
+
+
+def coarse_case(**sections):
+    tables = merge(read_toml(SPECIMEN), {
+        "column": {"fine_height_m": 0.03}, "base": {"slide_allowance_m": 0.01, "length_m": 0.2, "width_m": 0.2},
+        "mesh": {"coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05}})
+    return case_from_tables(merge(tables, sections), SPECIMEN)
+
+
+def coarse_system(**sections):
+    return build_system(coarse_case(**sections), MPI.COMM_SELF)

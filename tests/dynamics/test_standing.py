@@ -1,0 +1,25 @@
+"""A column that stands still stays still."""
+
+import numpy as np
+import pytest
+from coarse_column import coarse_system
+
+from fecolumn.dynamics.energy import Ledger
+from fecolumn.dynamics.gravity import standing
+from fecolumn.dynamics.stepper import Stepper
+
+
+@pytest.mark.parametrize("alpha", [0.0, -0.2, -0.333])
+@pytest.mark.parametrize("dt", [0.02, 1e-3, 1e-4])
+def test_standing_column_neither_drifts_nor_gains_energy(dt, alpha):
+    system = coarse_system(integration={"dt_s": dt, "alpha_hht": alpha})
+    state = start = standing(system)
+    assert start.forces[:, 2].sum() == pytest.approx(system.weight, rel=1e-6)
+    ledger = Ledger(system)
+    ledger.open(start)
+    stepper = Stepper(system, ledger)
+    for _ in range(100):
+        state = stepper.step(state, np.zeros(3))
+    assert np.abs(state.x - start.x).max() < 1e-8
+    energy = sum(ledger.state_terms(state).values()) - ledger.start
+    assert abs(energy) < 1e-6 * system.weight * 1.01
