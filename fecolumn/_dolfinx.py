@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import logging
+
 import dolfinx
 import numpy as np
 import ufl
 from dolfinx import fem, mesh
 from petsc4py import PETSc
+
+# without a handler, Debian 12's form compiler prints every compiler call on first use
+logging.getLogger().addHandler(logging.NullHandler())
 
 VERSION = tuple(int(n) for n in dolfinx.__version__.split(".")[:2])
 _MODERN = VERSION >= (0, 8)
@@ -57,11 +62,6 @@ def interpolation_points(space):
     return points() if callable(points) else points
 
 
-def local_vector(function):
-    """PETSc vector over the function's owned dofs and ghosts."""
-    return function.x.petsc_vec if hasattr(function.x, "petsc_vec") else function.vector
-
-
 def assemble_matrix(form) -> PETSc.Mat:
     """Assembled sparse matrix of a bilinear form without boundary conditions."""
     from dolfinx.fem import petsc
@@ -69,8 +69,3 @@ def assemble_matrix(form) -> PETSc.Mat:
     matrix = petsc.assemble_matrix(fem.form(form))
     matrix.assemble()
     return matrix
-
-
-def default_scalar():
-    """Floating-point type of PETSc and forms."""
-    return PETSc.ScalarType

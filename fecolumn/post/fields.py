@@ -1,0 +1,131 @@
+"""Fields for ParaView: displacement, von Mises stress and contact pressure as XDMF with one HDF5 file a frame."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+from dolfinx import fem
+
+from fecolumn import _dolfinx
+from fecolumn.dynamics.checkpoint import gather_all
+from fecolumn.material.elasticity import isotropic_stress, von_mises
+from fecolumn.material.kinematics import linear_strain
+
+_TOPOLOGY = '<Topology TopologyType="Hexahedron" NumberOfElements="{cells}"><DataItem Dimensions="{cells} 8" Format="HDF" NumberType="Int" Precision="8">mesh.h5:/cells</DataItem></Topology>'
+_GEOMETRY = '<Geometry GeometryType="XYZ"><DataItem Dimensions="{points} 3" Format="HDF" Precision="8">mesh.h5:/points</DataItem></Geometry>'
+_FIELD = '<Attribute Name="{title}" AttributeType="{kind}" Center="{center}"><DataItem Dimensions="{shape}" Format="HDF" Precision="8">{file}:/{name}</DataItem></Attribute>'
+
+
+class FieldWriter:
+    """Writes frames of column and base into a folder; `fields.xdmf` always lists complete frames only.
+
+    Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and continued.
+    """
+
+    def __init__(self, folder: Path, system, specimen):
+        self.folder, self.system, self.specimen = folder, system, specimen
+        column, base = system.column, system.base.body
+        self._nodes = [_vertex_nodes(body) for body in (column, base)]
+        self._offset = len(specimen.body.points)
+        self._stress = {body: _StressField(body) for body in (column, base)}
+        self._pressure_points = self._points_of_foot()
+        if column.comm.rank == 0:
+            folder.mkdir(parents=True, exist_ok=True)
+            self._write_mesh()
+
+    def _points_of_foot(self) -> np.ndarray:
+        at = {node: point for point, node in enumerate(self._nodes[0])}
+        return np.array([at.get(node, -1) for node in self.system.foot_nodes])
+
+    def _write_mesh(self) -> None:
+        body, base = self.specimen.body, self.specimen.base
+        _write_h5(self.folder / "mesh.h5", {
+            "points": np.vstack([body.points, base.points]), "cells": np.vstack([body.cells, base.cells + self._offset]),
+            "part": np.concatenate([body.part, base.part]).astype(float)})
+
+    def write(self, state) -> None:
+        """Add the frame of a state; called on every rank."""
+        system = self.system
+        column, plate, interface = system.column, system.base, system.interface
+        footing = interface.project(interface.dynamic_position(state.x, state.rotation))
+        sunk = plate.displacement(footing.nodes, footing.weights, -state.forces)
+        displacement = [gather_all(column, state.x - column.X), gather_all(plate.body, sunk)]
+        stress = [self._stress[column].values(system.kinematics.local_displacement(state.x)), self._stress[plate.body].values(sunk)]
+        if column.comm.rank:
+            return
+        pressure = np.zeros(self._offset + len(self.specimen.base.points))
+        at_vertex = self._pressure_points >= 0
+        pressure[self._pressure_points[at_vertex]] = (state.forces[:, 2] / system.areas)[at_vertex]
+        name = f"frame_{round(state.time * 1e6):012d}.h5"
+        _write_h5(self.folder / name, {
+            "displacement": np.vstack([values[nodes] for values, nodes in zip(displacement, self._nodes)]),
+            "von_mises": np.concatenate(stress), "pressure": pressure})
+        self._write_index()
+
+    def _write_index(self) -> None:
+        points = self._offset + len(self.specimen.base.points)
+        cells = len(self.specimen.body.cells) + len(self.specimen.base.cells)
+        grids = []
+        for frame in sorted(self.folder.glob("frame_*.h5")):
+            fields = [_FIELD.format(title="displacement [m]", kind="Vector", center="Node", shape=f"{points} 3", file=frame.name, name="displacement"),
+                      _FIELD.format(title="von Mises stress [Pa]", kind="Scalar", center="Cell", shape=cells, file=frame.name, name="von_mises"),
+                      _FIELD.format(title="contact pressure [Pa]", kind="Scalar", center="Node", shape=points, file=frame.name, name="pressure"),
+                      _FIELD.format(title="part", kind="Scalar", center="Cell", shape=cells, file="mesh.h5", name="part")]
+            time = int(frame.stem.split("_")[1]) / 1e6
+            grids.append(f'<Grid Name="fecolumn" GridType="Uniform"><Time Value="{time}"/>' + _TOPOLOGY.format(cells=cells)
+                         + _GEOMETRY.format(points=points) + "".join(fields) + "</Grid>")
+        text = ('<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain><Grid Name="frames" GridType="Collection" CollectionType="Temporal">\n'
+                + "\n".join(grids) + "\n</Grid></Domain></Xdmf>\n")
+        partial = self.folder / "fields.xdmf.partial"
+        partial.write_text(text)
+        os.replace(partial, self.folder / "fields.xdmf")
+
+
+class _StressField:
+    """Von Mises stress at the middle of each brick, in the order of the input mesh."""
+
+    def __init__(self, body):
+        self.body = body
+        self._u = fem.Function(body.space)
+        space = _dolfinx.cellwise_space(body.mesh)
+        material = body.material
+        stress = von_mises(isotropic_stress(linear_strain(self._u), material.youngs_modulus_pa, material.poissons_ratio))
+        self._expression = fem.Expression(stress, _dolfinx.interpolation_points(space))
+        self._result = fem.Function(space)
+
+    def values(self, displacement: np.ndarray) -> np.ndarray | None:
+        """(n_cells,) [Pa] on rank 0 from local displacements (n_owned, 3)."""
+        body = self.body
+        self._u.x.array[: 3 * body.n_owned] = displacement.reshape(-1)
+        self._u.x.scatter_forward()
+        self._result.interpolate(self._expression)
+        owned = body.mesh.topology.index_map(3).size_local
+        cells = np.asarray(body.mesh.topology.original_cell_index)[:owned]
+        pieces = body.comm.gather((cells, self._result.x.array[:owned].copy()))
+        if body.comm.rank:
+            return None
+        stress = np.empty(len(body.bricks.cells))
+        for numbers, values in pieces:
+            stress[numbers] = values
+        return stress
+
+
+def _vertex_nodes(body) -> np.ndarray:
+    """Node of each point of the body's input mesh."""
+    nodes = np.empty(len(body.bricks.points), np.int64)
+    for part in np.unique(body.bricks.part):
+        points = np.unique(body.bricks.cells[body.bricks.part == part])
+        nodes[points] = body.find_nodes(body.bricks.points[points], part)
+    return nodes
+
+
+def _write_h5(path: Path, arrays: dict) -> None:
+    import h5py
+
+    partial = path.with_name(path.name + ".partial")
+    with h5py.File(partial, "w") as file:
+        for name, values in arrays.items():
+            file.create_dataset(name, data=values, compression="gzip")
+    os.replace(partial, path)
