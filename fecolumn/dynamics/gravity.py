@@ -40,13 +40,11 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
     else:
         raise RuntimeError(f"gravity equilibrium: still moving by {moved:.2e} m after {max_iterations} iterations")
     system.forget(*factors)
-    loaded = np.flatnonzero(forces[:, 2] > 0)
-    compliance = interface.static_compliance(loaded, outcome.rotation, outcome.footing)
     push = interface.foot.acceleration(forces @ outcome.rotation) @ outcome.rotation.T if interface.foot.filtered else np.zeros_like(x)
     return State(
         time=0.0, x=x, v=np.zeros_like(x), a=-push, contact_a=push, internal=outcome.internal, strain=outcome.strain,
         rotation=outcome.rotation, forces=forces, anchors=anchors, relative=outcome.relative,
-        static=float(forces[loaded].ravel() @ compliance @ forces[loaded].ravel() / 2), ground=np.zeros(3))
+        static=outcome.static, ground=np.zeros(3))
 
 
 def tilted(system, tilt: float, direction: float) -> State:

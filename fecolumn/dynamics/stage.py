@@ -52,7 +52,8 @@ class Stage:
 
 @dataclass(slots=True)
 class Outcome:
-    """Positions, internal forces and strain energy of the column, contact forces and kinematics, and the record."""
+    """Positions, internal forces and strain energy of the column, contact forces and kinematics, the energy `static` [J]
+    of base, foot's static rest and penalty springs, and the record."""
 
     stop: Stop
     x: np.ndarray
@@ -62,6 +63,7 @@ class Outcome:
     halfway: np.ndarray
     forces: np.ndarray
     relative: np.ndarray | None
+    static: float
     footing: Footing | None
     iterations: int
     residual: float
@@ -82,10 +84,10 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     interface, column, scale = system.interface, system.column, stage.scale
     x, forces, active = np.array(stage.start), stage.forces, np.zeros(0, np.int64)
     first = previous = size = np.inf
-    contact_iterations, relative, footing = 0, None, None
+    contact_iterations, relative, footing, static_energy = 0, None, None, 0.0
 
     def ended(stop, message=""):
-        return Outcome(stop, x, internal, strain, rotation, halfway, forces, relative, footing, iteration, size, contact_iterations, message)
+        return Outcome(stop, x, internal, strain, rotation, halfway, forces, relative, static_energy, footing, iteration, size, contact_iterations, message)
 
     for iteration in range(max_iterations + 1):
         rotation, internal, strain = system.kinematics.internal(x)
@@ -101,7 +103,9 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         size = column.max(np.abs(total).max(initial=0.0)) / reference
         sunk = np.zeros(interface.size, bool)
         if iteration:
-            relative = position + interface.static_displacement(forces, rotation, footing)
+            given = interface.static_displacement(forces, rotation, footing)
+            relative = position + given
+            static_energy = float(np.sum(forces * (given + interface.own * forces))) / 2
             sunk = relative[:, 2] < -PENETRATION
             sunk[active] = False
             if size <= max(tolerance, system.rounding / reference) and not sunk.any():

@@ -109,7 +109,7 @@ class Stepper:
         after = State(
             time=state.time + dt, x=outcome.x, v=state.v, a=state.a, contact_a=state.contact_a, internal=outcome.internal,
             strain=outcome.strain, rotation=outcome.rotation, forces=forces, anchors=self._anchors(state, outcome),
-            relative=outcome.relative, static=self._static_energy(outcome), ground=np.array(ground, float))
+            relative=outcome.relative, static=outcome.static, ground=np.array(ground, float))
         push = interface.foot.load(forces @ R) @ R.T
         if self.plastic:
             w = interface.foot.acceleration(forces @ R) @ R.T
@@ -132,13 +132,6 @@ class Stepper:
         here = outcome.relative[:, :2] + elastic
         moved = (np.linalg.norm(here - state.anchors, axis=1) > STUCK) | (outcome.forces[:, 2] <= 0)
         return np.where(moved[:, None], here, state.anchors)
-
-    def _static_energy(self, outcome) -> float:
-        loaded = np.flatnonzero(outcome.forces[:, 2] > 0)
-        if not len(loaded):
-            return 0.0
-        forces = outcome.forces[loaded].ravel()
-        return float(forces @ self.system.interface.static_compliance(loaded, outcome.rotation, outcome.footing) @ forces / 2)
 
     def _book(self, state, after, hht, load_sum, worked) -> None:
         """Energy of an HHT step, from the identity
