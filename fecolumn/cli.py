@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import sys
+import traceback
+import warnings
 
 
 def main(argv=None) -> int:
@@ -16,19 +19,35 @@ def main(argv=None) -> int:
     args = _parser().parse_args(arguments)
     from fecolumn.schema import InputError
 
+    warnings.showwarning = _show_warning
     try:
         return args.command(args)
     except InputError as error:
         return _refuse(error, 2)
     except KeyboardInterrupt:
-        print("stopped; the same command goes on from the last checkpoint", file=sys.stderr)
-        return 130
-    except OSError as error:
-        import errno
+        return _refuse("stopped; the same command goes on from the last checkpoint", 130)
+    except Exception as error:
+        full = isinstance(error, OSError) and error.errno == errno.ENOSPC
+        if full:
+            print("fecolumn: the disk is full; free room and run the same command again", file=sys.stderr)
+        else:
+            traceback.print_exc()
+        _abandon_other_ranks()
+        return 1
 
-        if error.errno == errno.ENOSPC:
-            return _refuse("the disk is full; free room and run the same command again", 1)
-        raise
+
+def _abandon_other_ranks() -> None:
+    """End the other ranks of this command too: they would wait for this one for ever."""
+    from mpi4py import MPI
+
+    if MPI.COMM_WORLD.size > 1:
+        sys.stderr.flush()
+        MPI.COMM_WORLD.Abort(1)
+
+
+def _show_warning(message, category, *_) -> None:
+    """One line, from one rank."""
+    _refuse(f"warning: {message}", 0)
 
 
 def _refuse(message, code: int) -> int:
@@ -92,11 +111,13 @@ def _resume(args) -> int:
 def _analyse(case, folder, file, quiet) -> int:
     from mpi4py import MPI
 
+    from fecolumn.interrupt import held_interrupts
     from fecolumn.post.history_figures import history_figures
     from fecolumn.simulation import AnalysisFailed, run
 
     try:
-        summary = run(case, folder, file=file, quiet=quiet)
+        with held_interrupts() as stop:
+            summary = run(case, folder, file=file, quiet=quiet, stop=stop)
     except AnalysisFailed as error:
         return _refuse(error, 1)
     if MPI.COMM_WORLD.rank == 0:

@@ -8,6 +8,7 @@ import fcntl
 import json
 import os
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,7 @@ class AnalysisFailed(RuntimeError):
     """The analysis could not go on; its state is saved in the result folder."""
 
 
-def run(case: Case, folder, *, comm=None, file: str = "case", quiet: bool = False) -> dict:
+def run(case: Case, folder, *, comm=None, file: str = "case", quiet: bool = False, stop=lambda: False) -> dict:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
 
     Args:
@@ -31,6 +32,7 @@ def run(case: Case, folder, *, comm=None, file: str = "case", quiet: bool = Fals
         comm: MPI communicator, all of MPI.COMM_WORLD unless given.
         file: the case's file, for messages.
         quiet: no progress on stderr.
+        stop: asked after every step whether to save and raise KeyboardInterrupt; see `fecolumn.interrupt`.
 
     Raises:
         InputError: the folder belongs to another case, or the motion cannot be used.
@@ -44,7 +46,7 @@ def run(case: Case, folder, *, comm=None, file: str = "case", quiet: bool = Fals
         summary = folder / "summary.json"
         if summary.is_file():
             return json.loads(summary.read_text())
-        return _Analysis(case, folder, comm, file, quiet).run()
+        return _Analysis(case, folder, comm, file, quiet).run(stop)
 
 
 def read_folder_case(folder) -> tuple[Case, str]:
@@ -125,6 +127,10 @@ class _Analysis:
         self.steps = int(round(self._duration() / plan.dt_s))
         specimen = share_specimen_mesh(case, comm)
         self.system = build_system(case, comm, specimen)
+        period = 1 / self.system.base.frequency
+        if plan.dt_s < period:
+            warnings.warn(f"{file}: integration.dt_s = {plan.dt_s:g} s resolves the base plate's own vibration (period {period:.2g} s), "
+                          "which is left out: the base responds statically", stacklevel=2)
         self.ledger = Ledger(self.system)
         self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
                                plan.max_iterations, plan.max_cuts)
@@ -148,6 +154,8 @@ class _Analysis:
             self.history, self.step = History(), 0
             self.ledger.open(self.state)
             self._note(0)
+            if self.fields:
+                self.fields.write(self.state)
 
     def _load_motion(self, file):
         if self.case.motion is None:
@@ -171,7 +179,7 @@ class _Analysis:
 
         return FieldWriter(self.folder / "fields", self.system, specimen)
 
-    def run(self) -> dict:
+    def run(self, stop) -> dict:
         from fecolumn.dynamics.stepper import StepFailed
         from fecolumn.progress import Progress
 
@@ -192,22 +200,25 @@ class _Analysis:
                 progress.show(self.step, measures, self.stepper.record)
                 if self.fields and self.step % field_steps == 0:
                     self.fields.write(self.state)
-                if self._all_agree(time.perf_counter() - saved > cadence.checkpoint_every_s):
+                due, ended = self._agree(time.perf_counter() - saved > cadence.checkpoint_every_s, stop())
+                if due or ended:
                     self._save()
                     saved = time.perf_counter()
+                if ended and self.step < self.steps and not overturned:
+                    raise KeyboardInterrupt
         except StepFailed as failure:
             self._save()
             raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
-        except KeyboardInterrupt:
-            self._save()
+        finally:
             progress.end()
-            raise
-        progress.end()
         return self._finish(overturned)
 
-    def _all_agree(self, wish: bool) -> bool:
-        """Rank 0's clock decides for all."""
-        return wish if self.comm.size == 1 else self.comm.bcast(wish)
+    def _agree(self, due: bool, ended: bool) -> tuple[bool, bool]:
+        """Checkpoint due, stop asked for: so for all ranks where it is so for one."""
+        if self.comm.size == 1:
+            return due, ended
+        votes = self.comm.allreduce(np.array([due, ended], int))
+        return bool(votes[0]), bool(votes[1])
 
     def _note(self, iterations: int) -> dict:
         measures = self.observer.measure(self.state)

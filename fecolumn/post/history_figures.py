@@ -12,12 +12,11 @@ from fecolumn.post.style import (BLACK, BLUE, COLUMN_WIDTH_IN, GREEN, LINES, ORA
                                  new_figure, save, styled)
 from fecolumn.schema import InputError
 
-# Terms of the ledger as a reader knows them, with colour and dash: stored energy, work put in, losses.
-_TERMS = {
-    "kinetic": ("kinetic", VERMILION, "-"), "strain": ("strain", ORANGE, "-"), "gravity": ("gravity potential", BLUE, "-"),
-    "contact": ("contact (penalty)", GREEN, "-"), "base_work": ("work of the base", BLACK, "-"),
-    "friction": ("friction loss", GREEN, "--"), "impact": ("impact loss", PURPLE, "--"), "algorithmic": ("algorithmic loss", SKY, "--"),
-}
+# Terms of the ledger as a reader knows them, with colour and dash: what is stored and put in, and what is lost.
+_MOVED = {"kinetic": ("kinetic", VERMILION, "-"), "strain": ("strain", ORANGE, "-"),
+          "gravity": ("gravity potential", BLUE, "-"), "base_work": ("work of the base", BLACK, "-")}
+_LOST = {"friction": ("friction", GREEN, "-"), "impact": ("impact", PURPLE, "-"),
+         "contact": ("contact on release", ORANGE, "--"), "algorithmic": ("numerical (HHT)", SKY, "-.")}
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,20 +106,25 @@ def path_figure(history: History, overturned: bool, path) -> list[Path]:
 
 
 def energy_figure(history: History, path) -> list[Path]:
-    """Terms of the energy ledger, and its closure error on axes of its own; terms that stay nil are left out."""
+    """The energy ledger: stored and supplied, lost, closure error; terms that stay nil are left out."""
     time, energy = history.time, history.energy
-    largest = max((float(np.abs(values).max()) for term, values in energy.items() if term in _TERMS), default=0.0)
     with styled():
-        figure = new_figure(PAGE_WIDTH_IN, 3.8)
-        terms, closure = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1]})
-        for term, (label, colour, dashes) in _TERMS.items():
-            if term in energy and np.abs(energy[term]).max() > 1e-6 * largest:
-                terms.plot(time, energy[term], color=colour, linestyle=dashes, label=label)
-        terms.set_ylabel("energy [J]")
-        _legend_beside(terms)
+        figure = new_figure(PAGE_WIDTH_IN, 4.6)
+        moved, lost, closure = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 1]})
+        for axes, terms in ((moved, _MOVED), (lost, _LOST)):
+            largest = max(float(np.abs(energy[term]).max()) for term in terms)
+            for term, (label, colour, dashes) in terms.items():
+                if np.abs(energy[term]).max() > 1e-6 * largest:
+                    axes.plot(time, energy[term], color=colour, linestyle=dashes, label=label)
+            if largest:
+                _legend_beside(axes)
+        moved.set_ylabel("energy [J]")
+        lost.set_ylabel("loss < 0 [J]")
+        lost.ticklabel_format(axis="y", scilimits=(-2, 3), useMathText=True)
         closure.plot(time, energy["closure"], color=BLACK, linewidth=0.8)
         closure.set(xlabel="time [s]", ylabel="closure [J]", xlim=(time[0], time[-1]))
         closure.ticklabel_format(axis="y", scilimits=(-2, 3), useMathText=True)
+        figure.align_ylabels()
         return save(figure, path)
 
 

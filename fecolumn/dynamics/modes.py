@@ -1,0 +1,63 @@
+"""Free vibration modes of a body: what the tied mesh does when nothing holds it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from petsc4py import PETSc
+
+# Shift of the spectrum [Hz], well below the first elastic mode of any column, so that K + (2 pi f)^2 M can be factored
+_SHIFT_HZ = 20.0
+
+
+@dataclass(frozen=True, slots=True)
+class Modes:
+    """Frequencies (m,) [Hz], rising, and shapes (m, n_owned, 3) with unit modal mass [1/sqrt(kg)].
+
+    A frequency below zero is one whose eigenvalue came out negative by rounding: -sqrt(|w^2|) / 2 pi.
+    """
+
+    frequencies: np.ndarray
+    shapes: np.ndarray
+
+
+def free_modes(body, count: int, tolerance: float = 1e-10) -> Modes:
+    """The `count` lowest modes of K x = w^2 M x, rigid ones included, ties as in the body.
+
+    Krylov-Schur with shift-invert (SLEPc), the shifted matrix factored by MUMPS. Constrained nodes carry neither mass nor
+    stiffness in the reduced matrices; they are pinned far above the wanted frequencies.
+
+    Raises:
+        RuntimeError: fewer modes converged than asked for.
+    """
+    from slepc4py import SLEPc
+
+    stiffness = body.constraint.pinned(body.stiffness.copy())
+    solver = SLEPc.EPS().create(body.comm)
+    solver.setOperators(stiffness, body.mass)
+    solver.setProblemType(SLEPc.EPS.ProblemType.GHEP)
+    solver.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
+    shift = -((2 * np.pi * _SHIFT_HZ) ** 2)
+    solver.setTarget(shift)
+    solver.setDimensions(count, PETSc.DECIDE, PETSc.DECIDE)
+    solver.setTolerances(tolerance, 1000)
+    transform = solver.getST()
+    transform.setType(SLEPc.ST.Type.SINVERT)
+    transform.setMatStructure(PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
+    linear = transform.getKSP()
+    linear.setType("preonly")
+    linear.getPC().setType("cholesky")
+    linear.getPC().setFactorSolverType("mumps")
+    solver.solve()
+    if solver.getConverged() < count:
+        raise RuntimeError(f"only {solver.getConverged()} of {count} modes converged")
+    shape, frequencies, shapes = stiffness.createVecRight(), [], []
+    for k in range(count):
+        value = solver.getEigenpair(k, shape).real
+        field = body.constraint.expand(shape.array.reshape(-1, 3).copy())
+        frequencies.append(np.sign(value) * np.sqrt(abs(value)) / (2 * np.pi))
+        shapes.append(field / np.sqrt(body.dot(shape.array.reshape(-1, 3), body.apply(body.mass, shape.array))))
+    solver.destroy(), stiffness.destroy(), shape.destroy()
+    order = np.argsort(frequencies)
+    return Modes(np.array(frequencies)[order], np.array(shapes)[order])

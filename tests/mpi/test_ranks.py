@@ -1,0 +1,62 @@
+"""Two ranks give the answer of one."""
+
+import json
+import os
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+from fecolumn._mpi import launch_environment
+
+SHAKEN = """
+extends = "{specimen}"
+[column]
+fine_height_m = 0.01
+[base]
+slide_allowance_m = 0.01
+[mesh]
+coarse_size_m = 0.03
+cap_size_m = 0.05
+base_size_m = 0.05
+[motion]
+source = "motion.csv"
+[integration]
+duration_s = 0.2
+alpha_hht = -0.05
+kinematics = "{kinematics}"
+[output]
+fields_every_s = 0.1
+"""
+
+
+def _run(n, case, out):
+    command = ["mpirun", "-n", str(n), sys.executable, "-m", "fecolumn.cli", "run", str(case), "-o", str(out)]
+    done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
+    assert done.returncode == 0, done.stderr
+    with h5py.File(out / "history.h5") as history:
+        return json.loads((out / "summary.json").read_text()), history["u_top"][:], done
+
+
+@pytest.mark.parametrize("kinematics", ["corotated", "total_lagrangian"])
+def test_two_ranks_give_the_history_of_one(tmp_path, kinematics):
+    time = np.arange(0, 0.5, 0.0025)
+    rows = [f"{t:.4f},{0.4 * np.sin(25 * t):.6f},{0.3 * np.sin(33 * t):.6f}\n" for t in time]
+    (tmp_path / "motion.csv").write_text("time [s],ax [g],ay [g]\n" + "".join(rows))
+    case = tmp_path / "case.toml"
+    case.write_text(SHAKEN.format(specimen=os.path.abspath("meshes/specimen.toml"), kinematics=kinematics))
+    one, two = (_run(n, case, tmp_path / str(n)) for n in (1, 2))
+    assert (one[0]["ranks"], two[0]["ranks"]) == (1, 2)
+    np.testing.assert_allclose(two[1], one[1], rtol=0, atol=1e-6 * np.abs(one[1]).max())
+    assert np.abs(one[1]).max() > 1e-4
+
+
+def test_refusal_is_said_once_and_ends_both_ranks(tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text("[column]\nwall = 1\n")
+    command = ["mpirun", "-n", "2", sys.executable, "-m", "fecolumn.cli", "run", str(case), "-o", str(tmp_path / "out")]
+    done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
+    assert done.returncode == 2
+    assert done.stderr.count("unknown key") == 1

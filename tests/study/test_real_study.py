@@ -1,0 +1,62 @@
+"""A study with the finite-element engine in worker processes: its table, its figure, and what it does a second time."""
+
+import csv
+import json
+
+import pytest
+
+from fecolumn.cli import main
+
+STUDY = """
+title = "Two motions, two alphas"
+[case]
+extends = "{specimen}"
+[case.column]
+fine_height_m = 0.0
+[case.base]
+slide_allowance_m = 0.01
+[case.mesh]
+coarse_size_m = 0.03
+cap_size_m = 0.05
+base_size_m = 0.05
+[case.integration]
+duration_s = 0.15
+[case.motion]
+source = "strong.csv"
+[axes]
+"integration.alpha_hht" = [0, -0.2]
+"motion.source" = ["strong.csv", "weak.csv"]
+"""
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    from study_files import SPECIMEN
+
+    folder = tmp_path_factory.mktemp("study")
+    for name, scale in (("strong", 0.5), ("weak", 0.2)):
+        rows = "".join(f"{0.005 * k:.4f},{scale if k % 20 < 10 else -scale:.3f}\n" for k in range(100))
+        (folder / f"{name}.csv").write_text("time [s],ax [g]\n" + rows)
+    file = folder / "study.toml"
+    file.write_text(STUDY.format(specimen=SPECIMEN))
+    assert main(["study", str(file), "-o", str(folder / "out"), "-j", "2"]) == 0
+    return file, folder / "out"
+
+
+def test_each_analysis_has_its_result_and_the_strong_motion_moves_the_top_more(study):
+    _, out = study
+    with open(out / "analyses.csv") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 4
+    assert (out / "cdf.png").is_file()
+    summaries = [json.loads(path.read_text()) for path in out.glob("analyses/*/summary.json")]
+    assert len(summaries) == 4 and all(one["energy_closure_rel"] < 1e-4 for one in summaries)
+    by_motion = {name: [one["u_max_m"] for one in summaries if one["motion"].startswith(name)] for name in ("strong", "weak")}
+    assert min(by_motion["strong"]) > max(by_motion["weak"]) > 0
+
+
+def test_a_second_time_nothing_is_left_to_do(study):
+    file, out = study
+    before = {path: path.stat().st_mtime_ns for path in out.glob("analyses/*/summary.json")}
+    assert main(["study", str(file), "-o", str(out), "-j", "2"]) == 0
+    assert {path: path.stat().st_mtime_ns for path in out.glob("analyses/*/summary.json")} == before
