@@ -6,6 +6,7 @@ Axes: x and y horizontal, z up, gravity along -z. Displacements are relative to 
 from __future__ import annotations
 
 import dataclasses
+import functools
 import hashlib
 import json
 import math
@@ -153,9 +154,15 @@ class Case:
 
     @property
     def id(self) -> str:
-        """Twelve hexadecimal digits that name everything but title and output cadence."""
+        """Twelve hexadecimal digits that name everything but title and output cadence.
+
+        Motions and meshes count by content, so that a study may be moved, and a file that changed makes another case.
+        """
         tables = dataclasses.asdict(self)
         del tables["title"], tables["output"]
+        for section, keys in _FILES.items():
+            for key in keys if tables[section] else ():
+                tables[section][key] = _content(tables[section][key])
         return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:12]
 
     @property
@@ -169,6 +176,24 @@ class Case:
         return self.column.height_m + (self.cap.thickness_m if self.cap else 0.0)
 
 
+# keys that may name files
+_FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
+
+
+def _content(source: str) -> str:
+    """Digest of the file `source`, or `source` itself where it is no file."""
+    if not Path(source).is_file():
+        return source
+    status = Path(source).stat()
+    return _digest(source, status.st_size, status.st_mtime_ns)
+
+
+@functools.lru_cache(maxsize=4096)
+def _digest(path: str, size: int, changed: int) -> str:
+    """sha256 of a file; size and time of change tell whether it is still the one read before."""
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
 def case_from_tables(tables: dict, file) -> Case:
     """Case from TOML tables; relative paths are taken from the folder of `file`."""
     case = build(Case, tables, file)
@@ -177,10 +202,10 @@ def case_from_tables(tables: dict, file) -> Case:
     def located(source: str) -> str:
         return source if not source or ":" in source or Path(source).is_absolute() else str(folder / source)
 
-    column = dataclasses.replace(case.column, mesh_file=located(case.column.mesh_file))
-    motion = case.motion and dataclasses.replace(
-        case.motion, **{key: located(getattr(case.motion, key)) for key in ("source", "source_y", "source_z")})
-    case = dataclasses.replace(case, column=column, motion=motion)
+    for name, keys in _FILES.items():
+        if section := getattr(case, name):
+            found = dataclasses.replace(section, **{key: located(getattr(section, key)) for key in keys})
+            case = dataclasses.replace(case, **{name: found})
     _check(case, file)
     return case
 

@@ -26,7 +26,7 @@ def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=Non
 
     Args:
         default: value when the key is absent; without one the key is required.
-        doc: meaning of the key, shown by `fecolumn doctor --keys` and in error messages.
+        doc: meaning of the key, shown in error messages.
         unit: physical unit, "-" when dimensionless.
         low, high: closed bounds of a number.
         above: open lower bound of a number.

@@ -6,13 +6,13 @@ import contextlib
 import dataclasses
 import fcntl
 import json
-import os
 import time
 import warnings
 from pathlib import Path
 
 import numpy as np
 
+from fecolumn.atomic import write_json
 from fecolumn.case import Case
 from fecolumn.schema import InputError
 
@@ -62,13 +62,6 @@ def read_folder_case(folder) -> tuple[Case, str]:
         raise InputError(path, "", None, "damaged: not valid JSON") from None
     tables = {key: value for key, value in saved["case"].items() if value is not None}
     return case_from_tables(tables, path), saved["file"]
-
-
-def write_json(path: Path, content: dict) -> None:
-    """Write JSON so that a reader sees all of it or the old file."""
-    partial = path.with_name(path.name + ".partial")
-    partial.write_text(json.dumps(content, indent=1) + "\n")
-    os.replace(partial, path)
 
 
 @contextlib.contextmanager

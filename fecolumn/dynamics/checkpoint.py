@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import os
+import io
 from pathlib import Path
 
 import numpy as np
 
+from fecolumn.atomic import write_bytes
 from fecolumn.dynamics.system import State
 
 _FIELDS = ("x", "v", "a", "contact_a", "internal")
@@ -36,12 +37,9 @@ def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
         if values is not None:
             arrays[name] = values[order]
     if column.comm.rank == 0:
-        partial = path.with_name(path.name + ".partial")
-        with open(partial, "wb") as file:
-            np.savez(file, **arrays, **{f"extra.{name}": value for name, value in extra.items()})
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(partial, path)
+        content = io.BytesIO()
+        np.savez(content, **arrays, **{f"extra.{name}": value for name, value in extra.items()})
+        write_bytes(path, content.getvalue())
 
 
 def read_checkpoint(path: Path, system) -> tuple[State, dict]:

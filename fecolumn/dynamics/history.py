@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
 
+from fecolumn.atomic import write_hdf5
 from fecolumn.dynamics.energy import TERMS
 
 UNITS = {"time": "s", "u_top": "m", "tilt": "rad", "twist": "rad", "slide": "m", "contact_force": "N",
@@ -39,17 +39,15 @@ class History:
 
     def write(self, path: Path, attributes: dict) -> None:
         """Write all rows; a reader sees the old file or the new one, never a part."""
-        import h5py
-
-        partial = path.with_name(path.name + ".partial")
-        with h5py.File(partial, "w") as file:
+        def fill(file):
             file.attrs.update(attributes)
             for name, values in self.arrays().items():
                 dataset = file.create_dataset(name, data=values, compression="gzip" if values.size > 1000 else None)
                 dataset.attrs["unit"] = UNITS.get(name, "J")
                 if name in MEANING:
                     dataset.attrs["meaning"] = MEANING[name]
-        os.replace(partial, path)
+
+        write_hdf5(path, fill)
 
 
 def read_history(path) -> dict[str, np.ndarray]:

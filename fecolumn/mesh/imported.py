@@ -75,7 +75,7 @@ def _read(path: Path, refuse):
         with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(out):
             return meshio.read(path)
     except KeyError as error:
-        refuse(None, f"cannot be read: an element refers to {error}, which the file does not define")
+        refuse(None, f"cannot be read: an element refers to {error.args[0]}, which the file does not define")
     except (SystemExit, Exception) as error:  # the readers raise whatever their parsing meets
         said = str(error) if not isinstance(error, SystemExit) else " ".join(out.getvalue().split())
         refuse(None, f"cannot be read as a mesh by meshio: {said or type(error).__name__}")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
 from dolfinx import fem
 
 from fecolumn import _dolfinx
+from fecolumn.atomic import write_bytes, write_hdf5
 from fecolumn.dynamics.checkpoint import gather_all
 from fecolumn.material.elasticity import isotropic_stress, von_mises
 from fecolumn.material.kinematics import linear_strain
@@ -78,9 +78,7 @@ class FieldWriter:
                          + _GEOMETRY.format(points=points) + "".join(fields) + "</Grid>")
         text = ('<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain><Grid Name="frames" GridType="Collection" CollectionType="Temporal">\n'
                 + "\n".join(grids) + "\n</Grid></Domain></Xdmf>\n")
-        partial = self.folder / "fields.xdmf.partial"
-        partial.write_text(text)
-        os.replace(partial, self.folder / "fields.xdmf")
+        write_bytes(self.folder / "fields.xdmf", text.encode())
 
 
 class _StressField:
@@ -122,10 +120,8 @@ def _vertex_nodes(body) -> np.ndarray:
 
 
 def _write_h5(path: Path, arrays: dict) -> None:
-    import h5py
-
-    partial = path.with_name(path.name + ".partial")
-    with h5py.File(partial, "w") as file:
+    def fill(file):
         for name, values in arrays.items():
             file.create_dataset(name, data=values, compression="gzip")
-    os.replace(partial, path)
+
+    write_hdf5(path, fill)

@@ -15,6 +15,7 @@ import sqlite3
 import time
 from pathlib import Path
 
+from fecolumn.atomic import write_json
 from fecolumn.schema import InputError
 from fecolumn.study.plan import Plan
 
@@ -49,8 +50,7 @@ class Store:
         self._lock = _locked(self.folder)
         _refuse_foreign(self.folder, identity)  # another driver may have been first
         if not (self.folder / "study.json").exists():
-            write_atomically(self.folder / "study.json",
-                             json.dumps({**identity, "title": plan.title, "axes": plan.axes}, indent=2) + "\n")
+            write_json(self.folder / "study.json", {**identity, "title": plan.title, "axes": plan.axes})
         self._ledger = sqlite3.connect(self.folder / "study.sqlite")
         self._ledger.execute("PRAGMA journal_mode = WAL")
         self._ledger.execute("PRAGMA synchronous = NORMAL")
@@ -136,13 +136,6 @@ class Store:
         self.close()
 
 
-def write_atomically(path: Path, text: str) -> None:
-    """Write a text file so that a reader, or a kill, sees the old content or the new, never a part."""
-    partial = path.with_name(path.name + ".part")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, path)
-
-
 def _refuse_foreign(folder: Path, identity: dict) -> None:
     """Refuse what this study must not touch, reading only."""
     if folder.exists() and not folder.is_dir():
@@ -150,7 +143,7 @@ def _refuse_foreign(folder: Path, identity: dict) -> None:
     try:
         found = json.loads((folder / "study.json").read_text())
     except FileNotFoundError:
-        if folder.exists() and {entry.name for entry in folder.iterdir()} - {"study.lock", "study.json.part"}:
+        if folder.exists() and {entry.name for entry in folder.iterdir()} - {"study.lock", "study.json.partial"}:
             raise InputError(folder, "", None, "is not empty and holds no study; give another folder") from None
         return
     except ValueError:

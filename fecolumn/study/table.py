@@ -7,12 +7,13 @@ import io
 import math
 from pathlib import Path
 
+from fecolumn.atomic import write_bytes
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.cdf_figure import Panel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.study.plan import Plan
-from fecolumn.study.store import DONE, write_atomically
+from fecolumn.study.store import DONE
 
 _LINE_AXIS = "integration.alpha_hht"  # the axis told apart by lines; all others by panels
 
@@ -106,4 +107,4 @@ def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
 def _write(path: Path, header: list, rows: list[list]) -> None:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([header, *rows])
-    write_atomically(path, text.getvalue())
+    write_bytes(path, text.getvalue().encode())

@@ -131,3 +131,17 @@ def test_help_loads_no_library(words):
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=os.environ)
     assert result.stderr.strip() == "[]", result.stderr
     assert "usage: fecolumn" in result.stdout
+
+
+def test_full_disk_stops_in_one_line_and_the_same_command_goes_on(whole, tmp_path, capsys):
+    """/dev/full in place of the file being written is what a full disk is to the program."""
+    case = write_case(tmp_path, extra="[output]\nfields_every_s = 0.05\ncheckpoint_every_s = 0.2\n")
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / ".lock").touch()
+    (out / "checkpoint.npz.partial").symlink_to("/dev/full")
+    assert main(["run", str(case), "-o", str(out), "-q"]) == 1
+    message = capsys.readouterr().err
+    assert "the disk is full" in message and message.count("\n") == 1
+    assert main(["run", str(case), "-o", str(out), "-q"]) == 0
+    np.testing.assert_array_equal(_tops(out), _tops(whole[1]))

@@ -11,7 +11,7 @@ import random
 import signal
 import time
 
-from fecolumn.study.store import write_atomically
+from fecolumn.atomic import write_json
 
 ENTRY = "rocking_block:run"
 
@@ -31,7 +31,7 @@ def run(case, folder, *, comm, file, quiet):
         return {}
     print("rocking", name)
     summary = rock(case, random.Random(name))
-    write_atomically(folder / "summary.json", json.dumps(summary))
+    write_json(folder / "summary.json", summary)
     return summary
 
 

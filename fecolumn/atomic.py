@@ -1,0 +1,44 @@
+"""Files that appear whole or not at all, whatever is killed and however full the disk is."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file so that a reader, and a crash of the machine, sees the old content or the new.
+
+    Raises:
+        OSError: disk full, folder gone; the old file is kept.
+    """
+    partial = path.with_name(path.name + ".partial")
+    try:
+        with open(partial, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(partial, path)
+    except OSError:
+        partial.unlink(missing_ok=True)
+        raise
+
+
+def write_json(path: Path, content) -> None:
+    """Write JSON with a line for each key."""
+    write_bytes(path, (json.dumps(content, indent=1) + "\n").encode())
+
+
+def write_hdf5(path: Path, fill) -> None:
+    """Write the HDF5 file that `fill(file)` makes.
+
+    It is made in memory: HDF5 cannot take a full disk, and ends the process when it meets one.
+    """
+    import h5py
+
+    with h5py.File(path.name, "w", driver="core", backing_store=False) as file:
+        fill(file)
+        file.flush()
+        content = file.id.get_file_image()
+    write_bytes(path, content)
