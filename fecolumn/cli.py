@@ -1,4 +1,4 @@
-"""The command line: fecolumn mesh | run | resume | study | doctor."""
+"""The command line: fecolumn mesh | run | resume | study | verify | doctor."""
 
 from __future__ import annotations
 
@@ -83,6 +83,11 @@ def _parser() -> argparse.ArgumentParser:
 
     command.add_arguments(study)
     study.set_defaults(command=command.main)
+    verify = commands.add_parser("verify", help="check the engines against exact solutions")
+    from fecolumn.verification import command as verification
+
+    verification.add_arguments(verify)
+    verify.set_defaults(command=verification.main)
     commands.add_parser("doctor", help="versions and known traps of this machine")
     return parser
 

@@ -1,0 +1,42 @@
+"""`fecolumn verify`: the verification cases, their table and figures."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from fecolumn.verification import ALL_ENGINES, CASES
+
+
+def add_arguments(parser) -> None:
+    """Arguments of `fecolumn verify`."""
+    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder for table and figures")
+    parser.add_argument("-k", "--case", metavar="NAME", default="", help=f"cases whose name contains NAME, of {', '.join(CASES)}")
+    parser.add_argument("--engine", metavar="E", action="append", choices=ALL_ENGINES, help="engine, of %(choices)s (default: each)")
+    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1, help="cases at a time (default: %(default)s)")
+    parser.add_argument("--long", action="store_true", help="finer meshes and smaller steps as well, hours")
+
+
+def main(args) -> int:
+    """Run the cases; 0 when every row holds, 1 when one does not.
+
+    Raises:
+        InputError: no case of that name, or a folder that cannot be written.
+    """
+    from pathlib import Path
+
+    from fecolumn.schema import InputError
+    from fecolumn.verification.suite import tasks, verify
+
+    pairs = tasks(args.case, args.engine or ALL_ENGINES)
+    if not pairs:
+        raise InputError("fecolumn verify", "-k", args.case, f"must be part of a case's name: {', '.join(CASES)}")
+    if args.jobs < 1:
+        raise InputError("fecolumn verify", "-j", args.jobs, "must be at least 1")
+    findings = verify(pairs, Path(args.output), args.long, args.jobs, show=lambda text: print(text, flush=True))
+    wrong = [finding for finding in findings if not finding.ok]
+    print(f"{sum(len(finding.rows) for finding in findings)} quantities, {len(findings) - len(wrong)} of {len(findings)} cases hold; "
+          f"wrote {os.path.join(args.output, 'table.csv')}")
+    for finding in wrong:
+        print(f"does not hold: {finding.case}, {finding.engine}", file=sys.stderr)
+    return 1 if wrong else 0

@@ -1,0 +1,73 @@
+"""Small systems to verify: the specimen on a coarse mesh, and blocks of bricks on blocks of bricks."""
+
+from __future__ import annotations
+
+import numpy as np
+from mpi4py import MPI
+
+from fecolumn.case import Material, case_from_tables
+from fecolumn.contact.base_plate import BasePlate
+from fecolumn.dynamics.assembly import build_system
+from fecolumn.dynamics.body import Body
+from fecolumn.dynamics.corotated import Corotated
+from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.system import System
+from fecolumn.dynamics.total_lagrangian import TotalLagrangian
+from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_quads
+from fecolumn.mesh.gmsh_section import swept_grid
+from fecolumn.mesh.surface import nodal_areas
+from fecolumn.schema import merge
+
+# The reference specimen on the coarsest mesh that keeps every part; meshes/specimen.toml has the sources of the numbers.
+COARSE = {
+    "title": "Coarse specimen",
+    "column": {"outer_diameter_m": 0.1016, "wall_m": 0.005, "height_m": 1.0, "fine_height_m": 0.03},
+    "cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.01},
+    "base": {"length_m": 0.2, "width_m": 0.2, "thickness_m": 0.02, "slide_allowance_m": 0.01},
+    "mesh": {"fine_size_m": 0.005, "coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05},
+    "integration": {"duration_s": 1.0, "alpha_hht": 0.0},
+}
+
+
+def column_case(engine: str, **tables):
+    """Case of the coarse specimen; `tables` are merged over it, e.g. contact={"friction_coefficient": 0.8}."""
+    return case_from_tables(merge(merge(COARSE, tables), {"integration": {"kinematics": engine}}), "verification")
+
+
+def column_system(engine: str, **tables) -> System:
+    """The coarse specimen as a system of its own on this process."""
+    return build_system(column_case(engine, **tables), MPI.COMM_SELF)
+
+
+def box(x, y, z) -> BrickMesh:
+    """Bricks between grid lines x, y, z [m], each rising."""
+    return swept_grid(np.asarray(x, float), np.asarray(y, float), np.asarray(z, float), LOWER)
+
+
+def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, material: Material | None = None,
+                 base_material: Material | None = None, friction: float = 0.3, gravity=(0.0, 0.0, -9.80665), filtered: bool = True,
+                 order: int = 1, foot_height: float = 0.0) -> System:
+    """A body of bricks over a base of bricks.
+
+    Args:
+        engine: of ALL_ENGINES.
+        mesh: the body; its faces with all corners between z = 0 and `foot_height` [m] and facing down are the foot.
+        base: tensor-product grid with its top at z = 0, held at its bottom.
+        material, base_material: steel unless given.
+        filtered: contact as the plastic impact law needs it; False for the literal HHT (Stepper's impact "none").
+    """
+    comm = MPI.COMM_SELF
+    steel = Material(youngs_modulus_pa=200e9, poissons_ratio=0.3, density_kg_m3=7850.0)
+    body = Body(comm, mesh, material or steel, order)
+    kinematics = TotalLagrangian(body) if engine == "total_lagrangian" else Corotated(body)
+    quads = boundary_quads(mesh, LOWER, foot_height / 2, foot_height / 2 + 1e-9 * np.ptp(mesh.points[:, 2]))
+    points, position = np.unique(quads, return_inverse=True)
+    areas = nodal_areas(mesh.points[quads], position.reshape(quads.shape), len(points), 1)
+
+    def held(plate):
+        bottom = plate.all_X[:, 2].min()
+        return {}, np.flatnonzero(plate.all_X[:, 2] < bottom + 1e-9 * np.ptp(plate.all_X[:, 2]))
+
+    plate = BasePlate(Body(comm, base, base_material or material or steel, 1, held))
+    return System(body, kinematics, plate, body.find_nodes(mesh.points[points]), areas, friction, np.zeros((len(points), 3)),
+                  gravity, hht, filtered=filtered)

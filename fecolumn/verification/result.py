@@ -1,0 +1,45 @@
+"""What a verification case finds: rows of exact against computed, and how to draw it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One quantity of a case.
+
+    Attributes:
+        quantity: what it is, with its unit in brackets.
+        exact: closed form, or the bound's ideal 0.
+        computed: by the engine.
+        tolerance: largest `error` allowed.
+        scale: what the error is relative to; |exact| unless given, 1 where exact is 0.
+        order: measured order of convergence, where the row is the finest of a series.
+    """
+
+    quantity: str
+    exact: float
+    computed: float
+    tolerance: float
+    scale: float | None = None
+    order: float | None = None
+
+    @property
+    def error(self) -> float:
+        """|computed - exact| / scale."""
+        return abs(self.computed - self.exact) / (self.scale or abs(self.exact) or 1.0)
+
+    @property
+    def ok(self) -> bool:
+        return bool(self.error <= self.tolerance)  # a NaN is not
+
+
+@dataclass(slots=True)
+class Result:
+    """Rows of a case, and `draw(figure)` that fills a matplotlib figure of `size` (width, height) [in]."""
+
+    rows: list[Row] = field(default_factory=list)
+    draw: Callable | None = None
+    size: tuple[float, float] = (7.2, 2.8)

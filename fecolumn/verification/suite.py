@@ -1,0 +1,105 @@
+"""Runs the verification cases, prints their table and writes it with a figure for each case."""
+
+from __future__ import annotations
+
+import csv
+import importlib
+import io
+import os
+import time
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+
+from fecolumn.atomic import write_bytes
+from fecolumn.verification import ALL_ENGINES, CASES
+from fecolumn.verification.result import Row
+
+_WIDTH = 74
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Rows of one case in one engine, its wall time [s], and `failure` where it raised."""
+
+    case: str
+    engine: str
+    rows: tuple[Row, ...]
+    wall_s: float
+    failure: str = ""
+
+    @property
+    def ok(self) -> bool:
+        return not self.failure and all(row.ok for row in self.rows)
+
+
+def tasks(name: str = "", engines=ALL_ENGINES) -> list[tuple[str, str]]:
+    """(case, engine) pairs of the suite whose case's name contains `name`."""
+    return [(case, engine) for case, able in CASES.items() if name in case for engine in able if engine in engines]
+
+
+def run_case(case: str, engine: str, folder: Path | None = None, long: bool = False) -> Finding:
+    """Run one case in one engine; write its figure into `folder`."""
+    module, began = importlib.import_module(f"fecolumn.verification.{case}"), time.perf_counter()
+    try:
+        result = module.run(engine, long)
+    except Exception as error:  # one case that breaks must not hide the others
+        import traceback
+
+        traceback.print_exc()
+        return Finding(case, engine, (), time.perf_counter() - began, f"{type(error).__name__}: {error}")
+    if folder and result.draw:
+        from fecolumn.post.style import new_figure, save, styled
+
+        with styled():
+            figure = new_figure(*result.size)
+            result.draw(figure)
+            save(figure, folder / f"{case}_{engine}")
+    return Finding(case, engine, tuple(result.rows), time.perf_counter() - began)
+
+
+def verify(pairs, folder: Path, long: bool = False, workers: int = 1, show=print) -> list[Finding]:
+    """Run (case, engine) pairs in worker processes, show each as it ends, write table.csv and figures into `folder`."""
+    folder.mkdir(parents=True, exist_ok=True)
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    show(header())
+    found = {}
+    with ProcessPoolExecutor(max_workers=workers, mp_context=get_context("spawn")) as pool:
+        futures = {pool.submit(run_case, *pair, folder, long): pair for pair in pairs}
+        for future in as_completed(futures):
+            found[futures[future]] = future.result()
+            show(lines(future.result()))
+    findings = [found[pair] for pair in pairs]
+    write_bytes(folder / "table.csv", _csv(findings).encode())
+    write_bytes(folder / "table.txt", "\n".join([header(), *map(lines, findings), ""]).encode())
+    return findings
+
+
+def header() -> str:
+    return f"{'case, quantity':<{_WIDTH}}{'exact':>12}{'computed':>12}{'error':>10}{'allowed':>10}{'order':>7}  ok"
+
+
+def lines(finding: Finding) -> str:
+    """The rows of a finding as text."""
+    text = [f"{finding.case}, {finding.engine} ({finding.wall_s:.0f} s)"]
+    for row in finding.rows:
+        order = f"{row.order:.2f}" if row.order is not None else ""
+        text.append(f"  {row.quantity:<{_WIDTH - 2}}{row.exact:>12.5g}{row.computed:>12.5g}{row.error:>10.1e}{row.tolerance:>10.1e}{order:>7}"
+                    f"  {'yes' if row.ok else 'NO'}")
+    if finding.failure:
+        text.append(f"  FAILED: {finding.failure}")
+    return "\n".join(text)
+
+
+def _csv(findings) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(["case", "engine", "quantity", "exact", "computed", "error", "tolerance", "order", "ok"])
+    for finding in findings:
+        for row in finding.rows:
+            writer.writerow([finding.case, finding.engine, row.quantity, row.exact, row.computed, row.error, row.tolerance,
+                             "" if row.order is None else row.order, row.ok])
+        if finding.failure:
+            writer.writerow([finding.case, finding.engine, finding.failure, "", "", "", "", "", False])
+    return text.getvalue()

@@ -1,0 +1,76 @@
+"""A system, its state and its ledger, advanced without result files."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.dynamics.energy import TERMS, Ledger
+from fecolumn.dynamics.gravity import standing
+from fecolumn.dynamics.stepper import Stepper
+
+
+class Trial:
+    """Steps a system from a start.
+
+    Args:
+        system: what to step.
+        start: function of the system that returns the first state; gravity equilibrium unless given.
+        impact: "plastic" or, for a system built with filtered=False, "none".
+
+    Attributes:
+        state: the present state. penetration: deepest so far [m].
+    """
+
+    def __init__(self, system, start=standing, impact: str = "plastic"):
+        self.system = system
+        self.state = self.start = start(system)
+        self.ledger = Ledger(system)
+        self.ledger.open(self.state)
+        self.stepper = Stepper(system, self.ledger, impact)
+        self.penetration = 0.0
+
+    def step(self, ground=(0.0, 0.0, 0.0)):
+        """Advance by the system's dt under a ground acceleration [m/s2] at the new time; returns the state."""
+        self.state = self.stepper.step(self.state, np.asarray(ground, float))
+        self.penetration = max(self.penetration, -float(self.state.relative[:, 2].min()))
+        return self.state
+
+    def energy(self) -> dict[str, float]:
+        """The ledger now [J], by the names of energy.TERMS."""
+        return dict(zip(TERMS, self.ledger.row(self.state).tolist()))
+
+    def mechanical(self) -> float:
+        """Kinetic, strain and gravity energy now [J]."""
+        return float(sum(self.ledger.state_terms(self.state).values()))
+
+    def top(self) -> np.ndarray:
+        """Displacement (3,) [m] of the highest node: any one serves to compare analyses of one mesh."""
+        node = np.lexsort(self.system.column.all_X.T)[-1]
+        return self.state.x[node] - self.system.column.X[node]
+
+
+class RigidRocking:
+    """Planar rocking about the rim of a system's mesh, taken as rigid (Housner 1963), from the mesh's own masses.
+
+    Attributes:
+        slenderness: critical tilt alpha [rad]. diagonal: R from rim to centre of mass [m]. inertia: I_O about the rim
+        [kg m2]. p: sqrt(m g R / I_O) [rad/s]. restitution: 1 - 2 m R^2 sin^2(alpha) / I_O [-].
+    """
+
+    def __init__(self, system):
+        column, radius = system.column, np.linalg.norm(system.interface.reference[:, :2], axis=1).max()
+        height = column.center[2]
+        self.slenderness, self.diagonal = float(np.arctan2(radius, height)), float(np.hypot(radius, height))
+        about_center = column.node_mass @ (column.X[:, 0] ** 2 + (column.X[:, 2] - height) ** 2)
+        self.inertia = float(about_center + column.total_mass * self.diagonal**2)
+        self.p = float(np.sqrt(system.weight * self.diagonal / self.inertia))
+        self.restitution = 1 - 2 * column.total_mass * self.diagonal**2 * np.sin(self.slenderness) ** 2 / self.inertia
+        self.moment = float(system.weight * self.diagonal)
+
+    def energy(self, tilt: float) -> float:
+        """Gravity energy of a tilt [rad] above standing [J]."""
+        return self.moment * float(np.cos(self.slenderness - tilt) - np.cos(self.slenderness))
+
+    def quarter_period(self, tilt: float) -> float:
+        """From release at `tilt` [rad] to upright [s], slender block."""
+        return float(np.arccosh(1 / (1 - tilt / self.slenderness)) / self.p)
