@@ -123,7 +123,7 @@ class Stepper:
         self._book(state, after, hht, F0 + F1, worked)
         landing = (state.forces[:, 2] <= 0) & (state.relative[:, 2] > OPEN) & (forces[:, 2] > 0)
         if self.plastic and landing.any():
-            self._impact(after, dt, outcome.footing)
+            self._impact(state, after, dt, outcome.footing, landing)
         return after
 
     def _anchors(self, state, outcome) -> np.ndarray:
@@ -152,22 +152,42 @@ class Stepper:
         self.ledger.add(base_work=-np.dot((state.ground + after.ground) / 2, carried), algorithmic=algorithmic,
                         friction=friction, impact=landed, contact=contact - friction - landed)
 
-    def _impact(self, after, dt, footing) -> None:
-        """Replace the impulses of the step by those of a plastic impact; changes the velocities of `after`."""
+    def _impact(self, state, after, dt, footing, landing) -> None:
+        """Replace the impulses of the step by those of a plastic impact; changes the velocities of `after`.
+
+        The points of the foot that held the column before carry it until the moment of impact, all together from then on:
+        two projections, without which the weight's impulse of the whole step would act at the new contact.
+        """
         interface, R = self.system.interface, after.rotation
-        active = np.flatnonzero(after.forces[:, 2] > 0)
-        velocity = interface.dynamic_velocity(after.v, R)
+        before = np.flatnonzero(state.forces[:, 2] > 0)
+        union = np.flatnonzero((after.forces[:, 2] > 0) | (state.forces[:, 2] > 0))
+        held = np.searchsorted(union, before)
+        mobility = turned(interface.foot.mobility, union, R)
+        compliance = mobility + YIELD * 2 / dt**2 * interface.static_compliance(union, R, footing)
         given = dt * after.forces
-        mobility = turned(interface.foot.mobility, active, R)
-        before = velocity.copy()
-        before[active] -= (mobility @ given[active].ravel()).reshape(-1, 3)
-        static = YIELD * 2 / dt**2 * interface.static_compliance(active, R, footing)
-        impulses, solution = interface.impact(active, mobility + static, before, given)
-        self.record.contact_iterations += solution.iterations + solution.sweeps
-        if solution.residual > 1e-8 * max(np.abs(velocity[active]).max(), 1e-3):
-            raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: impact residual {solution.residual:.2e} m/s")
+        start, end = interface.dynamic_velocity(state.v, R), interface.dynamic_velocity(after.v, R)
+        end[union] -= (mobility @ given[union].ravel()).reshape(-1, 3)
+        moment = self._moment_of_impact(state, after, -(start + end)[:, 2] / 2 * dt, landing)
+        rows = (3 * held[:, None] + np.arange(3)).ravel()
+        velocity = start + moment * (end - start)
+        carried, first = interface.impact(before, compliance[np.ix_(rows, rows)], velocity, moment * dt * state.forces)
+        velocity = np.array(end)
+        velocity[union] += (mobility @ carried[union].ravel()).reshape(-1, 3)
+        impulses, second = interface.impact(union, compliance, velocity, given - carried)
+        impulses += carried
+        self.record.contact_iterations += first.iterations + first.sweeps + second.iterations + second.sweeps
+        residual = max(first.residual, second.residual)
+        if residual > 1e-8 * max(np.abs(velocity[union]).max(), 1e-3):
+            raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: impact residual {residual:.2e} m/s")
         jump = interface.foot.acceleration((impulses - given) @ R) @ R.T
         column = self.system.column
         self.ledger.add(impact=column.dot(after.v + jump / 2, column.apply(column.mass, jump)))
         after.v = after.v + jump
         self.record.impacts += 1
+
+    @staticmethod
+    def _moment_of_impact(state, after, approach, landing) -> float:
+        """Fraction of the step at which the landing points (mask) arrive, a mean by their forces; `approach` (n,) [m]."""
+        gap = state.relative[landing, 2]
+        arrival = np.clip(gap / np.maximum(approach[landing], gap), 0.0, 1.0)
+        return float(np.average(arrival, weights=after.forces[landing, 2]))
