@@ -48,8 +48,8 @@ class Body:
         self.constraint = Constraint(self, *(constrain(self) if constrain else ({}, ())))
         self.mass, self.stiffness = self.constraint.reduce(mass), self.constraint.reduce(stiffness)
         mass.destroy(), stiffness.destroy()
-        #: Largest diagonal entry of the stiffness [N/m].
-        self.stiffness_scale = self.stiffness.getDiagonal().max()[1]
+        #: Largest diagonal entries of stiffness [N/m] and mass [kg].
+        self.stiffness_scale, self.mass_scale = (matrix.getDiagonal().max()[1] for matrix in (self.stiffness, self.mass))
         self.unit_loads = np.stack([self.apply(self.mass, np.tile(e, (self.n_owned, 1))) for e in np.eye(3)])
         self.node_mass = self.unit_loads[2, :, 2]
         self.total_mass = self.sum(self.node_mass.sum())

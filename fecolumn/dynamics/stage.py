@@ -108,7 +108,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             static_energy = float(np.sum(forces * (given + interface.own * forces))) / 2
             sunk = relative[:, 2] < -PENETRATION
             sunk[active] = False
-            if size <= max(tolerance, system.rounding / reference) and not sunk.any():
+            if size <= max(tolerance, system.rounding(operators.mass_factor) / reference) and not sunk.any():
                 return ended(Stop.CONVERGED)
         if iteration == max_iterations:
             break

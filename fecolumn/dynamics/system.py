@@ -75,8 +75,6 @@ class System:
         self.foot_nodes, self.areas = foot_nodes, areas
         self.gravity, self.hht = np.asarray(gravity, float), hht
         self.weight = column.total_mass * np.linalg.norm(self.gravity)
-        # internal forces are stiffness times (position - position): the rounding of a few such products [N]
-        self.rounding = 4 * np.finfo(float).eps * column.stiffness_scale * np.ptp(column.all_X, axis=0).max()
         self.factorizations = 1  # the base's
         self._operators: dict[tuple, Operators] = {}
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)
@@ -111,6 +109,12 @@ class System:
     def forget(self, mass_factor: float, stiffness_factor: float) -> None:
         """Free the operators of a stage."""
         self._operators.pop((mass_factor, stiffness_factor)).factor.destroy()
+
+    def rounding(self, mass_factor: float) -> float:
+        """Nodal force [N] that rounding leaves: internal and inertial forces are matrix times (position - position)."""
+        column = self.column
+        scale = column.stiffness_scale + mass_factor * column.mass_scale
+        return 4 * np.finfo(float).eps * scale * np.ptp(column.all_X, axis=0).max()
 
     def load(self, ground: np.ndarray) -> np.ndarray:
         """Gravity and base-motion forces (n_owned, 3) on the column for a ground acceleration (3,)."""

@@ -7,6 +7,20 @@ import numpy as np
 from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.stepper import Stepper
+from fecolumn.dynamics.system import State
+
+
+def afloat(system, displacement, velocity, acceleration, height: float) -> State:
+    """A body `height` [m] above its reference place, touching nothing, with fields (n_owned, 3) in SI units at t = 0.
+
+    The acceleration must be that of gravity and internal forces: HHT remembers it.
+    """
+    x = system.column.X + [0.0, 0.0, height] + displacement
+    rotation, internal, strain = system.kinematics.internal(x)
+    relative = system.interface.dynamic_position(x, rotation)
+    return State(time=0.0, x=x, v=np.array(velocity, float), a=np.array(acceleration, float), contact_a=np.zeros_like(x), internal=internal,
+                 strain=strain, rotation=rotation, forces=np.zeros((system.interface.size, 3)), anchors=relative[:, :2].copy(),
+                 relative=relative, static=0.0, ground=np.zeros(3))
 
 
 class Trial:
