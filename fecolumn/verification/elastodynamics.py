@@ -59,7 +59,10 @@ def run(engine: str, long: bool) -> Result:
         left.legend()
         for (alpha, errors), marker in zip(temporal.items(), "os^"):
             right.loglog(FREQUENCY * UNTIL / np.array(counts), errors, marker + "-", label=rf"$\alpha$ = {alpha:g}")
+        steps = FREQUENCY * UNTIL / np.array(counts)
         right.set(xlabel=r"$\omega\,\Delta t$", ylabel="error / amplitude (L2)")
+        right.set_xticks(steps, [f"{step:.2f}" for step in steps])
+        right.minorticks_off()
         right.legend()
 
     result.draw = draw
@@ -72,13 +75,13 @@ def mode(points: np.ndarray) -> np.ndarray:
     return np.stack([np.cos(x) * np.sin(y), -np.sin(x) * np.cos(y), np.zeros_like(x)], axis=1)
 
 
-def moving(system) -> State:
-    """The cube released above the base with the velocity of the mode: unstrained, so that only gravity accelerates it."""
+def released(system, velocity: np.ndarray) -> State:
+    """The body released LIFT above the base with a velocity field (n, 3) [m/s]: unstrained, so that only gravity accelerates it."""
     column, interface = system.column, system.interface
     x = column.X + [0.0, 0.0, LIFT]
     rotation, internal, strain = system.kinematics.internal(x)
     relative = interface.dynamic_position(x, rotation)
-    return State(time=0.0, x=x, v=AMPLITUDE * FREQUENCY * mode(column.X), a=np.tile(system.gravity, (len(x), 1)), contact_a=np.zeros_like(x),
+    return State(time=0.0, x=x, v=velocity, a=np.tile(system.gravity, (len(x), 1)), contact_a=np.zeros_like(x),
                  internal=internal, strain=strain, rotation=rotation, forces=np.zeros((interface.size, 3)),
                  anchors=relative[:, :2].copy(), relative=relative, static=0.0, ground=np.zeros(3))
 
@@ -89,7 +92,7 @@ def displacement(engine: str, bricks: int, degree: int, steps: int, alpha: float
     wide = np.linspace(-SIDE, 2 * SIDE, 3)
     system = block_system(engine, box(line, line, line), box(wide, wide, [-SIDE, 0.0]), HHT(UNTIL / steps, alpha),
                           order=degree)
-    trial = Trial(system, moving)
+    trial = Trial(system, lambda system: released(system, AMPLITUDE * FREQUENCY * mode(system.column.X)))
     for _ in range(steps):
         trial.step()
     if shape is not None:
