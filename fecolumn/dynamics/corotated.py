@@ -34,6 +34,14 @@ class Corotated:
         force = self.body.apply(self.body.stiffness, deformation)
         return rotation, force @ rotation.T, 0.5 * self.body.dot(deformation, force)
 
+    def moved(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Positions after an increment (n_owned, 3) [m] of an iteration; the stretch of its turn falls out with R."""
+        return x + step
+
+    def predicted(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """First guess after a time step's increment (n_owned, 3) [m]."""
+        return x + step
+
     def local_displacement(self, x: np.ndarray) -> np.ndarray:
         """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are computed."""
         return x @ self.rotation(x) - self.body.X

@@ -121,7 +121,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
 
         # Newton about the present forces, so that a slightly turned compliance does not matter at convergence
         turn, along = rotation @ operators.rotation.T, halfway @ operators.rotation.T
-        x = x + operators.factor.solve(total @ turn) @ turn.T
+        x = system.kinematics.moved(x, operators.factor.solve(total @ turn) @ turn.T)
         position = interface.dynamic_position(x, rotation)
         active = np.flatnonzero((position[:, 2] < NEAR) | (forces[:, 2] > 0) | sunk)
         dynamic = scale * turned(operators.response.compliance, active, along)
@@ -132,5 +132,5 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         contact_iterations += solution.iterations + solution.sweeps
         if solution.residual > CONTACT_TOLERANCE:
             return ended(Stop.CONTACT, f"contact residual {solution.residual:.2e} m")
-        x = x + scale * operators.response.displacement((forces - old) @ along) @ along.T
+        x = system.kinematics.moved(x, scale * operators.response.displacement((forces - old) @ along) @ along.T)
     return ended(Stop.ITERATIONS)

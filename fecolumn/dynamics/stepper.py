@@ -80,7 +80,7 @@ class Stepper:
             return self._hht_step(state, ground, hht)
         except StepFailed as failure:
             self.ledger.work.update(booked)
-            if cuts == self.max_cuts or failure.stop is Stop.OFF_BASE:
+            if cuts == self.max_cuts:
                 cut = f" (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else ""
                 raise StepFailed(failure.stop, f"t = {state.time:.6g} s: {failure}{cut}") from None
             self.record.cuts += 1
@@ -95,7 +95,7 @@ class Stepper:
         stage = Stage(
             target=state.x + dt * state.v + dt**2 * (0.5 - be) * state.a,
             load=(1 + al) * F1 - al * F0 + al * state.internal,
-            start=state.x + dt * state.v + dt**2 / 2 * (state.a + state.contact_a),
+            start=system.kinematics.predicted(state.x, dt * state.v + dt**2 / 2 * (state.a + state.contact_a)),
             scale=1 / (2 * be) if self.plastic else 1.0, anchors=state.anchors, forces=state.forces, rotation=state.rotation)
         operators = system.operators(hht.mass_factor, hht.stiffness_factor)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
