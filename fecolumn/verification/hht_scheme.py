@@ -21,7 +21,8 @@ slope over a factor of 8 by W^2 / (2 ln 8) = 0.037, 2 % of 2. Departure from A: 
 1e-7 of the mode's, in a step, and a few of these add up; the strains of 1e-5 make the total Lagrangian block stiffer by no more:
 1e-6 of the amplitude, of its energy, of W' and of ln |A|. Entries of A: position rounding of 1e-16 m over 1e-5 m
 and the same unbalanced force: 1e-6. Spectral radius: the modulus at infinity is a double eigenvalue, that perturbations e of A split by
-(e / d)^(1/2), d the distance to the third, -al / (1 + al): at least 1e-3. With e = 1e-10 of rounding and of (w dt)^-2, w dt = 1e5: 1e-3.
+(e / d)^(1/2), d the distance of its modulus to the third one's, -al / (1 + al): 1e-3 at alpha = -0.333, else more. With e = 1e-10, both of
+rounding and of (w dt)^-2 at w dt = 1e5: 1e-3.
 """
 
 from __future__ import annotations
@@ -128,25 +129,27 @@ def run(engine: str, long: bool) -> Result:
         exact, computed, closure = series[COARSE.index(0.1)]
         result.rows += [Row(f"damping ratio at dt / T = 0.1, alpha {alpha:g} [-]", round(exact[0], 12), computed[0], 1e-6, scale=1.0),
                         Row(f"period error at dt / T = 0.1, alpha {alpha:g} [-]", exact[1], computed[1], 1e-6, scale=1.0)]
-    result.rows.append(Row("ledger closure / energy, worst alpha and dt [-]", 0.0, max(abs(one[2]) for s in damped.values() for one in s), 1e-6))
+    worst = max(abs(closure) for series in damped.values() for _, _, closure in series)
+    result.rows.append(Row("ledger closure / energy, worst alpha and dt [-]", 0.0, worst, 1e-6))
 
     angles, radii, departure = 2 * np.pi * np.geomspace(0.05, STIFF / (2 * np.pi), 12), {}, 0.0
     for alpha in ALPHAS:
         matrices = [mode.matrix(alpha, angle) for angle in angles]
         departure = max(departure, *(np.abs(found - amplification(alpha, angle)).max() for found, angle in zip(matrices, angles)))
         radii[alpha] = [np.abs(np.linalg.eigvals(found)).max() for found in matrices]
-        result.rows.append(Row(f"spectral radius at w dt = {STIFF:g}, alpha {alpha:g} [-]", (1 + alpha) / (1 - alpha), radii[alpha][-1], 1e-3))
+        limit = (1 + alpha) / (1 - alpha)
+        result.rows.append(Row(f"spectral radius at w dt = {STIFF:g}, alpha {alpha:g} [-]", limit, radii[alpha][-1], 1e-3))
     result.rows.append(Row(f"entries of the amplification matrix, w dt 0.3 to {STIFF:g}, largest departure [-]", 0.0, departure, 1e-6))
     result.draw = lambda figure: draw(figure, errors, damped, angles, radii)
     return result
 
 
 def convergence(mode: Mode, alpha: float, angle: float, count: int) -> tuple[np.ndarray, float, float]:
-    """Largest errors (3,) of u, v, a over their amplitudes, departure from the amplification matrix, and change of energy."""
+    """Largest errors (4,) of FIELDS and of a at t over their amplitudes, departure from the amplification matrix, and change of energy."""
     history, energy, _ = mode.steps(alpha, angle, (1, 0, -angle**2), count)
     phase, scale = angle * np.arange(1, count + 1), np.array([1, angle, angle**2])
-    exact = np.column_stack([np.cos(phase), -np.sin(phase), -np.cos(phase + alpha * angle)])
-    error = np.abs(history[1:] / scale - exact).max(axis=0)
+    exact = np.column_stack([np.cos(phase), -np.sin(phase), -np.cos(phase + alpha * angle), -np.cos(phase)])
+    error = np.abs((history[1:] / scale)[:, [0, 1, 2, 2]] - exact).max(axis=0)
     z, A, away = history[0], amplification(alpha, angle), 0.0
     for found in history[1:]:
         z = A @ z
@@ -160,35 +163,45 @@ def decays(mode: Mode, alpha: float) -> list[tuple[tuple[float, float], tuple[fl
     for ratio in COARSE:
         angle = 2 * np.pi * ratio
         history, _, closure = mode.steps(alpha, angle, (1, 0, -angle**2), round(5 / ratio))
-        pairs = [(xi, angle / turned - 1) for xi, turned in (principal(np.linalg.eigvals(amplification(alpha, angle))), of_history(history[:, 0]))]
+        both = principal(np.linalg.eigvals(amplification(alpha, angle))), of_history(history[:, 0])
+        pairs = [(damping, angle / turned - 1) for damping, turned in both]
         found.append((*pairs, closure))
     return found
 
 
 def draw(figure, errors, damped, angles, radii) -> None:
-    """Convergence, damping ratio, period error and spectral radius; lines exact, marks computed."""
+    """Convergence, damping ratio, period error and spectral radius against dt over the period; lines exact but for the first."""
     (converged, damping), (period, radius) = figure.subplots(2, 2)
     ratios, fine, wide = 1 / np.array(PER_PERIOD), np.linspace(0.01, 0.42, 42), np.geomspace(0.05, angles[-1] / (2 * np.pi), 300)
-    for alpha, (colour, _) in zip(ALPHAS, LINES):
-        label = rf"$\alpha$ = {alpha:g}"
-        for series, mark in zip(errors[alpha].T, "os^"):
-            converged.loglog(ratios, series, "-", marker=mark, color=colour, markersize=3, linewidth=0.7, markerfacecolor="none")
+    shapes = ("o", 3, "$u$"), ("s", 6, "$v$"), ("^", 3.5, r"$a$, as of $t + \alpha\,\Delta t$")
+    for alpha, (colour, dashes) in zip(ALPHAS, LINES):
+        line = dict(color=colour, linestyle=dashes, label=rf"$\alpha$ = {alpha:g}")
+        mark = dict(color=colour, linestyle="none", markersize=3.5)
         pairs = np.array([principal(np.linalg.eigvals(amplification(alpha, 2 * np.pi * ratio))) for ratio in fine])
-        marks = np.array([computed for _, computed, _ in damped[alpha]])
-        damping.plot(fine, pairs[:, 0], color=colour, label=label)
-        damping.plot(COARSE, marks[:, 0], "o", color=colour, markersize=3)
-        period.plot(fine, 100 * (2 * np.pi * fine / pairs[:, 1] - 1), color=colour, label=label)
-        period.plot(COARSE, 100 * marks[:, 1], "o", color=colour, markersize=3)
+        found = np.array([computed for _, computed, _ in damped[alpha]])
         largest = [np.abs(np.linalg.eigvals(amplification(alpha, 2 * np.pi * ratio))).max() for ratio in wide]
-        radius.semilogx(wide, largest, color=colour, label=label)
-        radius.semilogx(angles / (2 * np.pi), radii[alpha], "o", color=colour, markersize=3)
-    guide = np.array([ratios[-1], ratios[0]])
-    converged.loglog(guide, 0.4 * errors[0.0][-1, 0] * (guide / guide[0]) ** 2, "k--", linewidth=0.8, label="order 2")
-    for mark, field in zip("os^", ("$u$", "$v$", r"$a$ at $t + \alpha\,\Delta t$")):
-        converged.plot([], [], "k", linestyle="none", marker=mark, markersize=3, markerfacecolor="none", label=field)
-    converged.set(xlabel=r"$\Delta t / T$", ylabel=f"largest error / amplitude, {PERIODS} periods")
-    damping.set(xlabel=r"$\Delta t / T$", ylabel="damping ratio [-]", xlim=(0, None), ylim=(-0.002, None))
-    period.set(xlabel=r"$\Delta t / T$", ylabel="period error [%]", xlim=(0, None), ylim=(0, None))
-    radius.set(xlabel=r"$\Delta t / T$", ylabel="spectral radius [-]", ylim=(0.4, 1.05))
+        for axes, exact, computed in ((damping, pairs[:, 0], found[:, 0]), (period, 2 * np.pi * fine / pairs[:, 1] - 1, found[:, 1])):
+            axes.plot(fine, 100 * exact, **line)
+            axes.plot(COARSE, 100 * computed, marker="o", **mark)
+        radius.semilogx(wide, largest, **line)
+        radius.semilogx(angles / (2 * np.pi), radii[alpha], marker="o", **mark)
+        if alpha in (0.0, -0.333):
+            for series, (shape, size, _) in zip(errors[alpha].T, shapes):
+                converged.loglog(ratios, series, color=colour, linestyle=dashes, linewidth=0.7, marker=shape, markersize=size,
+                                 markerfacecolor="none")
+    for shape, size, field in shapes:
+        converged.plot([], [], "k", linestyle="none", marker=shape, markersize=size, markerfacecolor="none", label=field)
+    converged.loglog(ratios, errors[-0.333][:, 3], "k", linestyle=":", marker="x", markersize=4, linewidth=0.7,
+                     label=r"$a$, as of $t$ ($\alpha$ = -0.333)")
+    converged.loglog(ratios, 0.4 * errors[0.0][-1, 0] * (ratios / ratios[-1]) ** 2, "k--", linewidth=0.8, label="order 2")
+    converged.set_xticks(ratios, [f"1/{number}" for number in PER_PERIOD])
+    converged.set_xticks([], minor=True)
+    converged.set(ylabel=f"largest error / amplitude, {PERIODS} periods")
+    damping.plot([], [], "ko", markersize=3.5, label="solver")
+    damping.set(ylabel="damping ratio [%]", xlim=(0, None), ylim=(-0.2, None))
+    period.set(ylabel="period error [%]", xlim=(0, None), ylim=(0, None))
+    radius.set(ylabel="spectral radius [-]", ylim=(0.4, 1.05))
     for axes in (converged, damping, period, radius):
-        axes.legend()
+        axes.set_xlabel(r"$\Delta t / T$")
+    converged.legend()
+    damping.legend(loc="upper left")

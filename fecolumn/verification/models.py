@@ -28,6 +28,10 @@ COARSE = {
     "integration": {"duration_s": 1.0, "alpha_hht": 0.0},
 }
 
+# Of `shaking`: amplitudes of x, y, z [m/s2], and sign and angular frequencies [rad/s] of its two tones
+AMPLITUDES = np.array([8.0, 6.0, 0.0])
+TONES = ((1, np.array([25.0, 30.0, 1.0])), (-1, np.array([45.0, 60.0, 1.0])))
+
 
 def column_case(engine: str, **tables):
     """Case of the coarse specimen; `tables` are merged over it, e.g. contact={"friction_coefficient": 0.8}."""
@@ -37,6 +41,15 @@ def column_case(engine: str, **tables):
 def column_system(engine: str, **tables) -> System:
     """The coarse specimen as a system of its own on this process."""
     return build_system(column_case(engine, **tables), MPI.COMM_SELF)
+
+
+def shaking(times) -> np.ndarray:
+    """Two-tone ground acceleration (n, 3) [m/s2] that slides the coarse specimen, rocks it over and lands it some thirty times in 0.2 s.
+
+    It starts from zero and its velocity has no mean, so that the column tilts to all sides.
+    """
+    times = np.asarray(times, float)[:, None]
+    return sum(sign * AMPLITUDES * np.cos(tone * times) for sign, tone in TONES)
 
 
 def box(x, y, z) -> BrickMesh:

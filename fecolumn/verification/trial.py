@@ -49,6 +49,16 @@ class Trial:
         self.penetration = max(self.penetration, -float(self.state.relative[:, 2].min()))
         return self.state
 
+    def shake(self, accelerations) -> np.ndarray:
+        """Displacements (n, 2, 3) [m] of the middles of top and foot after each step under ground accelerations (n, 3) [m/s2]."""
+        height = self.system.column.X[:, 2]
+        ends = [np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height)), self.system.foot_nodes]
+        path = []
+        for ground in accelerations:
+            moved = self.step(ground).x - self.system.column.X
+            path.append([moved[nodes].mean(axis=0) for nodes in ends])
+        return np.array(path)
+
     def energy(self) -> dict[str, float]:
         """The ledger now [J], by the names of energy.TERMS."""
         return dict(zip(TERMS, self.ledger.row(self.state).tolist()))
@@ -61,6 +71,17 @@ class Trial:
         """Displacement (3,) [m] of the highest node: any one serves to compare analyses of one mesh."""
         node = np.lexsort(self.system.column.all_X.T)[-1]
         return self.state.x[node] - self.system.column.X[node]
+
+
+def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:
+    """Velocity (n,) [m/s] by which the solver may let an analysis that began at 0 drift until `times` (n,) [s].
+
+    A step ends with an unbalanced force of at most eps times the weight. Left in every step it accelerates the column by eps g, and the
+    rocking column, unstable about its rim, lets that grow at most by cosh(p t). Displacements differ by half of this times t.
+    """
+    eps = max(tolerance, system.rounding(system.hht.mass_factor) / system.weight)
+    times = np.asarray(times, float)
+    return eps * np.linalg.norm(system.gravity) * times * np.cosh(RigidRocking(system).p * times)
 
 
 class RigidRocking:

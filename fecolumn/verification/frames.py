@@ -1,0 +1,217 @@
+"""The same shaking seen from other frames: base moving, turned, mirrored, later.
+
+Requirement: the answer does not depend on whether the base moves or inertia forces stand for it, on the direction of the axes,
+on their hand, or on when the motion begins.
+
+Derivation. Table frame (what the engine does): base at rest, loads M (g - a_g). Inertial frame: loads M g alone, unknown the absolute
+motion x_abs = x + x_g; contact sees positions x_abs - x_g and velocities v_abs - v_g. HHT's acceleration of the absolute motion is
+a + A_g, A_g1 = (1 + al) a_g1 - al a_g0, so that the two analyses are the same equations once the base is moved by the formulas of HHT,
+
+    x_g1 = x_g0 + dt v_g0 + dt^2 [(1/2 - be) A_g0 + be A_g1],   v_g1 = v_g0 + dt [(1 - ga) A_g0 + ga A_g1].
+
+Moved on its exact path instead, the base differs from these by e_g(t), second order in dt and known beforehand.
+Energy: in the inertial frame the base works through the contact forces, W_b = sum r1 . (x_g1 - x_g0) + sum v_g1 . p, p the impulses by
+which an impact replaces those of the step. With alpha = 0 friction, impact and contact lose the same in both frames:
+T_abs + U = start + W_b + losses; the ledger of the table frame has the work of the inertia forces in its place.
+
+A turn Q of body and motion about z gives x Q^T: the coarse mesh is its own image under 90 degrees and under y -> -y, so that the
+motion alone is turned; for 30 degrees the body's mesh is turned too. The base's grid stays, and its bricks answer turned loads
+otherwise: exact only on a rigid base (E = 1e15 Pa).
+
+Source. Newton's laws; the discrete form follows from Hilber, Hughes and Taylor (1977) by adding x_g.
+
+Tolerances. `solver_drift`: unbalanced forces of eps = max(1e-7, rounding) of the weight left in every step give eps g t cosh(p t) in
+velocity and t / 2 times that in displacement; twice as much between two analyses. Energies, quadratic in velocity: twice the
+relative error of the velocity (2 E / m)^(1/2). Exact base path: the error e_v of the base's velocity, which the column takes over where
+it lands and drifts with, and that of its displacement in the base's place and in the column's: (e_v t + 2 e_g) cosh(p t). Turned by
+30 degrees: no more than the whole effect of the base's elasticity, the difference between elastic and rigid base; on the base of
+E = 1e15 Pa its share 200e9 / 1e15. Growth of differences by chaos would break these bounds: the figure shows that a disturbance
+of 1 um/s does not grow in this window.
+"""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import replace
+
+import numpy as np
+from mpi4py import MPI
+
+from fecolumn.contact.interface import Interface
+from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
+from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.post.style import LINES
+from fecolumn.verification.models import AMPLITUDES, TONES, column_case, column_system, shaking
+from fecolumn.verification.result import Result, Row
+from fecolumn.verification.trial import RigidRocking, Trial, solver_drift
+
+RIGID = {"base": {"youngs_modulus_pa": 1e15}}
+QUIET_STEPS = 50
+DISTURBANCE = 1e-6  # m/s
+
+
+class MovingInterface(Interface):
+    """Contact with a base that moves: the column's motion is absolute, contact sees it relative to the base.
+
+    Attributes:
+        position: (3,) of the base at the end of the step [m].
+        velocities: pairs of the column's velocity array and the base's velocity (3,) at the same time [m/s]; the last one is the
+            end of the step.
+    """
+
+    def __init__(self, still: Interface):
+        super().__init__(still.foot, still.reference, still.base, still.friction, still.own)
+        self.position, self.velocities = np.zeros(3), []
+
+    def dynamic_position(self, x, rotation):
+        return super().dynamic_position(x, rotation) - self.position
+
+    def dynamic_velocity(self, v, rotation):
+        base = next((base for known, base in self.velocities if known is v), self.velocities[-1][1])
+        return super().dynamic_velocity(v, rotation) - base
+
+
+class InertialTrial:
+    """An analysis in the inertial frame on a base that moves along a path.
+
+    Attributes:
+        trial: Trial of the absolute motion; its ledger has no base work. work: of the base so far [J].
+        impact_work: part of it done by the projections of impacts [J].
+    """
+
+    def __init__(self, system, start):
+        moving = copy.copy(system)
+        moving.interface = MovingInterface(system.interface)
+        self.trial = Trial(moving, start)
+        self.work = self.impact_work = 0.0
+
+    def shake(self, positions, velocities) -> np.ndarray:
+        """Displacements (n, 2, 3) [m] of top and foot relative to the base on its path (n, 3), (n, 3) [m, m/s] from rest at 0."""
+        system, relative = self.trial.system, []
+        base = np.zeros(3), np.zeros(3)
+        for position, velocity in zip(positions, velocities):
+            before = self.trial.state
+            system.interface.position = position
+            system.interface.velocities = [(before.v, base[1]), (None, velocity)]
+            relative.append(self.trial.shake([np.zeros(3)])[0] - position)
+            self._book(before, self.trial.state, position - base[0], velocity)
+            base = position, velocity
+        return np.array(relative)
+
+    def _book(self, before, after, moved, velocity) -> None:
+        """Work of the base in a step: contact forces on its displacement, impact impulses on its velocity."""
+        system, hht = self.trial.system, self.trial.system.hht
+        free = before.v + hht.dt * ((1 - hht.gamma) * before.a + hht.gamma * after.a + after.contact_a)
+        impulse = np.einsum("cna,na->c", system.column.unit_loads, after.v - free)
+        self.impact_work += float(velocity @ impulse)
+        self.work += float(after.forces.sum(axis=0) @ moved + velocity @ impulse)
+
+
+def hht_path(hht, accelerations) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and velocities (n, 3) of the base under accelerations (n, 3), from rest, by the formulas of HHT."""
+    given = np.vstack([np.zeros(3), accelerations])
+    blended = (1 + hht.alpha) * given[1:] - hht.alpha * given[:-1]
+    blended = np.vstack([np.zeros(3), blended])
+    velocities = np.cumsum(hht.dt * ((1 - hht.gamma) * blended[:-1] + hht.gamma * blended[1:]), axis=0)
+    slopes = np.vstack([np.zeros(3), velocities[:-1]])
+    return np.cumsum(hht.dt * slopes + hht.dt**2 * ((0.5 - hht.beta) * blended[:-1] + hht.beta * blended[1:]), axis=0), velocities
+
+
+def exact_path(times) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and velocities (n, 3) of the base in `shaking`, from rest."""
+    times = np.asarray(times)[:, None]
+    return (sum(sign * AMPLITUDES / tone**2 * (1 - np.cos(tone * times)) for sign, tone in TONES),
+            sum(sign * AMPLITUDES / tone * np.sin(tone * times) for sign, tone in TONES))
+
+
+def on_exact_path(system, start, times) -> np.ndarray:
+    """Displacements (n, 2, 3) [m] of top and foot relative to the base that moves on its exact path."""
+    return InertialTrial(system, lambda _: start.copy()).shake(*exact_path(times))
+
+
+def turned_system(turn, engine: str, **tables):
+    """The coarse specimen with its body's mesh turned by `turn` (3, 3); the base stays."""
+    case = column_case(engine, **tables)
+    mesh = share_specimen_mesh(case, MPI.COMM_SELF)
+    return build_system(case, MPI.COMM_SELF, replace(mesh, body=replace(mesh.body, points=mesh.body.points @ turn.T)))
+
+
+def run(engine: str, long: bool) -> Result:
+    result = Result(size=(7.2, 3.7))
+    system = column_system(engine)
+    times = system.hht.dt * np.arange(1, (200 if long or engine == "corotated" else 125) + 1)
+    motion, drift = shaking(times), solver_drift(system, times)
+    table = Trial(system)
+    reference = table.shake(motion)
+    largest, series = np.linalg.norm(reference, axis=2).max(), {}
+    allowed = (drift * times).max() / largest
+
+    def standing(_, disturbance=0.0):
+        start = table.start.copy()
+        start.v = start.v + disturbance * np.array([1.0, 0.7, 0.0])
+        return start
+
+    def compare(name, path, tolerance=allowed, against=reference):
+        difference = np.linalg.norm(path - against, axis=2).max(axis=1)
+        series[name] = difference
+        result.rows.append(Row(f"{name}: path of top and foot [m]", 0.0, difference.max(), tolerance, scale=largest))
+
+    inertial = InertialTrial(system, standing)
+    relative = inertial.shake(*hht_path(system.hht, motion))
+    compare("base moving", relative)
+    result.rows += energies(table, inertial, drift[-1])
+    damped = column_system(engine, integration={"alpha_hht": -0.2})
+    still = Trial(damped)
+    compare("base moving, alpha -0.2", InertialTrial(damped, lambda _: still.start.copy()).shake(*hht_path(damped.hht, motion)),
+            against=still.shake(motion))
+    coarse = Trial(column_system(engine, integration={"dt_s": 2 * system.hht.dt}))
+    double = np.linalg.norm(on_exact_path(coarse.system, coarse.start, times[1::2]) - coarse.shake(motion[1::2]), axis=2).max()
+    off = [np.linalg.norm(exact - stepped, axis=1).max() for exact, stepped in zip(exact_path(times), hht_path(system.hht, motion))]
+    compare("base moving on its exact path", on_exact_path(system, table.start, times),
+            (off[1] * times[-1] + 2 * off[0]) * np.cosh(RigidRocking(system).p * times[-1]) / largest)
+    result.rows[-1] = replace(result.rows[-1], order=float(np.log2(double / result.rows[-1].computed)))
+
+    quarter, mirror = np.round(rotation_matrix([0, 0, np.pi / 2])), np.diag([1.0, -1.0, 1.0])
+    compare("motion turned by 90 deg", Trial(system, standing).shake(motion @ quarter.T) @ quarter)
+    compare("motion mirrored", Trial(system, standing).shake(motion @ mirror) @ mirror)
+    compare(f"{QUIET_STEPS} quiet steps before", Trial(system, standing).shake(np.vstack([np.zeros((QUIET_STEPS, 3)), motion]))[QUIET_STEPS:])
+    turn = rotation_matrix([0, 0, np.pi / 6])
+    rigid = Trial(column_system(engine, **RIGID)).shake(motion)
+    elasticity = np.linalg.norm(rigid - reference, axis=2).max() / largest
+    compare("body and motion turned by 30 deg, rigid base", Trial(turned_system(turn, engine, **RIGID)).shake(motion @ turn.T) @ turn,
+            allowed + 200e9 / 1e15 * elasticity, rigid)
+    compare("body and motion turned by 30 deg, elastic base", Trial(turned_system(turn, engine)).shake(motion @ turn.T) @ turn,
+            allowed + elasticity)
+    disturbed = Trial(system, lambda _: standing(_, DISTURBANCE)).shake(motion)
+    grown = np.linalg.norm(disturbed - reference, axis=2).max(axis=1)
+
+    def draw(figure):
+        left, right = figure.subplots(1, 2, width_ratios=(1, 1.5))
+        left.plot(*1e3 * exact_path(times)[0][:, :2].T, color="0.6", linewidth=0.8, label="base, absolute")
+        left.plot(*1e3 * reference[:, 0, :2].T, color=LINES[0][0], label="top, table frame")
+        left.plot(*1e3 * relative[::5, 0, :2].T, "o", color=LINES[1][0], markersize=3, fillstyle="none", label="top, base moving")
+        left.set(xlabel="$u_x$ [mm]", ylabel="$u_y$ [mm]", aspect="equal")
+        left.margins(0.08, 0.25)
+        left.legend(loc="upper left")
+        for (name, difference), (colour, dashes) in zip(series.items(), (*LINES, ("#7F3F00", "-."))):
+            right.semilogy(times, np.maximum(difference, 1e-17), color=colour, linestyle=dashes, label=name)
+        right.semilogy(times, grown, color="0.7", linewidth=2.5, label=f"disturbed by {1e6 * DISTURBANCE:g} µm/s", zorder=0)
+        right.semilogy(times, drift * times, color="k", linewidth=0.8, linestyle=":", label="what the solver may leave")
+        right.set(xlabel="time [s]", ylabel="largest difference [m]", xlim=(0, times[-1]))
+        figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+
+    result.draw = draw
+    return result
+
+
+def energies(table: Trial, inertial: InertialTrial, drift: float) -> list[Row]:
+    """The ledgers of the two frames at the end, `drift` [m/s] apart."""
+    of_table, of_inertial = table.energy(), inertial.trial.energy()
+    gained = inertial.trial.mechanical() - inertial.trial.ledger.start
+    lost = sum(of_table[name] for name in ("friction", "impact", "contact", "closure"))
+    allowed = 2 * drift / np.sqrt(2 * gained / table.system.column.total_mass)
+    return [Row("base moving: work of the base [J]", gained - lost, inertial.work, allowed),
+            Row("base moving: friction loss [J]", of_table["friction"], of_inertial["friction"], allowed, scale=gained),
+            Row("base moving: loss of impact and contact [J]", of_table["impact"] + of_table["contact"],
+                of_inertial["impact"] + of_inertial["contact"] - inertial.work, allowed, scale=gained),
+            Row("base moving: closure of the inertial ledger [J]", of_table["closure"], of_inertial["closure"], allowed, scale=gained)]

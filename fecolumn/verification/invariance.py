@@ -1,0 +1,109 @@
+"""What must not matter: an interruption, the number of ranks, the numbers of the nodes.
+
+Requirement: an analysis stopped and resumed from its checkpoint is the uninterrupted one; two ranks give the answer of one;
+node and brick numbers change nothing beyond rounding.
+
+Derivation. A checkpoint holds the whole state in binary, and a step depends on nothing else: equality to the last bit but for
+sums whose order the restart may change. Ranks and numbers change the order of sums and the elimination order of the factor:
+differences of eps = 2e-16 of positions and internal forces, and, since an iteration ends where the unbalanced force falls below
+the tolerance, of that tolerance: the bound of `trial.solver_drift`. No closed form is needed: the computation itself is the reference.
+
+Source. Requirement; growth of differences as in `fecolumn.verification.trial.solver_drift`.
+
+Tolerances. Restart: 1e-10 of the path's peak, as required. Ranks: 1e-6, as required. Numbers: twice the solver's drift at the end.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from mpi4py import MPI
+
+from fecolumn._mpi import launch_environment
+from fecolumn.dynamics.assembly import build_system
+from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
+from fecolumn.dynamics.history import read_history
+from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
+from fecolumn.schema import merge
+from fecolumn.verification.models import COARSE, column_case, shaking
+from fecolumn.verification.result import Result, Row
+from fecolumn.verification.trial import Trial, solver_drift
+
+STEPS, DT = 200, 1e-3
+TIMES = DT * np.arange(1, STEPS + 1)
+
+
+def run(engine: str, long: bool) -> Result:
+    case, motion = column_case(engine), shaking(TIMES)
+    specimen = specimen_mesh(case)
+
+    def trial(mesh=specimen):
+        return Trial(build_system(case, MPI.COMM_SELF, mesh))
+
+    whole = trial()
+    path = whole.shake(motion)
+    peak = np.abs(path).max()
+    restarted = np.abs(interrupted(trial, motion) - path).max(axis=(1, 2))
+    renumbered = np.abs(trial(shuffled(specimen)).shake(motion) - path).max(axis=(1, 2))
+    one, two = (on_ranks(engine, n, motion) for n in (1, 2))
+    ranks = np.abs(two - one).max(axis=1)
+    drift = 2 * solver_drift(whole.system, TIMES) * TIMES / 2
+    result = Result([Row(f"restart at half, {STEPS} steps: path off / peak", 0.0, restarted.max() / peak, 1e-10),
+                     Row(f"two ranks against one, {STEPS} steps: top's path off / peak", 0.0, ranks.max() / np.abs(one).max(), 1e-6),
+                     Row(f"nodes and bricks renumbered, {STEPS} steps: path off [m]", 0.0, renumbered.max(), drift[-1])])
+
+    def draw(figure):
+        axes = figure.subplots()
+        for label, off, style in (("restart", restarted, "C0-"), ("two ranks", ranks[1:], "C1--"), ("renumbered", renumbered, "C2-.")):
+            axes.semilogy(TIMES, np.maximum(off, 1e-18), style, label=label)
+        axes.semilogy(TIMES, drift, "k:", label="solver's drift, bound")
+        axes.semilogy(TIMES, np.abs(path[:, 0]).max(axis=1), "k-", linewidth=0.6, label="the path itself")
+        axes.set(xlabel="time [s]", ylabel="difference of displacement [m]", ylim=(1e-18, None), xlim=(0, TIMES[-1]))
+        axes.legend(ncols=2)
+
+    result.draw = draw
+    return result
+
+
+def interrupted(trial, motion) -> np.ndarray:
+    """Path of an analysis that ends at half, and of one in a new system that goes on from its checkpoint."""
+    first, half = trial(), STEPS // 2
+    before = first.shake(motion[:half])
+    with tempfile.TemporaryDirectory() as folder:
+        write_checkpoint(Path(folder) / "state.npz", first.system, first.state, {})
+        second = trial()
+        second.state, _ = read_checkpoint(Path(folder) / "state.npz", second.system)
+    return np.concatenate([before, second.shake(motion[half:])])
+
+
+def shuffled(specimen: SpecimenMesh, seed: int = 1) -> SpecimenMesh:
+    """The same specimen with the body's points and bricks in random order."""
+    body, random = specimen.body, np.random.default_rng(seed)
+    order, bricks = random.permutation(len(body.points)), random.permutation(len(body.cells))
+    number = np.argsort(order)  # new number of each old point
+    mixed = replace(body, points=body.points[order], cells=number[body.cells][bricks], part=body.part[bricks])
+    ties = tuple(replace(tie, slave_nodes=number[tie.slave_nodes], master_quads=number[tie.master_quads]) for tie in specimen.ties)
+    return replace(specimen, body=mixed, ties=ties, foot_nodes=np.sort(number[specimen.foot_nodes]))
+
+
+def on_ranks(engine: str, n: int, motion) -> np.ndarray:
+    """Path of the top (steps + 1, 3) [m] by the command line on n ranks."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        rows = [f"{t:.17g},{a[0]:.17g},{a[1]:.17g}\n" for t, a in zip([0.0, *TIMES], [np.zeros(3), *motion])]
+        (folder / "motion.csv").write_text("time [s],ax [m/s2],ay [m/s2]\n" + "".join(rows))
+        tables = merge(COARSE, {"integration": {"kinematics": engine, "dt_s": DT, "duration_s": TIMES[-1]}, "motion": {"source": "motion.csv"}})
+        del tables["title"]
+        (folder / "case.toml").write_text("\n".join(f"[{name}]\n" + "\n".join(f"{key} = {json.dumps(value)}" for key, value in table.items())
+                                                    for name, table in tables.items()))
+        done = subprocess.run(["mpirun", "-n", str(n), sys.executable, "-m", "fecolumn.cli", "run", str(folder / "case.toml"), "-q",
+                               "-o", str(folder / "out")], env=launch_environment(), capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(f"mpirun -n {n}: {done.stderr}")
+        return read_history(folder / "out" / "history.h5")["u_top"]

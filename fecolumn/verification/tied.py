@@ -1,0 +1,87 @@
+"""A body of tied parts, free in space, and what its ties do to fields that they should let pass."""
+
+from __future__ import annotations
+
+import numpy as np
+from mpi4py import MPI
+
+from fecolumn.dynamics.assembly import column_body
+from fecolumn.dynamics.corotated import Corotated
+from fecolumn.dynamics.effective import effective_factor
+from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.dynamics.total_lagrangian import TotalLagrangian
+from fecolumn.mesh.bricks import LOWER, UPPER, boundary_quads, merge
+from fecolumn.mesh.gmsh_section import swept_grid
+from fecolumn.mesh.specimen import SpecimenMesh
+from fecolumn.mesh.surface import nodal_areas
+from fecolumn.mesh.tie import adjust, tie
+from fecolumn.verification.models import column_case
+
+# Strain of the tests: square terms of the strain measures are 1e-7 of it, rounding of positions 1e-8 a brick
+STRETCH = 1e-7
+# Inertia factor that holds the free body [1/s2]: far below its lowest axial frequency squared, far above rounding
+_INERTIA = 1e4
+
+
+def tied_blocks(engine: str, lower, upper, height: float) -> Tied:
+    """Two blocks of steel, each `height` [m] high, the lower with grid lines `lower` [m] along x and y tied to the upper."""
+    def block(lines, bottom, part):
+        return swept_grid(lines, lines, bottom + np.linspace(0, height, 1 + round((len(lines) - 1) / 2)), part)
+
+    mesh = merge([block(lower, 0.0, LOWER), block(upper, height, UPPER)])
+    ties = (tie(mesh, LOWER, UPPER, height, 1e-9, 1e-9, "none"),)
+    return Tied(column_case(engine), SpecimenMesh(adjust(mesh, ties), None, ties, np.zeros(0, int)))
+
+
+def end_areas(body, mesh, z: float) -> np.ndarray:
+    """Tributary areas (n_owned,) [m2] of a body's nodes in its end at height z [m], nil elsewhere."""
+    at_end = np.any(mesh.points[mesh.cells, 2] == z, axis=1)
+    quads = boundary_quads(mesh, mesh.part[at_end][0], z, 1e-9)
+    return nodal_areas(mesh.points[quads], body.find_nodes(mesh.points[quads].reshape(-1, 3)).reshape(quads.shape), body.n_owned, 1)
+
+
+class Tied:
+    """Column, cap and ties as a case and its mesh make them.
+
+    Args:
+        case: Case, for kinematics and material.
+        specimen: SpecimenMesh.
+    """
+
+    def __init__(self, case, specimen):
+        self.body, self.mesh = column_body(case, specimen, MPI.COMM_SELF), specimen.body
+        self.kinematics = (TotalLagrangian if case.integration.kinematics == "total_lagrangian" else Corotated)(self.body)
+        material = self.body.material
+        self._energy = material.youngs_modulus_pa * self.body.total_mass / material.density_kg_m3 / 2  # of the strain 1 [J]
+
+    def uniaxial(self) -> np.ndarray:
+        """Displacement (n, 3) [m] of a uniform stretch along z about the centre of mass."""
+        poisson = self.body.material.poissons_ratio
+        return STRETCH * (self.body.X - self.body.center) * [-poisson, -poisson, 1.0]
+
+    def turned(self) -> float:
+        """Strain whose uniaxial energy is that of a rigid turn by 1 rad about an oblique axis."""
+        energy = self.kinematics.internal(self.body.X @ rotation_matrix([0.6, 0.48, 0.64]).T)[2]
+        return float(np.sqrt(abs(energy) / self._energy))
+
+    def sheared(self) -> float:
+        """Largest change that the ties make to a linear displacement, relative to its largest."""
+        field = self.body.X @ np.array([[0.3, -0.7, 0.5], [0.9, 0.2, -0.4], [-0.6, 0.8, 1.0]])
+        return float(np.abs(self.body.constraint.expand(field) - field).max() / np.abs(field).max())
+
+    def stretched(self) -> float:
+        """Energy of the uniform stretch relative to E STRETCH^2 volume / 2."""
+        return float(self.kinematics.internal(self.body.X + self.uniaxial())[2] / (self._energy * STRETCH**2))
+
+    def pulled(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Displacement (n, 3) [m] under opposite loads of E STRETCH times the lower end's area, uniform over each end, and the
+        tributary areas (n,) [m2] of lower and upper end."""
+        body = self.body
+        lower, upper = (end_areas(body, self.mesh, z) for z in (0.0, self.mesh.points[:, 2].max()))
+        load = np.zeros_like(body.X)
+        load[:, 2] = body.material.youngs_modulus_pa * STRETCH * (upper * lower.sum() / upper.sum() - lower)
+        factor, moved = effective_factor(body, _INERTIA, 1.0), np.zeros_like(body.X)
+        for _ in range(8):
+            moved = moved + factor.solve(load - self.kinematics.internal(body.X + moved)[1])
+        factor.destroy()
+        return moved, lower, upper
