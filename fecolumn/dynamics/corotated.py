@@ -31,6 +31,8 @@ class Corotated:
         """Rotation (3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions x."""
         rotation = self.rotation(x)
         deformation = x @ rotation - self.body.X
+        # the stiffness does not see a translation, the rounding of the energy does
+        deformation -= self.body.sum(self.body.node_mass @ deformation) / self.body.total_mass
         force = self.body.apply(self.body.stiffness, deformation)
         return rotation, force @ rotation.T, 0.5 * self.body.dot(deformation, force)
 

@@ -48,9 +48,9 @@ class Stepper:
         v1 = v0 + dt [(1 - gamma) a0 + gamma a1 + w1],                 M a1 = (1+al) (F1 - f1) - al (F0 - f0)
 
     For alpha = 0 the contact's work is r1 (g1 - g0) <= 0 exactly, so that contact only takes energy. When a contact closes
-    in a step, the velocities are projected at its end: impulses of all touching points are replaced by those of a plastic
-    impact with friction (Moreau 1988), the state of least kinetic energy that non-adhesive impulses reach. This removes
-    the rebound that the trapezoidal rule invents; in the rigid limit it is Housner's impact.
+    or slip ends in a step, the velocities are projected at its end: impulses of all touching points are replaced by those
+    of a plastic impact with friction (Moreau 1988), the state of least kinetic energy that non-adhesive impulses reach.
+    This removes the rebound that the trapezoidal rule invents; in the rigid limit it is Housner's impact.
 
     impact = "none" is the literal HHT scheme: contact forces are part of the accelerations, without filter or impact law.
 
@@ -122,9 +122,29 @@ class Stepper:
         after.v = state.v + dt * ((1 - ga) * state.a + ga * after.a + w)
         self._book(state, after, hht, F0 + F1, worked)
         landing = (state.forces[:, 2] <= 0) & (state.relative[:, 2] > OPEN) & (forces[:, 2] > 0)
-        if self.plastic and landing.any():
-            self._impact(state, after, dt, outcome.footing, landing)
+        if self.plastic:
+            turning = self._turning(state, after)
+            if landing.any() or turning.any():
+                self._impact(state, after, dt, outcome.footing, landing, turning)
         return after
+
+    def _turning(self, state, after) -> np.ndarray:
+        """Points (n,) whose slip ends within the step, in stick or in slip the other way.
+
+        Their velocity must be taken anew: the trapezoidal rule would turn a sticking point's velocity round for ever, and
+        let friction push a returning point on its way.
+        """
+        touching = after.forces[:, 2] > 0
+        pull = np.linalg.norm(state.forces[:, :2], axis=1)
+        slid = (pull > 0) & (pull >= (1 - 1e-9) * self.system.interface.friction * state.forces[:, 2])
+        slip = np.where(touching[:, None], after.anchors - state.anchors, 0.0)
+        slips = np.any(slip != 0, axis=1)
+        turning = touching & slid & ~slips
+        if slips.any():
+            for v in (state.v, after.v):
+                velocity = self.system.interface.dynamic_velocity(v, after.rotation)[:, :2]
+                turning |= (np.einsum("na,na->n", velocity, slip) < 0) & (state.forces[:, 2] > 0)
+        return turning
 
     def _anchors(self, state, outcome) -> np.ndarray:
         """Where the points stick from now on: a slipping penalty spring keeps its elastic part."""
@@ -152,7 +172,7 @@ class Stepper:
         self.ledger.add(base_work=-np.dot((state.ground + after.ground) / 2, carried), algorithmic=algorithmic,
                         friction=friction, impact=landed, contact=contact - friction - landed)
 
-    def _impact(self, state, after, dt, footing, landing) -> None:
+    def _impact(self, state, after, dt, footing, landing, turning) -> None:
         """Replace the impulses of the step by those of a plastic impact; changes the velocities of `after`.
 
         The points of the foot that held the column before carry it until the moment of impact, all together from then on:
@@ -166,8 +186,11 @@ class Stepper:
         compliance = mobility + YIELD * 2 / dt**2 * interface.static_compliance(union, R, footing)
         given = dt * after.forces
         start, end = interface.dynamic_velocity(state.v, R), interface.dynamic_velocity(after.v, R)
-        end[union] -= (mobility @ given[union].ravel()).reshape(-1, 3)
-        moment = self._moment_of_impact(state, after, -(start + end)[:, 2] / 2 * dt, landing)
+        pushed = np.zeros_like(end)
+        pushed[union] = (mobility @ given[union].ravel()).reshape(-1, 3)
+        end -= pushed
+        moment = self._landing_moment(state, after, -dt * start[:, 2], landing) if landing.any() \
+            else self._turning_moment(state, after, start, end, pushed, turning)
         rows = (3 * held[:, None] + np.arange(3)).ravel()
         velocity = start + moment * (end - start)
         carried, first = interface.impact(before, compliance[np.ix_(rows, rows)], velocity, moment * dt * state.forces)
@@ -181,13 +204,29 @@ class Stepper:
             raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: impact residual {residual:.2e} m/s")
         jump = interface.foot.acceleration((impulses - given) @ R) @ R.T
         column = self.system.column
-        self.ledger.add(impact=column.dot(after.v + jump / 2, column.apply(column.mass, jump)))
+        lost = column.dot(after.v + jump / 2, column.apply(column.mass, jump))
+        self.ledger.add(**{"impact" if landing.any() else "friction": lost})
         after.v = after.v + jump
-        self.record.impacts += 1
+        self.record.impacts += bool(landing.any())
 
     @staticmethod
-    def _moment_of_impact(state, after, approach, landing) -> float:
-        """Fraction of the step at which the landing points (mask) arrive, a mean by their forces; `approach` (n,) [m]."""
+    def _landing_moment(state, after, approach, landing) -> float:
+        """Fraction of the step at which the landing points (mask) arrive, mean by their forces; `approach` (n,) in the step [m]."""
         gap = state.relative[landing, 2]
-        arrival = np.clip(gap / np.maximum(approach[landing], gap), 0.0, 1.0)
-        return float(np.average(arrival, weights=after.forces[landing, 2]))
+        return float(np.average(gap / np.maximum(approach[landing], gap), weights=after.forces[landing, 2]))
+
+    def _turning_moment(self, state, after, start, end, pushed, turning) -> float:
+        """Fraction of the step at which full friction ends the slip of the turning points (mask), mean by their forces.
+
+        start, end: (n, 3) velocities at the ends of the step without its contact impulses; pushed: (n, 3) what these gave [m/s].
+        """
+        slip = (after.anchors - state.anchors)[turning]
+        forward = np.einsum("na,na->n", start[turning, :2], slip) > 0
+        slip = np.where(forward[:, None], slip, start[turning, :2])
+        forces = after.forces[turning]
+        # a point found to stick had less than full friction, possibly forwards
+        share = np.linalg.norm(forces[:, :2], axis=1) / np.maximum(self.system.interface.friction * forces[:, 2], np.finfo(float).tiny)
+        early, free, friction = (np.einsum("na,na->n", velocity[turning, :2], slip) for velocity in (start, end, pushed))
+        late = free - np.abs(friction) / np.maximum(share, np.finfo(float).eps)
+        fraction = np.divide(early, early - late, out=np.ones_like(early), where=(early > 0) & (late < 0))
+        return float(np.average(fraction, weights=forces[:, 2]))

@@ -13,7 +13,7 @@ phi = sqrt(2 d / (th R)). With k ~ E the force per length and penetration,
 
 The restoring moment, and the response with it, is off that of a rigid rim by c E^(-2/3). From the change d4 when E is multiplied by 4:
 u(E / 4) - u(E) = d4 (4^(2/3) - 1) / (1 - 4^(-2/3)) = 4^(2/3) d4. Where the arc is no longer short e grows slower, so that this is an
-upper bound.
+upper bound for a column that rocks (standing, its deflections go with 1 / E).
 
 Source. Housner (1963) for the scale effect of rocking, Winkler (1867) for the rim's bedding.
 
@@ -47,7 +47,7 @@ def sized(engine: str, size: float, modulus: float):
 
 
 def run(engine: str, long: bool) -> Result:
-    result = Result(size=(7.2, 3.0))
+    result = Result(size=(7.2, 3.6))
     steps = 200 if long or engine == "corotated" else 125
     diameter, times = COARSE["column"]["outer_diameter_m"], STEP * np.arange(1, steps + 1)
 
@@ -88,16 +88,18 @@ def run(engine: str, long: bool) -> Result:
             left.plot(scaled, first[:, 0, axis], color=LINES[0][0], label=label("specimen"))
             left.plot(scaled[::8], paths[4][::8, 0, axis], "o", color=LINES[1][0], markersize=3, fillstyle="none", label=label("size x 4, E x 4"))
             left.plot(scaled, same[:, 0, axis], color="k", linestyle="--", linewidth=0.8, label=label("size x 4, same E"))
-            left.annotate(f"$u_{name}$", (scaled[-1], first[-1, 0, axis]), xytext=(4, 0), textcoords="offset points", va="center")
-        left.set(xlabel=r"$t\,\sqrt{g/D}$", ylabel="$u/D$ of the top", xlim=(0, 1.1 * scaled[-1]))
+            deepest = np.argmin(first[:, 0, axis])
+            left.annotate(f"$u_{name}$", (scaled[deepest], first[deepest, 0, axis]), xytext=(0, -11), textcoords="offset points", ha="center")
+        left.margins(y=0.12)
+        left.set(xlabel=r"$t\,\sqrt{g/D}$", ylabel="$u/D$ of the top", xlim=(0, scaled[-1]))
         left.legend()
         for (name, difference), (colour, dashes) in zip(series.items(), LINES):
             right.semilogy(scaled, np.maximum(difference, 1e-16), color=colour, linestyle=dashes, label=name)
         right.semilogy(scaled, elastic, color="k", linestyle="--", linewidth=0.8, label="size x 4, same E")
         right.semilogy(scaled, bound, color="0.6", label=r"its bound, $4^{2/3}$ times the effect of E x 4")
         right.semilogy(scaled, drift * times / diameter, color="k", linewidth=0.8, linestyle=":", label="what the solver may leave")
-        right.set(xlabel=r"$t\,\sqrt{g/D}$", ylabel="largest difference of $u/D$", xlim=(0, scaled[-1]), ylim=(1e-14, 1e3))
-        right.legend(loc="upper left")
+        right.set(xlabel=r"$t\,\sqrt{g/D}$", ylabel="largest difference of $u/D$", xlim=(0, scaled[-1]), ylim=(1e-14, 1))
+        figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
     result.draw = draw
     return result
