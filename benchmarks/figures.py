@@ -130,7 +130,7 @@ def penalty():
     """Penalty against augmented Lagrangian through 0.4 s of shaking, and the latter's penetration."""
     reference, _, _, run = _shaken({}, 400)
     peak, last = np.abs(reference).max(), np.inf
-    for factor in (0.01, 0.1, 1.0, 10.0, 100.0):
+    for factor in (0.01, 1.0, 100.0, 1e4):
         path = _shaken({"contact": {"law": "penalty", "penalty_factor": factor}}, 400)[0]
         difference = np.abs(path - reference).max() / peak
         yield f"penalty factor {factor:g} E/h: u_top off / peak", 0.0, difference, difference < last

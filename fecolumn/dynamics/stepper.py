@@ -15,6 +15,8 @@ from fecolumn.dynamics.system import State
 OPEN = 1e-9
 # A sticking node that moves less keeps its anchor to the last digit, so that stick does not creep [m]
 STUCK = 1e-11
+# Path of a point in a step above which it slides as part of the body; elastic slip of a standing foot is 1e-9 m [m]
+SLIDE = 1e-8
 # Share of the static compliance in the impact problem. A foot filtered to a long step moves almost rigidly and its many
 # impulses would not be unique; the share leaves a closing velocity of about 1e-6 m/s.
 YIELD = 1e-3
@@ -120,15 +122,16 @@ class Stepper:
         after.contact_a = w
         after.a = hht.mass_factor * (after.x - stage.target) - w / (2 * be)
         after.v = state.v + dt * ((1 - ga) * state.a + ga * after.a + w)
-        self._book(state, after, hht, F0 + F1, worked)
+        contact_work = self._book(state, after, hht, F0 + F1, worked)
         landing = (state.forces[:, 2] <= 0) & (state.relative[:, 2] > OPEN) & (forces[:, 2] > 0)
         if self.plastic:
-            turning = self._turning(state, after)
-            if landing.any() or turning.any():
-                self._impact(state, after, dt, outcome.footing, landing, turning)
+            turning = self._turning(state, after, dt)
+            # few points of many turn where a standing foot slips in part: that is elastic, not motion
+            if landing.any() or 2 * forces[turning, 2].sum() > forces[:, 2].sum() > 0:
+                self._impact(state, after, dt, outcome.footing, landing, turning, contact_work)
         return after
 
-    def _turning(self, state, after) -> np.ndarray:
+    def _turning(self, state, after, dt) -> np.ndarray:
         """Points (n,) whose slip ends within the step, in stick or in slip the other way.
 
         Their velocity must be taken anew: the trapezoidal rule would turn a sticking point's velocity round for ever, and
@@ -139,12 +142,12 @@ class Stepper:
         slid = (pull > 0) & (pull >= (1 - 1e-9) * self.system.interface.friction * state.forces[:, 2])
         slip = np.where(touching[:, None], after.anchors - state.anchors, 0.0)
         slips = np.any(slip != 0, axis=1)
-        turning = touching & slid & ~slips
-        if slips.any():
-            for v in (state.v, after.v):
-                velocity = self.system.interface.dynamic_velocity(v, after.rotation)[:, :2]
-                turning |= (np.einsum("na,na->n", velocity, slip) < 0) & (state.forces[:, 2] > 0)
-        return turning
+        if not np.any(touching & (slid | slips)):
+            return np.zeros(len(slid), bool)
+        start, end = (self.system.interface.dynamic_velocity(v, after.rotation)[:, :2] for v in (state.v, after.v))
+        against = np.minimum(np.einsum("na,na->n", start, slip), np.einsum("na,na->n", end, slip)) < 0
+        moves = dt * np.linalg.norm(start, axis=1) > SLIDE
+        return touching & moves & (slid & ~slips | against & (state.forces[:, 2] > 0))
 
     def _anchors(self, state, outcome) -> np.ndarray:
         """Where the points stick from now on: a slipping penalty spring keeps its elastic part."""
@@ -153,8 +156,8 @@ class Stepper:
         moved = (np.linalg.norm(here - state.anchors, axis=1) > STUCK) | (outcome.forces[:, 2] <= 0)
         return np.where(moved[:, None], here, state.anchors)
 
-    def _book(self, state, after, hht, load_sum, worked) -> None:
-        """Energy of an HHT step, from the identity
+    def _book(self, state, after, hht, load_sum, worked) -> float:
+        """Energy of an HHT step; returns the work of contact [J]. From the identity
         dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean = (1-ga) a0 + ga a1."""
         column, step = self.system.column, after.x - state.x
         mean = column.apply(column.mass, (1 - hht.gamma) * state.a + hht.gamma * after.a)
@@ -171,43 +174,48 @@ class Stepper:
         landed = float(after.forces[landing, 2] @ (after.relative - state.relative)[landing, 2])
         self.ledger.add(base_work=-np.dot((state.ground + after.ground) / 2, carried), algorithmic=algorithmic,
                         friction=friction, impact=landed, contact=contact - friction - landed)
+        return contact
 
-    def _impact(self, state, after, dt, footing, landing, turning) -> None:
+    def _impact(self, state, after, dt, footing, landing, turning, contact_work) -> None:
         """Replace the impulses of the step by those of a plastic impact; changes the velocities of `after`.
 
         The points of the foot that held the column before carry it until the moment of impact, all together from then on:
-        two projections, without which the weight's impulse of the whole step would act at the new contact.
+        two projections, without which the weight's impulse of the whole step would act at the new contact. Where a long step
+        would gain energy by them, because its positions know the new contact only, a single projection is made, or none.
         """
-        interface, R = self.system.interface, after.rotation
+        interface, column, R = self.system.interface, self.system.column, after.rotation
         before = np.flatnonzero(state.forces[:, 2] > 0)
         union = np.flatnonzero((after.forces[:, 2] > 0) | (state.forces[:, 2] > 0))
         held = np.searchsorted(union, before)
         mobility = turned(interface.foot.mobility, union, R)
         compliance = mobility + YIELD * 2 / dt**2 * interface.static_compliance(union, R, footing)
+        rows = (3 * held[:, None] + np.arange(3)).ravel()
         given = dt * after.forces
         start, end = interface.dynamic_velocity(state.v, R), interface.dynamic_velocity(after.v, R)
         pushed = np.zeros_like(end)
         pushed[union] = (mobility @ given[union].ravel()).reshape(-1, 3)
         end -= pushed
-        moment = self._landing_moment(state, after, -dt * start[:, 2], landing) if landing.any() \
+        lands = bool(landing.any())
+        moment = self._landing_moment(state, after, -dt * start[:, 2], landing) if lands \
             else self._turning_moment(state, after, start, end, pushed, turning)
-        rows = (3 * held[:, None] + np.arange(3)).ravel()
-        velocity = start + moment * (end - start)
-        carried, first = interface.impact(before, compliance[np.ix_(rows, rows)], velocity, moment * dt * state.forces)
-        velocity = np.array(end)
-        velocity[union] += (mobility @ carried[union].ravel()).reshape(-1, 3)
-        impulses, second = interface.impact(union, compliance, velocity, given - carried)
-        impulses += carried
-        self.record.contact_iterations += first.iterations + first.sweeps + second.iterations + second.sweeps
-        residual = max(first.residual, second.residual)
-        if residual > 1e-8 * max(np.abs(velocity[union]).max(), 1e-3):
-            raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: impact residual {residual:.2e} m/s")
-        jump = interface.foot.acceleration((impulses - given) @ R) @ R.T
-        column = self.system.column
-        lost = column.dot(after.v + jump / 2, column.apply(column.mass, jump))
-        self.ledger.add(**{"impact" if landing.any() else "friction": lost})
+        for share in (moment, 0.0) if lands and moment > 0 else (moment,):
+            carried, first = interface.impact(before, compliance[np.ix_(rows, rows)], start + share * (end - start), share * dt * state.forces)
+            velocity = np.array(end)
+            velocity[union] += (mobility @ carried[union].ravel()).reshape(-1, 3)
+            impulses, second = interface.impact(union, compliance, velocity, given - carried)
+            self.record.contact_iterations += first.iterations + first.sweeps + second.iterations + second.sweeps
+            residual = max(first.residual, second.residual)
+            if residual > 1e-8 * max(np.abs(velocity[union]).max(), 1e-3):
+                raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: impact residual {residual:.2e} m/s")
+            jump = interface.foot.acceleration((impulses + carried - given) @ R) @ R.T
+            gained = column.dot(after.v + jump / 2, column.apply(column.mass, jump))
+            if gained + contact_work <= 0:
+                break
+        if gained + contact_work > 0 and not lands:
+            return
+        self.ledger.add(**{"impact" if lands else "friction": gained})
         after.v = after.v + jump
-        self.record.impacts += bool(landing.any())
+        self.record.impacts += lands
 
     @staticmethod
     def _landing_moment(state, after, approach, landing) -> float:

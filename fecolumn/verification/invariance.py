@@ -30,6 +30,7 @@ from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
 from fecolumn.dynamics.history import read_history
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
+from fecolumn.post.style import LINES
 from fecolumn.schema import merge
 from fecolumn.verification.models import COARSE, column_case, shaking
 from fecolumn.verification.result import Result, Row
@@ -37,6 +38,7 @@ from fecolumn.verification.trial import Trial, solver_drift
 
 STEPS, DT = 200, 1e-3
 TIMES = DT * np.arange(1, STEPS + 1)
+FLOOR = 1e-18  # m, drawn for no difference at all
 
 
 def run(engine: str, long: bool) -> Result:
@@ -60,11 +62,11 @@ def run(engine: str, long: bool) -> Result:
 
     def draw(figure):
         axes = figure.subplots()
-        for label, off, style in (("restart", restarted, "C0-"), ("two ranks", ranks[1:], "C1--"), ("renumbered", renumbered, "C2-.")):
-            axes.semilogy(TIMES, np.maximum(off, 1e-18), style, label=label)
+        for (label, off), (colour, dashes) in zip((("restart", restarted), ("two ranks", ranks[1:]), ("renumbered", renumbered)), LINES):
+            axes.semilogy(TIMES, np.maximum(off, FLOOR), color=colour, linestyle=dashes, label=label)
         axes.semilogy(TIMES, drift, "k:", label="solver's drift, bound")
         axes.semilogy(TIMES, np.abs(path[:, 0]).max(axis=1), "k-", linewidth=0.6, label="the path itself")
-        axes.set(xlabel="time [s]", ylabel="difference of displacement [m]", ylim=(1e-18, None), xlim=(0, TIMES[-1]))
+        axes.set(xlabel="time [s]", ylabel="difference of displacement [m]", ylim=(FLOOR / 10, None), xlim=(0, TIMES[-1]))
         axes.legend(ncols=2)
 
     result.draw = draw
@@ -98,10 +100,12 @@ def on_ranks(engine: str, n: int, motion) -> np.ndarray:
         folder = Path(folder)
         rows = [f"{t:.17g},{a[0]:.17g},{a[1]:.17g}\n" for t, a in zip([0.0, *TIMES], [np.zeros(3), *motion])]
         (folder / "motion.csv").write_text("time [s],ax [m/s2],ay [m/s2]\n" + "".join(rows))
-        tables = merge(COARSE, {"integration": {"kinematics": engine, "dt_s": DT, "duration_s": TIMES[-1]}, "motion": {"source": "motion.csv"}})
+        tables = merge(COARSE, {"integration": {"kinematics": engine, "dt_s": DT, "duration_s": TIMES[-1]},
+                                "motion": {"source": "motion.csv"}})
         del tables["title"]
-        (folder / "case.toml").write_text("\n".join(f"[{name}]\n" + "\n".join(f"{key} = {json.dumps(value)}" for key, value in table.items())
-                                                    for name, table in tables.items()))
+        lines = [line for name, table in tables.items()
+                 for line in (f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items()))]
+        (folder / "case.toml").write_text("\n".join(lines))
         done = subprocess.run(["mpirun", "-n", str(n), sys.executable, "-m", "fecolumn.cli", "run", str(folder / "case.toml"), "-q",
                                "-o", str(folder / "out")], env=launch_environment(), capture_output=True, text=True)
         if done.returncode:

@@ -23,11 +23,11 @@ takes of a planar rocking column at each of its two impacts per cycle.
 Source: Kessler and O'Reilly 2002 (Regul. Chaotic Dyn. 7); Srinivasan and Ruina 2008; Stefanou, Vardoulakis and Mavraganis 2011.
 
 Tolerances. Loss: bodies and contacts are set at the end of the step in which a corner lands, half a step of the N of a passage on
-average: 1 / (2 N). The moment of impact is found from one velocity, off by dt / (8 N) if the speed of approach changes by itself in
-a passage; for that time the weight's impulse acts at the wrong corner, whose speed is u: m g u dt / (8 N). An elastic corner, C its
-static compliance, gives back nothing of (m g)^2 C / 2 when it lets go within a step. Rate: the losses quicken the body, so that the
-polygon's excess over the circle is as uncertain as the loss. It vanishes as 1 / n: extrapolated from the two finest rims, the next
-order is left, the square of the coarser one's excess. On an exact circle nothing is lost; visible is 1 % in a revolution.
+average: 1 / (2 N). In a passage the body turns by 2 pi / n, which changes the speed of approach u by the square of it: the moment of
+impact is off by (2 pi / n)^2 dt / (2 N), for which the weight's impulse acts at the wrong corner, m g u each second. An elastic corner,
+C its static compliance, gives back nothing of (m g)^2 C / 2 when it lets go within a step. Rate: the losses quicken the body, so that
+the polygon's excess over the circle is as uncertain as the loss. It vanishes as 1 / n: a polynomial in 1 / n through k rims leaves
+the power k, the product of the shares of energy lost. On an exact circle nothing is lost; visible is 1 % in a revolution.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def run(engine: str, long: bool) -> Result:
     """All with the corotated column; the slower one leaves out the finest rim and the column unless `long`."""
     whole, result = long or engine == "corotated", Result(size=(7.2, 2.5))
     found = {n: short_cylinder(engine, n) for n in (CORNERS if whole else CORNERS[:2])}
-    disks = {n: short_cylinder(engine, n, DISK, RollingRim.centred) for n in CORNERS[:2]}
+    disks = {n: short_cylinder(engine, n, DISK, RollingRim.centred) for n in found}
     result.rows += rolling_rows("short cylinder", found) + rolling_rows("Euler's disk", disks)
     columns = {modulus: wobbling_column(engine, modulus) for modulus in (2e13, 2e11)} if whole else {}
     result.rows += column_rows(columns)
@@ -150,7 +150,8 @@ def impact_allowance(one: dict, passage: float, dt: float, compliance: float = 0
     rim, weight = one["rim"], one["rim"].mass * GRAVITY
     speed = np.linalg.norm(rim.landing(one["tilt"], one["spin"], one["corners"]))
     lost = rim.corner_loss(one["tilt"], one["spin"], one["corners"])
-    return 1 / (2 * passage) + (weight * speed * dt / (8 * passage) + weight**2 * compliance / 2) / lost
+    moment = (2 * np.pi / one["corners"]) ** 2 * dt / (2 * passage)
+    return 1 / (2 * passage) + (weight * speed * moment + weight**2 * compliance / 2) / lost
 
 
 def rolling_rows(name: str, found) -> list[Row]:
@@ -163,11 +164,13 @@ def rolling_rows(name: str, found) -> list[Row]:
         allowed = impact_allowance(one, PASSAGE, one["dt"])
         rows += [Row(f"precession, {name}, {n} nodes, rigid polygon's [rad/s]", one["polygon_rate"], one["rate"],
                      allowed * (one["polygon_rate"] / one["steady"] - 1), order=rate),
-                 Row(f"lost in a revolution / energy, {name}, {n} nodes, polygon's [-]", one["polygon_loss"], one["loss"], allowed, order=loss)]
-    coarse, fine = list(found)[-2:]
-    circle = (fine * excess[fine] - coarse * excess[coarse]) / (fine - coarse)
-    steady = found[fine]["steady"]
-    return rows + [Row(f"precession, {name}, {coarse} and {fine} nodes to a circle [rad/s]", steady, steady * (1 + circle), excess[coarse] ** 2)]
+                 Row(f"lost in a revolution / energy, {name}, {n} nodes, polygon's [-]", one["polygon_loss"], one["loss"], allowed,
+                     order=loss)]
+    # the polynomial in 1 / n through all rims, at 0
+    circle = np.polyfit([1 / n for n in found], list(excess.values()), len(found) - 1)[-1]
+    steady, rims = found[n]["steady"], ", ".join(str(n) for n in found)
+    return rows + [Row(f"precession, {name}, {rims} nodes to a circle [rad/s]", steady, steady * (1 + circle),
+                       float(np.prod([one["loss"] for one in found.values()])))]
 
 
 def wobbling_column(engine: str, modulus: float) -> dict:
