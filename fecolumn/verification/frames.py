@@ -40,6 +40,7 @@ from mpi4py import MPI
 from fecolumn.contact.interface import Interface
 from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
 from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.dynamics.stepper import Stepper
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import AMPLITUDES, TONES, column_case, column_system, shaking
 from fecolumn.verification.result import Result, Row
@@ -73,6 +74,15 @@ class MovingInterface(Interface):
         return super().dynamic_velocity(v, rotation) - base
 
 
+class MovingStepper(Stepper):
+    """Stepper that judges contact by its work relative to the base, which moves by `moved` (3,) [m] in the step."""
+
+    moved = np.zeros(3)
+
+    def _book(self, state, after, *rest):
+        return super()._book(state, after, *rest) - float(after.forces.sum(axis=0) @ self.moved)
+
+
 class InertialTrial:
     """An analysis in the inertial frame on a base that moves along a path.
 
@@ -84,6 +94,7 @@ class InertialTrial:
         moving = copy.copy(system)
         moving.interface = MovingInterface(system.interface)
         self.trial = Trial(moving, start)
+        self.trial.stepper = MovingStepper(moving, self.trial.ledger)
         self.work = 0.0
 
     def shake(self, positions, velocities) -> np.ndarray:
@@ -92,7 +103,7 @@ class InertialTrial:
         base = np.zeros(3), np.zeros(3)
         for position, velocity in zip(positions, velocities):
             before = self.trial.state
-            system.interface.position = position
+            system.interface.position, self.trial.stepper.moved = position, position - base[0]
             system.interface.velocities = [(before.v, base[1]), (None, velocity)]
             relative.append(self.trial.shake([np.zeros(3)])[0] - position)
             if self.trial.stepper.record.cuts:
