@@ -9,8 +9,16 @@ import numpy as np
 from fecolumn.contact.delassus import below, turned
 from fecolumn.contact.friction import ContactSolution, solve_contact
 
-# Points nearer than this join the contact problem before they touch [m]
-NEAR = 2e-5
+# Points nearer than this, over the foot's width, join the contact problem before they touch
+NEAR = 2e-4
+# Residual of the contact laws at which a contact problem is solved, over the foot's width
+SOLVED = 1e-11
+# Residual velocity above which an impact is not solved, over the largest velocity of the points but at least 1e-3 m/s
+IMPACT_TOLERANCE = 1e-8
+
+
+class ImpactUnsolved(RuntimeError):
+    """No impulses were found that satisfy the laws of impact and friction."""
 
 
 @dataclass(slots=True)
@@ -35,6 +43,8 @@ class Interface:
     def __init__(self, foot, reference, base, friction: float, own: np.ndarray):
         self.foot, self.reference, self.base, self.friction, self.own = foot, reference, base, friction, own
         self.size = len(reference)
+        #: Width of the foot [m], to which tolerances are related.
+        self.width = float(np.ptp(reference[:, 0]))
 
     def dynamic_position(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """Positions (n, 3) of the foot from the column's positions x (n_owned, 3), without the static part."""
@@ -87,7 +97,7 @@ class Interface:
         q = moved[active] + self.own[active] * forces[active]
         q[:, :2] -= anchors[active]
         q -= (compliance @ forces[active].ravel()).reshape(-1, 3)
-        solution = solve_contact(compliance, q, self.friction, forces[active])
+        solution = solve_contact(compliance, q, self.friction, forces[active], SOLVED * self.width)
         updated = np.zeros((self.size, 3))
         updated[active] = solution.forces
         return updated, solution
@@ -99,8 +109,16 @@ class Interface:
             active: (k,) points that touch.
             mobility: (3 k, 3 k) velocity jump per impulse [m/(N s)].
             velocity: (n, 3) of the points without the impulses of the step [m/s].
+            start: (n, 3) first guess [N s].
         """
-        solution = solve_contact(mobility, velocity[active], self.friction, start[active])
+        allowed = IMPACT_TOLERANCE * max(np.abs(velocity[active]).max(initial=0.0), 1e-3)
+        # a guess far off can trap the iteration: zero is the second
+        for guess in (start[active], np.zeros((len(active), 3))):
+            solution = solve_contact(mobility, velocity[active], self.friction, guess)
+            if solution.residual <= allowed:
+                break
+        else:
+            raise ImpactUnsolved(f"impact residual {solution.residual:.2e} m/s")
         impulses = np.zeros((self.size, 3))
         impulses[active] = solution.forces
         return impulses, solution

@@ -12,10 +12,10 @@ from fecolumn.contact.delassus import turned
 from fecolumn.contact.interface import NEAR, Footing
 from fecolumn.dynamics.rotation import polar_rotation
 
-# Points of the foot that are not in the contact problem may not sink deeper than this [m]
-PENETRATION = 1e-11
-# Residual of the contact laws above which a stage has failed [m]
-CONTACT_TOLERANCE = 1e-10
+# Lengths over the foot's width: points of the foot that are not in the contact problem may not sink deeper than this,
+PENETRATION = 1e-10
+# and the residual of the contact laws above which a stage has failed
+CONTACT_TOLERANCE = 1e-9
 
 
 class Stop(enum.Enum):
@@ -106,7 +106,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             given = interface.static_displacement(forces, rotation, footing)
             relative = position + given
             static_energy = float(np.sum(forces * (given + interface.own * forces))) / 2
-            sunk = relative[:, 2] < -PENETRATION
+            sunk = relative[:, 2] < -PENETRATION * interface.width
             sunk[active] = False
             if size <= max(tolerance, system.rounding(operators.mass_factor) / reference) and not sunk.any():
                 return ended(Stop.CONVERGED)
@@ -123,14 +123,14 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         turn, along = rotation @ operators.rotation.T, halfway @ operators.rotation.T
         x = system.kinematics.moved(x, operators.factor.solve(total @ turn) @ turn.T)
         position = interface.dynamic_position(x, rotation)
-        active = np.flatnonzero((position[:, 2] < NEAR) | (forces[:, 2] > 0) | sunk)
+        active = np.flatnonzero((position[:, 2] < NEAR * interface.width) | (forces[:, 2] > 0) | sunk)
         dynamic = scale * turned(operators.response.compliance, active, along)
         static = interface.static_compliance(active, rotation, footing)
         moved = position + interface.static_displacement(forces, rotation, footing)
         old = forces
         forces, solution = interface.solve(active, dynamic + static, moved, stage.anchors, old)
         contact_iterations += solution.iterations + solution.sweeps
-        if solution.residual > CONTACT_TOLERANCE:
+        if solution.residual > CONTACT_TOLERANCE * interface.width:
             return ended(Stop.CONTACT, f"contact residual {solution.residual:.2e} m")
         x = system.kinematics.moved(x, scale * operators.response.displacement((forces - old) @ along) @ along.T)
     return ended(Stop.ITERATIONS)

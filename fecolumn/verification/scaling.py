@@ -17,9 +17,7 @@ upper bound for a column that rocks (standing, its deflections go with 1 / E).
 
 Source. Housner (1963) for the scale effect of rocking, Winkler (1867) for the rim's bedding.
 
-Tolerances. Same numbers: `solver_drift`, twice. It covers the engine's few absolute lengths: a contact counts as open 1e-9 m
-above the base and may sink 1e-11 m, a stuck point may move by 1e-11 m; taken up in a step of 1 ms, 1e-9 m is 1e-6 m/s, 3e-6 of the
-column's velocity. Same E: the bound above.
+Tolerances. Same numbers: `solver_drift`, twice; the engine's own tolerances of length go with the foot's width. Same E: the bound above.
 """
 
 from __future__ import annotations
