@@ -8,6 +8,7 @@ import numpy as np
 
 from fecolumn.contact.delassus import below, turned
 from fecolumn.contact.friction import ContactSolution, solve_contact
+from fecolumn.contact.rim import Rim, RimPoints
 
 # Points nearer than this, over the foot's width, join the contact problem before they touch
 NEAR = 2e-4
@@ -32,27 +33,96 @@ class Footing:
 class Interface:
     """Contact points of the column's foot on the deformed top of the base, in the table frame.
 
+    The points are the foot's nodes, but for those of a round rim, which may have turned along it (`place`).
+
     Args:
         foot: FilteredFoot or PlainFoot: what the time integration shows of the column.
-        reference: (n, 3) reference positions of its points [m].
+        reference: (n, 3) reference positions of its nodes [m].
         base: BasePlate.
         friction: Coulomb coefficient.
         own: (n, 3) compliance of the contact law [m/N].
+        rim: the foot's round rim, None to take it as the polygon of its nodes.
     """
 
-    def __init__(self, foot, reference, base, friction: float, own: np.ndarray):
-        self.foot, self.reference, self.base, self.friction, self.own = foot, reference, base, friction, own
+    def __init__(self, foot, reference, base, friction: float, own: np.ndarray, rim: Rim | None = None):
+        self.foot, self.reference, self.base, self.friction, self.own, self.rim = foot, reference, base, friction, own, rim
         self.size = len(reference)
+        self._turned: RimPoints | None = None
+        self._lift: np.ndarray | float = 0.0
+        self._rim_number = np.full(self.size, -1)
+        if rim is not None:
+            self._rim_number[rim.nodes] = np.arange(len(rim.nodes))
         #: Width of the foot [m], to which tolerances are related.
         self.width = float(np.ptp(reference[:, 0]))
 
-    def dynamic_position(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Positions (n, 3) of the foot from the column's positions x (n_owned, 3), without the static part."""
+    def place(self, points: RimPoints | None, lift=0.0) -> None:
+        """Put the rim's points where `points` has them, `lift` (n_rim,) [m] above the rim there; None: on its nodes."""
+        self._turned, self._lift = points, lift
+
+    def _at_points(self, values: np.ndarray) -> np.ndarray:
+        """Values (n, ...) at the points from those at the nodes."""
+        if self._turned is None:
+            return values
+        at_points = values.copy()
+        at_points[self._turned.slots] = self._turned.of(values)
+        return at_points
+
+    def at_nodes(self, forces: np.ndarray) -> np.ndarray:
+        """Forces (n, 3) on the nodes from those on the points."""
+        points = self._turned
+        if points is None:
+            return forces
+        shared = forces.copy()
+        shared[points.slots] = 0.0
+        loaded = np.flatnonzero(forces[points.slots].any(axis=1))
+        np.add.at(shared, points.carriers[loaded], points.weights[:, None] * forces[points.slots[loaded], None])
+        return shared
+
+    def turned(self, compliance: np.ndarray, active: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """Compliance (3 k, 3 k) of the active points, turned into the table frame, from that of the nodes (n, n, 3, 3)."""
+        at, on_rim = self._rim_points(active)
+        if not len(at):
+            return turned(compliance, active, rotation)
+        carriers, weights = self._turned.carriers[on_rim], self._turned.weights
+        nodes = np.union1d(active, carriers)
+        W = turned(compliance, nodes, rotation).reshape(len(nodes), 3, len(nodes), 3)
+        rows, carriers = np.searchsorted(nodes, active), np.searchsorted(nodes, carriers)
+        half = W[rows]
+        half[at] = np.einsum("q,rqaib->raib", weights, W[carriers])
+        whole = half[:, :, rows]
+        whole[:, :, at] = np.einsum("q,iarqb->iarb", weights, half[:, :, carriers])
+        return whole.reshape(3 * len(active), 3 * len(active))
+
+    def _rim_points(self, active: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Which of the active points are turned points of the rim, and their numbers there."""
+        if self._turned is None:
+            return np.zeros(0, np.int64), np.zeros(0, np.int64)
+        number = self._rim_number[active]
+        at = np.flatnonzero(number >= 0)
+        return at, number[at]
+
+    def node_positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """Positions (n, 3) of the foot's nodes from the column's positions x (n_owned, 3), without the static part."""
         return (self.reference + self.foot.position(x @ rotation - self.foot.body.X)) @ rotation.T
 
+    def dynamic_position(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """Positions (n, 3) of the points from the column's positions x (n_owned, 3), without the static part."""
+        positions = self._at_points(self.node_positions(x, rotation))
+        if self._turned is not None:
+            positions[self._turned.slots, 2] += self._lift
+        return positions
+
     def dynamic_velocity(self, v: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Velocities (n, 3) of the foot from the column's velocities."""
-        return self.foot.position(v @ rotation) @ rotation.T
+        """Velocities (n, 3) of the points from the column's velocities."""
+        return self._at_points(self.foot.position(v @ rotation) @ rotation.T)
+
+    def load(self, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """Nodal forces (n_owned, 3) of contact forces (n, 3) on the column turned by `rotation`."""
+        return self.foot.load(self.at_nodes(forces) @ rotation) @ rotation.T
+
+    def acceleration(self, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """Accelerations (n_owned, 3) of contact forces, or velocity jumps of contact impulses (n, 3)."""
+        return self.foot.acceleration(self.at_nodes(forces) @ rotation) @ rotation.T
 
     def project(self, positions: np.ndarray) -> Footing:
         """Base nodes under positions (n, 3); raises OffBase outside the plate."""
@@ -62,9 +132,28 @@ class Interface:
         """Compliance (3 k, 3 k) of the active points that follows the forces at once: foot's rest, base, contact law."""
         nodes = footing.nodes[active]
         self.base.need(nodes.ravel())
-        W = turned(self.foot.static, active, rotation) + below(self.base.compliance, self.base.slot[nodes], footing.weights[active])
+        W = self.turned(self.foot.static, active, rotation) + below(self.base.compliance, self.base.slot[nodes], footing.weights[active])
         W[np.diag_indices(len(W))] += self.own[active].ravel()
+        at, on_rim = self._rim_points(active)
+        if len(at):
+            rows = 3 * at[:, None] + np.arange(3)
+            W[rows[:, :, None], rows[:, None, :]] += self._evened(on_rim, rotation, footing)
         return W
+
+    def _evened(self, on_rim: np.ndarray, rotation: np.ndarray, footing: Footing) -> np.ndarray:
+        """Compliance (k, 3, 3) by which forces at points of the rim, spread over nodes of foot and base, meet less than at a node.
+
+        Given back so that the indentation of a rolling rim is even: it would otherwise store and return energy at each node.
+        """
+        near, share = self._turned.carriers[on_rim, :2], self._turned.weights[:2]
+        first, second = near.T
+        foot = self.foot.static
+        apart = foot[first, first] + foot[second, second] - foot[first, second] - foot[second, first]
+        even = share[0] * share[1] * np.einsum("ab,kbc,dc->kad", rotation, apart, rotation)
+        points = self._turned.slots[on_rim]
+        slots, share = self.base.slot[footing.nodes[points]], footing.weights[points]
+        base = self.base.compliance[slots[:, :, None], slots[:, None]]
+        return even + np.einsum("kp,kppab->kab", share, base) - np.einsum("kp,kq,kpqab->kab", share, share, base)
 
     def static_displacement(self, forces: np.ndarray, rotation: np.ndarray, footing: Footing) -> np.ndarray:
         """Displacement (n, 3) of every point relative to the base from the static compliance of foot and base.
@@ -74,15 +163,20 @@ class Interface:
         loaded = np.flatnonzero(forces[:, 2] > 0)
         if not len(loaded):
             return np.zeros_like(forces)
-        local = forces[loaded] @ rotation
-        moved = np.einsum("ijab,jb->ia", self.foot.static[:, loaded], local) @ rotation.T
+        on_nodes = self.at_nodes(forces)
+        pressed = np.flatnonzero(on_nodes.any(axis=1))
+        moved = self._at_points(np.einsum("ijab,jb->ia", self.foot.static[:, pressed], on_nodes[pressed] @ rotation) @ rotation.T)
         slots = self.base.slot[footing.nodes]
         share = np.zeros((len(self.base.compliance), 3))
         np.add.at(share, slots[loaded].ravel(), (footing.weights[loaded, :, None] * forces[loaded, None, :]).reshape(-1, 3))
         touched = np.flatnonzero(np.any(share != 0, axis=1))
         sunk = np.einsum("ijab,jb->ia", self.base.compliance[:, touched], share[touched])
         sunk = np.vstack([sunk, np.zeros(3)])  # slot -1: not built, far away
-        return moved + np.einsum("np,npa->na", footing.weights, sunk[slots])
+        moved += np.einsum("np,npa->na", footing.weights, sunk[slots])
+        at, on_rim = self._rim_points(loaded)
+        if len(at):
+            moved[loaded[at]] += np.einsum("kab,kb->ka", self._evened(on_rim, rotation, footing), forces[loaded[at]])
+        return moved
 
     def solve(self, active, compliance, moved, anchors, forces) -> tuple[np.ndarray, ContactSolution]:
         """New contact forces (n, 3) [N] and the solver's record.

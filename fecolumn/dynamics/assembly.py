@@ -7,6 +7,7 @@ import numpy as np
 from fecolumn.case import GRAVITY, Case
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.law import interface_compliance
+from fecolumn.contact.rim import Rim
 from fecolumn.dynamics.body import Body
 from fecolumn.dynamics.corotated import Corotated
 from fecolumn.dynamics.hht import HHT
@@ -88,4 +89,4 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
     own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, areas)
     return System(column, kinematics, BasePlate(base_body(case, specimen, comm)), foot, areas, case.contact.friction_coefficient,
                   own, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
-                  filtered=case.contact.impact == "plastic")
+                  filtered=case.contact.impact == "plastic", rim=Rim.find(column.all_X[foot]))

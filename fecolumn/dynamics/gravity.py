@@ -24,6 +24,7 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
         RuntimeError: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
     column, interface = system.column, system.interface
+    interface.place(None)
     load, x = system.load(np.zeros(3)), column.X.copy()
     anchors = interface.reference[:, :2].copy()
     forces = np.zeros((interface.size, 3))
@@ -40,7 +41,7 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
     else:
         raise RuntimeError(f"gravity equilibrium: still moving by {moved:.2e} m after {max_iterations} iterations")
     system.forget(*factors)
-    push = interface.foot.acceleration(forces @ outcome.rotation) @ outcome.rotation.T if interface.foot.filtered else np.zeros_like(x)
+    push = interface.acceleration(forces, outcome.rotation) if interface.foot.filtered else np.zeros_like(x)
     return State(
         time=0.0, x=x, v=np.zeros_like(x), a=-push, contact_a=push, internal=outcome.internal, strain=outcome.strain,
         rotation=outcome.rotation, forces=forces, anchors=anchors, relative=outcome.relative,
@@ -50,10 +51,12 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
 def tilted(system, tilt: float, direction: float) -> State:
     """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest point on the base."""
     column, interface = system.column, system.interface
+    interface.place(None)
     turn = rotation_matrix(tilt * np.array([-np.sin(direction), np.cos(direction), 0.0]))
     foot = interface.reference
     pivot = np.array([np.cos(direction), np.sin(direction), 0.0]) * np.linalg.norm(foot[:, :2], axis=1).max()
-    lift = -((foot - pivot) @ turn.T + pivot)[:, 2].min()
+    # a round rim stands on the pivot itself, between nodes
+    lift = 0.0 if interface.rim else -((foot - pivot) @ turn.T + pivot)[:, 2].min()
     x = (column.X - pivot) @ turn.T + pivot + [0.0, 0.0, lift]
     rotation, internal, strain = system.kinematics.internal(x)
     relative = interface.dynamic_position(x, rotation)

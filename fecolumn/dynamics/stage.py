@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.contact.base_top import OffBase
-from fecolumn.contact.delassus import turned
 from fecolumn.contact.interface import NEAR, Footing
 from fecolumn.dynamics.rotation import polar_rotation
 
@@ -98,7 +97,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             footing = interface.project(position)
         except OffBase as error:
             return ended(Stop.OFF_BASE, str(error))
-        total = residual + scale * interface.foot.load(forces @ halfway) @ halfway.T
+        total = residual + scale * interface.load(forces, halfway)
         reference = max(system.weight, scale * np.abs(forces).max(initial=0.0))
         size = column.max(np.abs(total).max(initial=0.0)) / reference
         sunk = np.zeros(interface.size, bool)
@@ -124,7 +123,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         x = system.kinematics.moved(x, operators.factor.solve(total @ turn) @ turn.T)
         position = interface.dynamic_position(x, rotation)
         active = np.flatnonzero((position[:, 2] < NEAR * interface.width) | (forces[:, 2] > 0) | sunk)
-        dynamic = scale * turned(operators.response.compliance, active, along)
+        dynamic = scale * interface.turned(operators.response.compliance, active, along)
         static = interface.static_compliance(active, rotation, footing)
         moved = position + interface.static_displacement(forces, rotation, footing)
         old = forces
@@ -132,5 +131,5 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         contact_iterations += solution.iterations + solution.sweeps
         if solution.residual > CONTACT_TOLERANCE * interface.width:
             return ended(Stop.CONTACT, f"contact residual {solution.residual:.2e} m")
-        x = system.kinematics.moved(x, scale * operators.response.displacement((forces - old) @ along) @ along.T)
+        x = system.kinematics.moved(x, scale * operators.response.displacement(interface.at_nodes(forces - old) @ along) @ along.T)
     return ended(Stop.ITERATIONS)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.contact.delassus import turned
 from fecolumn.contact.interface import ImpactUnsolved
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.rolling import rolled
 from fecolumn.dynamics.stage import Stage, Stop, equilibrate
 from fecolumn.dynamics.system import State
 
@@ -94,6 +94,7 @@ class Stepper:
 
     def _hht_step(self, state, ground, hht) -> State:
         system, column, interface = self.system, self.system.column, self.system.interface
+        state = rolled(system, state, hht.dt)
         dt, al, be, ga = hht.dt, hht.alpha, hht.beta, hht.gamma
         F0, F1 = system.load(state.ground), system.load(ground)
         stage = Stage(
@@ -113,14 +114,14 @@ class Stepper:
         after = State(
             time=state.time + dt, x=outcome.x, v=state.v, a=state.a, contact_a=state.contact_a, internal=outcome.internal,
             strain=outcome.strain, rotation=outcome.rotation, forces=forces, anchors=self._anchors(state, outcome),
-            relative=outcome.relative, static=outcome.static, ground=np.array(ground, float))
-        push = interface.foot.load(forces @ R) @ R.T
+            relative=outcome.relative, static=outcome.static, ground=np.array(ground, float), rim_angle=state.rim_angle)
+        push = interface.load(forces, R)
         if self.plastic:
-            w = interface.foot.acceleration(forces @ R) @ R.T
+            w = interface.acceleration(forces, R)
             worked = push
         else:
             w = np.zeros_like(state.x)
-            worked = (1 - ga) * interface.foot.load(state.forces @ R) @ R.T + ga * push
+            worked = (1 - ga) * interface.load(state.forces, R) + ga * push
         after.contact_a = w
         after.a = hht.mass_factor * (after.x - stage.target) - w / (2 * be)
         after.v = state.v + dt * ((1 - ga) * state.a + ga * after.a + w)
@@ -192,7 +193,7 @@ class Stepper:
         before = np.flatnonzero(state.forces[:, 2] > 0)
         union = np.flatnonzero((after.forces[:, 2] > 0) | (state.forces[:, 2] > 0))
         held = np.searchsorted(union, before)
-        mobility = turned(interface.foot.mobility, union, R)
+        mobility = interface.turned(interface.foot.mobility, union, R)
         compliance = mobility + YIELD * 2 / dt**2 * interface.static_compliance(union, R, footing)
         rows = (3 * held[:, None] + np.arange(3)).ravel()
         given = dt * after.forces
@@ -210,7 +211,7 @@ class Stepper:
             impulses, second = interface.impact(union, compliance, velocity, given - carried)
             self.record.contact_iterations += first.iterations + first.sweeps + second.iterations + second.sweeps
             changed = impulses + carried - given
-            jump = interface.foot.acceleration(changed @ R) @ R.T
+            jump = interface.acceleration(changed, R)
             # judged by velocities relative to the base: whether contact takes energy must not depend on the frame
             taken = contact_work + np.sum(changed * interface.dynamic_velocity(after.v + jump / 2, R))
             if taken <= 0:

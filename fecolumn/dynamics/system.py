@@ -24,6 +24,7 @@ class State:
     relative: (n, 3) position of its points relative to the base, the third column the gap [m];
     static: strain energy of base, foot's static rest and penalty springs [J].
     ground: (3,) acceleration of the base [m/s2].
+    rim_angle: where the round rim's contact point is [rad]; nan while the foot touches with its nodes only.
     """
 
     time: float
@@ -39,6 +40,7 @@ class State:
     relative: np.ndarray
     static: float
     ground: np.ndarray
+    rim_angle: float = np.nan
 
     def copy(self) -> "State":
         return State(*(np.copy(value) if isinstance(value, np.ndarray) else value
@@ -68,9 +70,11 @@ class System:
         gravity: (3,) [m/s2].
         hht: time integration whose step decides the filter of the contact.
         filtered: contact by FilteredFoot, as the plastic impact law needs it, or PlainFoot.
+        rim: of the Interface.
     """
 
-    def __init__(self, column, kinematics, base, foot_nodes, areas, friction, own, gravity, hht: HHT, filtered=True):
+    def __init__(self, column, kinematics, base, foot_nodes, areas, friction, own, gravity, hht: HHT, filtered=True,
+                 rim=None):
         self.column, self.kinematics, self.base = column, kinematics, base
         self.foot_nodes, self.areas = foot_nodes, areas
         self.gravity, self.hht = np.asarray(gravity, float), hht
@@ -80,7 +84,7 @@ class System:
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)
         foot = FilteredFoot(column, foot_nodes, factor, hht.mass_factor, hht.stiffness_factor) if filtered \
             else PlainFoot(column, foot_nodes)
-        self.interface = Interface(foot, column.all_X[foot_nodes], base, friction, own)
+        self.interface = Interface(foot, column.all_X[foot_nodes], base, friction, own, rim)
         self._add(hht.mass_factor, hht.stiffness_factor, factor, np.eye(3))
 
     def _factor(self, mass_factor, stiffness_factor, tangent=None) -> Factor:

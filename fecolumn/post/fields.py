@@ -57,7 +57,7 @@ class FieldWriter:
             return
         pressure = np.zeros(self._offset + len(self.specimen.base.points))
         at_vertex = self._pressure_points >= 0
-        pressure[self._pressure_points[at_vertex]] = (state.forces[:, 2] / system.areas)[at_vertex]
+        pressure[self._pressure_points[at_vertex]] = (interface.at_nodes(state.forces)[:, 2] / system.areas)[at_vertex]
         name = f"frame_{round(state.time * 1e6):012d}.h5"
         _write_h5(self.folder / name, {
             "displacement": np.vstack([values[nodes] for values, nodes in zip(displacement, self._nodes)]),

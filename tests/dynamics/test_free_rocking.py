@@ -40,3 +40,18 @@ def test_quarter_period_loss_and_ledger_of_free_rocking(alpha):
     assert 0 < lost < 1.02 * rocking * (1 - restitution**2)
     assert abs(row[-1]) < 1e-3 * rocking
     assert tilt_angle(state.rotation) > 0.2 * slenderness
+
+
+def test_a_column_released_between_nodes_of_its_rim_stays_in_its_plane():
+    """The rim is a circle: no corner turns the column aside. A polygon turns it by 1 mrad."""
+    system = coarse_system(integration={"dt_s": 1e-3}, contact={"friction_coefficient": 0.8})
+    azimuth = system.interface.rim.sector / 4
+    state = tilted(system, 0.04, azimuth)
+    ledger = Ledger(system)
+    ledger.open(state)
+    stepper, across = Stepper(system, ledger), []
+    for _ in range(400):
+        state = stepper.step(state, np.zeros(3))
+        across.append(state.rotation[1, 2] * np.cos(azimuth) - state.rotation[0, 2] * np.sin(azimuth))
+    assert np.abs(across).max() < 1e-5
+    assert np.isfinite(state.rim_angle)
