@@ -129,7 +129,7 @@ class Stepper:
         after.a = hht.mass_factor * (after.x - stage.target) - w / (2 * be)
         after.v = state.v + dt * ((1 - ga) * state.a + ga * after.a + w)
         contact_work = self._book(state, after, hht, F0 + F1, worked)
-        if rolls and state is not start and contact_work > CREATED * system.weight * interface.width:
+        if self.plastic and rolls and state is not start and contact_work > CREATED * system.weight * interface.width:
             # several points of the rim carry while it rolls fast: they stay for this step
             self.ledger.work.update(booked)
             return self._hht_step(start, ground, hht, rolls=False)
