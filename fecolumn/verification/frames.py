@@ -210,7 +210,7 @@ def run(engine: str, long: bool) -> Result:
         left.plot(*1e3 * relative[::5, 0, :2].T, "o", color=LINES[1][0], markersize=3, fillstyle="none", label="top, base moving")
         left.set(xlabel="$u_x$ [mm]", ylabel="$u_y$ [mm]", aspect="equal", xlim=(-33, 31), ylim=(-19, 33))
         left.legend(loc="upper left")
-        for (name, difference), (colour, dashes) in zip(series.items(), (*LINES, ("#7F3F00", "-."))):
+        for (name, difference), (colour, dashes) in zip(series.items(), (*LINES, ("#7F3F00", "-."), ("#882255", (0, (3, 1))))):
             right.semilogy(times, np.maximum(difference, 1e-17), color=colour, linestyle=dashes, label=name)
         right.semilogy(times, grown, color="0.7", linewidth=2.5, label=f"disturbed by {1e6 * DISTURBANCE:g} µm/s", zorder=0)
         right.semilogy(times, drift * times, color="k", linewidth=0.8, linestyle=":", label="what the solver may leave")
