@@ -10,7 +10,8 @@ _LICK = "lick"
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn motions`."""
     actions = parser.add_subparsers(required=True, metavar="ACTION")
-    make = actions.add_parser("make", help="make an ensemble: one HDF5 file and its summary table").add_subparsers(required=True, metavar="KIND")
+    make = actions.add_parser("make", help="make an ensemble: one HDF5 file and its summary table")
+    make = make.add_subparsers(required=True, metavar="KIND")
 
     seeded = make.add_parser("seeded", help="stochastic motions of a fitted model; the Lick ensemble by default")
     seeded.add_argument("model", nargs="?", default=_LICK, metavar="MODEL.toml", help="parameter file of `motions fit`, or lick (default)")
@@ -40,7 +41,8 @@ def add_arguments(parser) -> None:
     plot = actions.add_parser("plot", help="figures of an ensemble: three motions, spectra, distributions")
     plot.add_argument("ensemble", metavar="ENSEMBLE.h5")
     plot.add_argument("-o", "--output", required=True, metavar="DIR", help="folder of the figures, PNG and PDF")
-    plot.add_argument("--show", type=int, nargs="+", metavar="NUMBER", help="motions to show, counted from 1 (default: small, median and large PGV)")
+    plot.add_argument("--show", type=int, nargs="+", metavar="NUMBER",
+                      help="motions to show, counted from 1 (default: small, median and large PGV)")
     plot.set_defaults(command=_plot)
 
     convert = actions.add_parser("convert", help="any motions into an ensemble (.h5), or into text files in a folder")
@@ -111,7 +113,8 @@ def _fit(args) -> int:
     else:
         motion = _read(args.source, args, source_y=args.source_y)
         if not motion.acceleration[:, :2].any(axis=0).all():
-            raise InputError("fecolumn motions fit", "RECORD", args.source, "must have two horizontal components (--source-y names a file of the second)")
+            raise InputError("fecolumn motions fit", "RECORD", args.source,
+                             "must have two horizontal components (--source-y names a file of the second)")
         motion, components = components_of_record(motion)
         target = target_of_record(motion)
     Path(args.output).parent.mkdir(parents=True, exist_ok=True)

@@ -83,7 +83,10 @@ def members(source: str) -> list[str]:
 
 
 def summary(ensemble: Ensemble) -> dict[str, np.ndarray]:
-    """Columns of numbers, (n,) each: number, dt_s, length_s, intensity measures, parameters; time_scale, where the motions were made at another."""
+    """Columns of numbers, (n,) each: number, dt_s, length_s, intensity measures, parameters.
+
+    Motions whose time was scaled have a column time_scale; their parameters are those before.
+    """
     measures = [intensity_measures(motion) for motion in ensemble.motions]
     columns = {"number": np.arange(1, len(measures) + 1), "dt_s": np.array([motion.dt for motion in ensemble.motions]),
                "length_s": np.array([motion.duration for motion in ensemble.motions])}

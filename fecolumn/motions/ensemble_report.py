@@ -9,8 +9,9 @@ from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.target import Target, agreement, time_scaled
 from fecolumn.schema import build
 
-_LABELS = {"pga_m_s2": ("PGA [g]", 1 / GRAVITY), "pgv_m_s": ("PGV [cm/s]", 100), "pgd_m": ("PGD [cm]", 100), "arias_m_s": ("Arias, x + y [m/s]", 1),
-           "ds5_75_s": ("Ds5-75 [s]", 1), "ds5_95_s": ("Ds5-95 [s]", 1), "cav_m_s": ("CAV [m/s]", 1), "housner_m": ("Housner [m]", 1)}
+_LABELS = {"pga_m_s2": ("PGA [g]", 1 / GRAVITY), "pgv_m_s": ("PGV [cm/s]", 100), "pgd_m": ("PGD [cm]", 100),
+           "arias_m_s": ("Arias, x + y [m/s]", 1), "ds5_75_s": ("Ds5-75 [s]", 1),
+           "ds5_95_s": ("Ds5-95 [s]", 1), "cav_m_s": ("CAV [m/s]", 1), "housner_m": ("Housner [m]", 1)}
 
 
 def stored_target(ensemble: Ensemble) -> tuple[Target, float] | None:
@@ -38,8 +39,8 @@ def report(ensemble: Ensemble, columns: dict[str, np.ndarray]) -> str:
     if found:
         rows = agreement(ensemble.motions, *found)
         lines.append(f"{'median against target':22} {'target':>9} {'median':>9} {'off':>9} {'allowed':>9}")
-        lines += [f"{row.name:22} {row.target:9.4g} {row.median:9.4g} {100 * (row.median / row.target - 1):+8.1f}% {100 * row.tolerance:8.0f}%"
-                  + ("" if row.within else "  missed") for row in rows]
+        lines += [f"{row.name:22} {row.target:9.4g} {row.median:9.4g} {100 * (row.median / row.target - 1):+8.1f}% "
+                  f"{100 * row.tolerance:8.0f}%{'' if row.within else '  missed'}" for row in rows]
         lines.append(f"{sum(row.within for row in rows)} of {len(rows)} figures within what is allowed")
     return "\n".join(lines)
 

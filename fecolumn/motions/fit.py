@@ -17,13 +17,14 @@ from scipy.stats import gamma
 from fecolumn.motions.intensity import total_arias_intensity
 from fecolumn.motions.processing import arias_intensity
 from fecolumn.motions.record import GroundMotion
-from fecolumn.motions.seeded import VARIABILITIES, Components, Fitted, SeededModel, medians, seeded_acceleration
-from fecolumn.motions.stochastic import Shape, amplitude, high_pass
+from fecolumn.motions.seeded import VARIABILITIES, Components, Fitted, SeededModel, medians, seeded_acceleration, shape_of
+from fecolumn.motions.stochastic import amplitude, high_pass
 from fecolumn.motions.target import SPECTRUM_RANGE_S, Target, figures, measured
 
 _N_FREQUENCIES, _RANGE_HZ = 80, (0.04, 40.0)
 _SEED = 8101989  # of the ensembles fitted on, none that anybody would draw
-_SMOOTHNESS, _RESTRAINT, _LARGEST_STEP, _RELAXATION = 0.04, 0.02, 1.0, 0.6
+_SMOOTHNESS, _RESTRAINT, _LARGEST_STEP, _RELAXATION = 0.02, 0.015, 1.0, 0.6
+_FALL_HZ = 1.0  # below it the first guess falls with the square of frequency, as earthquake sources do
 _SHAPES = (1.5, 200.0)
 _DAMPING, _CORNER_HZ = 0.135, 0.1
 
@@ -38,8 +39,10 @@ def fit(target: Target, components: Components, n: int = 400, iterations: int = 
         iterations: steps; the best is kept.
         report: called with a line of text a step.
     """
-    start = Fitted(1.0, target.ds5_95_s, _shape_of(target.ds5_75_s / target.ds5_95_s), (0.0,) * _N_FREQUENCIES)
-    model = SeededModel(target, components, start, start, tuple(np.geomspace(*_RANGE_HZ, _N_FREQUENCIES).tolist()))
+    frequencies = np.geomspace(*_RANGE_HZ, _N_FREQUENCIES)
+    source_like = tuple((-np.log1p((_FALL_HZ / frequencies)**2)).tolist())
+    start = Fitted(1.0, target.ds5_95_s, _shape_of(target.ds5_75_s / target.ds5_95_s), source_like)
+    model = SeededModel(target, components, start, start, tuple(frequencies.tolist()))
     for variability in VARIABILITIES:
         if variability == "drawn":
             model = dataclasses.replace(model, drawn=model.fixed)
@@ -49,8 +52,8 @@ def fit(target: Target, components: Components, n: int = 400, iterations: int = 
             error = figures(target) / found
             misfit = float((_weights(target) * np.log(error)**2).sum() / _weights(target).sum())**0.5
             if report:
-                report(f"{variability}, step {iteration + 1}: weighted rms of ln error {misfit:.4f}; PGA, PGV, PGD, Ds5-75, Ds5-95 over target "
-                       + " ".join(f"{1 / value:.3f}" for value in error[-5:]))
+                report(f"{variability}, step {iteration + 1}: weighted rms of ln error {misfit:.4f}; "
+                       "PGA, PGV, PGD, Ds5-75, Ds5-95 over target " + " ".join(f"{1 / value:.3f}" for value in error[-5:]))
             current = getattr(model, variability)
             if misfit < best:
                 best, kept = misfit, current
@@ -105,7 +108,7 @@ def _figures(model: SeededModel, variability: str, number: int) -> np.ndarray:
 def _weights(target: Target) -> np.ndarray:
     periods = np.array(target.periods_s)
     required = (periods >= SPECTRUM_RANGE_S[0]) & (periods <= SPECTRUM_RANGE_S[1])
-    return np.concatenate([np.where(required, 1.0, 0.2), [6.0, 6.0, 3.0, 1.0, 1.0]])
+    return np.concatenate([np.where(required, 1.0, 0.2), [4.0, 4.0, 4.0, 1.0, 1.0]])
 
 
 def _improved(model: SeededModel, variability: str, error: np.ndarray) -> Fitted:
@@ -129,10 +132,9 @@ def _improved(model: SeededModel, variability: str, error: np.ndarray) -> Fitted
 def _shares(model: SeededModel, variability: str) -> tuple[np.ndarray, float]:
     """Share (n_figures, n_frequencies) of the variance of each figure's response around each frequency, and the power."""
     frequencies = np.geomspace(_RANGE_HZ[0] / 4, 0.45 / model.components.dt_s, 4000)
-    fitted = getattr(model, variability)
-    shape = Shape(fitted.modulation_shape, model.components.corner_hz, np.array(model.frequencies_hz), np.array(fitted.ln_gains), model.components.dt_s)
+    shape = shape_of(model, variability)
     powers = [ratio * amplitude(frequencies, one, shape, one.frequency_hz)**2 * frequencies
-              for ratio, one in zip(model.components.arias_ratio, medians(model.components, fitted))]
+              for ratio, one in zip(model.components.arias_ratio, medians(model.components, getattr(model, variability)))]
     totals = [power.sum() for power in powers]
     density = sum(power / total * ratio for power, total, ratio in zip(powers, totals, model.components.arias_ratio))
     ratios = np.outer(model.target.periods_s, frequencies)

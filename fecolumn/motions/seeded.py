@@ -30,7 +30,8 @@ class Components:
 
     source: str = parameter(doc="where the parameters come from")
     arias_ratio: tuple[float, ...] = parameter(doc="Arias intensity of x and y over their mean", above=0, high=2)
-    frequency_hz: tuple[float, ...] = parameter(doc="filter frequency of x and y at 45 % of the Arias intensity", unit="Hz", above=0, high=50)
+    frequency_hz: tuple[float, ...] = parameter(doc="filter frequency of x and y at 45 % of the Arias intensity", unit="Hz",
+                                                above=0, high=50)
     frequency_slope_hz_s: tuple[float, ...] = parameter(doc="change of the filter frequency of x and y", unit="Hz/s", low=-3.4, high=1.5)
     damping: tuple[float, ...] = parameter(doc="filter damping ratio of x and y", low=0.01, high=0.99)
     corner_hz: float = parameter(doc="corner frequency of the high-pass", unit="Hz", above=0, high=5)
@@ -118,6 +119,13 @@ def medians(components: Components, fitted: Fitted) -> tuple[Component, Componen
                  in zip(components.arias_ratio, components.frequency_hz, components.frequency_slope_hz_s, components.damping))
 
 
+def shape_of(model: SeededModel, variability: str) -> Shape:
+    """What all motions share."""
+    fitted = getattr(model, variability)
+    return Shape(fitted.modulation_shape, model.components.corner_hz, np.array(model.frequencies_hz), np.array(fitted.ln_gains),
+                 model.components.dt_s)
+
+
 def parameters(model: SeededModel, variability: str, seed: int, number: int) -> tuple[Component, Component]:
     """Parameters of motion `number` (from 0): the medians themselves where they are fixed, or drawn around them."""
     middle = medians(model.components, getattr(model, variability))
@@ -126,11 +134,8 @@ def parameters(model: SeededModel, variability: str, seed: int, number: int) -> 
 
 def seeded_acceleration(model: SeededModel, variability: str, seed: int, number: int) -> np.ndarray:
     """Acceleration (n_steps, 3) [m/s2] of motion `number` (from 0) at full scale; it depends on no other motion."""
-    fitted = getattr(model, variability)
-    shape = Shape(fitted.modulation_shape, model.components.corner_hz, np.array(model.frequencies_hz), np.array(fitted.ln_gains),
-                  model.components.dt_s)
     rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(number,))))
-    horizontal = bidirectional(parameters(model, variability, seed, number), shape, rng)
+    horizontal = bidirectional(parameters(model, variability, seed, number), shape_of(model, variability), rng)
     return np.column_stack([horizontal, np.zeros(len(horizontal))])
 
 
@@ -148,9 +153,9 @@ def seeded_ensemble(model: SeededModel, n: int, seed: int, variability: str = "f
         raise ValueError(f"variability = {variability!r} must be one of {', '.join(VARIABILITIES)}")
     scaled = f", time x {time_scale:g}" if time_scale != 1 else ""
     name = f"{model.target.name}, {variability} parameters{scaled}"
+    source = f"stochastic, seed {seed}; {model.target.source}"
     motions = tuple(scale_time(GroundMotion(seeded_acceleration(model, variability, seed, number), model.components.dt_s,
-                                            f"{model.target.name} {number + 1}", f"stochastic, seed {seed}; {model.target.source}"), time_scale)
-                    for number in range(n))
+                                            f"{model.target.name} {number + 1}", source), time_scale) for number in range(n))
     chosen = [parameters(model, variability, seed, number) for number in range(n)]
     columns = {f"{field.name.removesuffix(unit)}_{axis}{unit}": np.array([getattr(pair[i], field.name) for pair in chosen])
                for field, unit in zip(dataclasses.fields(Component), ("_m_s", "_s", "_hz", "_hz_s", "")) for i, axis in enumerate("xy")}

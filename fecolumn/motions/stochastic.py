@@ -9,9 +9,9 @@ Model of Rezaeian and Der Kiureghian (2008, 2010) in its spectral form (after Br
 The product goes through a high-pass without phase shift, Butterworth's of fourth order (Dabaghi and Der Kiureghian 2018): the
 modulation spreads long periods to still longer ones, which would rule the displacement.
 
-G is ours: a fixed, smooth correction of the spectral shape, given at a few frequencies. One filter mode cannot hold more than
-one peak; G holds what else a record and its site have, in the ensemble and not motion by motion, while filter and modulation
-keep their parameters, their drift in time and their variability. sqrt(S)/s is computed at knots in time and joined by
+G is ours: a correction of the spectral shape, given at some frequencies and the same for all motions of an ensemble. One filter
+mode cannot hold more than one peak; G holds what else a record and its site have, in the ensemble and not motion by motion,
+while filter and modulation keep their parameters, their drift in time and their variability. sqrt(S)/s is computed at knots in time and joined by
 straight lines, so that a component costs one Fourier transform a knot.
 """
 

@@ -82,7 +82,8 @@ def agreement(motions, target: Target, time_scale: float = 1.0) -> list[Agreemen
     """
     medians = np.median([measured(motion, target.periods_s) for motion in motions], axis=0)
     pairs = list(zip(figures(target).tolist(), medians.tolist()))
-    units = {"pga": (GRAVITY, "PGA [g]"), "pgv": (1, "PGV [m/s]"), "pgd": (1, "PGD [m]"), "ds5_75": (1, "Ds5-75 [s]"), "ds5_95": (1, "Ds5-95 [s]")}
+    units = {"pga": (GRAVITY, "PGA [g]"), "pgv": (1, "PGV [m/s]"), "pgd": (1, "PGD [m]"),
+             "ds5_75": (1, "Ds5-75 [s]"), "ds5_95": (1, "Ds5-95 [s]")}
     rows = [Agreement(label, wanted / unit, median / unit, _TOLERANCES[key])
             for (key, (unit, label)), (wanted, median) in zip(units.items(), pairs[-5:])]
     first, last = (time_scale * period * (1 + sign * 1e-9) for period, sign in zip(SPECTRUM_RANGE_S, (-1, 1)))

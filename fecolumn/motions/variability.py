@@ -52,7 +52,8 @@ def drawn(medians: tuple[Component, Component], seed: int, number: int) -> tuple
     scores = (_DEVIATIONS * (np.linalg.cholesky(_CORRELATIONS) @ ndtri(place))).reshape(2, 5)
     return tuple(Component(
         arias_m_s=median.arias_m_s * math.exp(arias), duration_s=median.duration_s * math.exp(duration),
-        frequency_hz=median.frequency_hz * math.exp(frequency), frequency_slope_hz_s=slope_of(slope + slope_score(median.frequency_slope_hz_s)),
+        frequency_hz=median.frequency_hz * math.exp(frequency),
+        frequency_slope_hz_s=slope_of(slope + slope_score(median.frequency_slope_hz_s)),
         damping=damping_of(damping + damping_score(median.damping)))
         for median, (arias, duration, frequency, slope, damping) in zip(medians, scores))
 

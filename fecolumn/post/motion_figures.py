@@ -15,7 +15,8 @@ from fecolumn.post.style import BLACK, BLUE, PAGE_WIDTH_IN, SKY, VERMILION, new_
 from fecolumn.statistics.ecdf import ecdf
 
 _ROWS = (r"$a$ [g]", r"$v$ [cm/s]", r"$d$ [cm]")
-_MEASURES = (("pga_m_s2", "PGA [g]", 1 / GRAVITY, "pga_g", 1), ("pgv_m_s", "PGV [cm/s]", 100, "pgv_m_s", 100), ("pgd_m", "PGD [cm]", 100, "pgd_m", 100),
+_MEASURES = (("pga_m_s2", "PGA [g]", 1 / GRAVITY, "pga_g", 1), ("pgv_m_s", "PGV [cm/s]", 100, "pgv_m_s", 100),
+             ("pgd_m", "PGD [cm]", 100, "pgd_m", 100),
              ("ds5_75_s", r"$D_\mathrm{5-75}$ [s]", 1, "ds5_75_s", 1), ("ds5_95_s", r"$D_\mathrm{5-95}$ [s]", 1, "ds5_95_s", 1),
              ("arias_m_s", r"$I_{A,x} + I_{A,y}$ [m/s]", 1, None, 1))
 _HEADROOM = (1.0, 1.2, 1.0)  # the legend stands in the second row
@@ -53,8 +54,8 @@ def _samples(ensemble: Ensemble, numbers: list[int], path) -> list[Path]:
         for row, history in enumerate((motion.acceleration / GRAVITY, 100 * velocity, 100 * displacement)):
             axes = grid[row, place]
             for axis, colour, dashes in ((0, BLUE, "-"), (1, VERMILION, "-" if row == 0 else (0, (4, 1)))):
-                axes.plot(time, history[:, axis], color=colour, linestyle=dashes, linewidth=0.5 if row == 0 else 0.9, alpha=0.85 if row == 0 else 1,
-                          label=f"${'xy'[axis]}$", zorder=3 - axis)
+                axes.plot(time, history[:, axis], color=colour, linestyle=dashes, linewidth=0.5 if row == 0 else 0.9,
+                          alpha=0.85 if row == 0 else 1, label=f"${'xy'[axis]}$", zorder=3 - axis)
             if place == 0:
                 axes.set_ylabel(_ROWS[row])
         grid[0, place].set_title(f"motion {number}")
@@ -79,7 +80,8 @@ def _spectra(ensemble: Ensemble, path) -> list[Path]:
                                        (grid[1], 2, 100 * GRAVITY / (2 * np.pi)**2, r"$S_d$ (RotD50, 5 %) [cm]")):
         along = factor * periods**power
         axes.plot(periods, (along * spectra).T, color=_GREY, linewidth=0.3, alpha=0.5, zorder=1)
-        axes.fill_between(periods, along * low, along * high, facecolor=SKY, edgecolor=BLUE, alpha=0.5, linewidth=0.7, label="16-84 %", zorder=2)
+        axes.fill_between(periods, along * low, along * high, facecolor=SKY, edgecolor=BLUE, alpha=0.5, linewidth=0.7,
+                          label="16-84 %", zorder=2)
         axes.plot(periods, along * middle, color=BLUE, linewidth=1.4, label="median", zorder=3)
         if found:
             marks = np.array(found[0].periods_s)
@@ -100,7 +102,8 @@ def _distributions(ensemble: Ensemble, columns: dict[str, np.ndarray], path) -> 
     for place, (axes, (key, label, factor, wanted, unit)) in enumerate(zip(grid.flat, _MEASURES)):
         values = factor * columns[key]
         distribution = ecdf(values, np.zeros(len(values), dtype=bool))
-        axes.fill_between(distribution.x, distribution.lower, distribution.upper, step="post", color=BLUE, alpha=0.2, linewidth=0, label="95 % band")
+        axes.fill_between(distribution.x, distribution.lower, distribution.upper, step="post", color=BLUE, alpha=0.2, linewidth=0,
+                          label="95 % band")
         axes.step(distribution.x, distribution.cdf, where="post", color=BLUE, label="ensemble")
         axes.plot(np.median(values), 0.5, color=BLUE, linestyle="none", marker="o", markersize=4, label="median")
         if found and wanted:

@@ -9,16 +9,16 @@ from fecolumn.motions.target import agreement, time_scaled
 from fecolumn.schema import InputError
 
 # 5 % RotD50 of RSN 810 (NGA-West2 flatfile, PEER): period [s], Sa [g]
-ORDINATES = ((0.05, 0.557), (0.075, 0.648), (0.1, 0.869), (0.12, 1.207), (0.13, 1.460), (0.15, 1.787), (0.16, 1.765), (0.2, 1.074), (0.25, 0.936),
-             (0.29, 1.166), (0.3, 1.088), (0.35, 1.107), (0.4, 0.806), (0.5, 0.438), (0.6, 0.260), (0.75, 0.173), (1.0, 0.206), (1.5, 0.081),
-             (2.0, 0.043), (3.0, 0.0218))
+ORDINATES = {0.05: 0.557, 0.075: 0.648, 0.1: 0.869, 0.12: 1.207, 0.13: 1.460, 0.15: 1.787, 0.16: 1.765, 0.2: 1.074, 0.25: 0.936, 0.29: 1.166,
+             0.3: 1.088, 0.35: 1.107, 0.4: 0.806, 0.5: 0.438, 0.6: 0.260, 0.75: 0.173, 1.0: 0.206, 1.5: 0.081, 2.0: 0.043, 3.0: 0.0218}
 
 
 @pytest.mark.parametrize("variability", VARIABILITIES)
 def test_median_of_115_motions_meets_the_figures_of_the_record(variability):
     model = read_model(LICK)
     target = model.target
-    assert dict(ORDINATES) == pytest.approx({period: dict(zip(target.periods_s, target.sa_g))[period] for period, _ in ORDINATES}, rel=0.01)
+    fitted_to = dict(zip(target.periods_s, target.sa_g))
+    assert {period: fitted_to[period] for period in ORDINATES} == pytest.approx(ORDINATES, rel=0.01)
     assert (target.pga_g, target.pgv_m_s, target.pgd_m, target.ds5_75_s, target.ds5_95_s) == (0.456, 0.2181, 0.0746, 6.08, 9.59)
     motions = seeded_ensemble(model, 115, 810, variability).motions
     missed = [row for row in agreement(motions, target) if not row.within]
@@ -47,8 +47,8 @@ def test_same_seed_gives_the_same_samples_on_every_machine():
     # to rounding of the transforms; the random numbers are numpy's PCG64, the same from 1.24 on
     first = seeded_acceleration(read_model(LICK), "fixed", 810, 0)
     rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence(810, spawn_key=(0,))))
-    assert rng.standard_normal(3) == pytest.approx(STREAM, abs=1e-12)
-    assert first[[800, 2000, 3000], 0] == pytest.approx(SAMPLES, rel=1e-6)
+    assert rng.standard_normal(3) == pytest.approx([-0.5269504080322355, 0.5671425057646342, 0.226909532248322], abs=1e-12)
+    assert first[[800, 2000, 3000], 0] == pytest.approx([0.3574603050085, 1.540508142912, -0.252274872720], rel=1e-9)
 
 
 def test_compressed_ensemble_keeps_accelerations_and_scales_velocity_and_displacement():
