@@ -11,8 +11,8 @@ modulation spreads long periods to still longer ones, which would rule the displ
 
 G is ours: a correction of the spectral shape, given at some frequencies and the same for all motions of an ensemble. One filter
 mode cannot hold more than one peak; G holds what else a record and its site have, in the ensemble and not motion by motion,
-while filter and modulation keep their parameters, their drift in time and their variability. sqrt(S)/s is computed at knots in time and joined by
-straight lines, so that a component costs one Fourier transform a knot.
+while filter and modulation keep their parameters, their drift in time and their variability. sqrt(S)/s is computed at knots in
+time and joined by straight lines, so that a component costs one Fourier transform a knot.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from scipy.stats import gamma
 from fecolumn.case import GRAVITY
 
 _KNOT_S = 1.0
-_LOWEST_FILTER_HZ = 0.3  # a falling filter frequency stops here (Rezaeian and Der Kiureghian 2010)
+_LOWEST_FILTER_HZ = 0.3  # a falling filter frequency stops here (Dabaghi and Der Kiureghian 2018)
 _END = 0.9999  # share of the Arias intensity after which a motion ends
 _TAPER_S = 1.0
 
@@ -82,12 +82,15 @@ def bidirectional(components, shape: Shape, rng: np.random.Generator) -> np.ndar
     Components are independent given their parameters: x and y are principal axes (Penzien and Watabe 1975).
     """
     scales = [modulation_scale(shape.modulation_shape, one.duration_s) for one in components]
-    n_steps = math.ceil(max(scales) * gamma.ppf(_END, shape.modulation_shape) / shape.dt) + 1
+    # the strong shaking of all components starts together, though it may last longer along one than along the other
+    early, end = gamma.ppf([0.05, _END], shape.modulation_shape)
+    starts = [early * (max(scales) - scale) for scale in scales]
+    n_steps = math.ceil(max(start + end * scale for start, scale in zip(starts, scales)) / shape.dt) + 1
     n_harmonics = 1 << math.ceil(math.log2(1.3 * n_steps))
     # drawn before anything else and component by component, so that parameters do not shift the random numbers
     phases = [rng.standard_normal((2, n_harmonics // 2)) for _ in components]
-    return np.column_stack([_component(one, scale, shape, n_steps, n_harmonics, phase)
-                            for one, scale, phase in zip(components, scales, phases)])
+    return np.column_stack([_component(one, start, scale, shape, n_steps, n_harmonics, phase)
+                            for one, start, scale, phase in zip(components, starts, scales, phases)])
 
 
 def amplitude(frequencies, component: Component, shape: Shape, filter_hz: float) -> np.ndarray:
@@ -98,12 +101,13 @@ def amplitude(frequencies, component: Component, shape: Shape, filter_hz: float)
     return peak * np.exp(correction)
 
 
-def _component(component: Component, scale: float, shape: Shape, n_steps: int, n_harmonics: int, phase: np.ndarray) -> np.ndarray:
+def _component(component: Component, start: float, scale: float, shape: Shape, n_steps: int, n_harmonics: int,
+               phase: np.ndarray) -> np.ndarray:
     time = np.arange(n_steps) * shape.dt
-    modulation = np.sqrt(2 * GRAVITY / math.pi * component.arias_m_s * gamma.pdf(time, shape.modulation_shape, scale=scale))
+    modulation = np.sqrt(2 * GRAVITY / math.pi * component.arias_m_s * gamma.pdf(time, shape.modulation_shape, start, scale))
     taper = np.clip((time[-1] - time) / _TAPER_S, 0, 1)
     modulation *= 0.5 * (1 - np.cos(math.pi * taper))
-    mid = gamma.ppf(0.45, shape.modulation_shape, scale=scale)
+    mid = gamma.ppf(0.45, shape.modulation_shape, start, scale)
     frequencies = np.arange(1, n_harmonics // 2 + 1) / (n_harmonics * shape.dt)
     wave = phase[0] - 1j * phase[1]
     process = np.zeros(n_steps)

@@ -95,3 +95,11 @@ def test_medians_of_a_hundred_draws_are_near_those_of_the_population():
     spread = [np.median([math.log(drawn((ONE, ONE), seed, number)[0].arias_m_s / 2) for number in range(115)]) for seed in range(20)]
     # independent draws would scatter by 1.25 * 1.05 / sqrt(115) = 0.12
     assert np.std(spread) < 0.03
+
+
+def test_strong_shaking_of_both_components_starts_together():
+    pair = (ONE, dataclasses.replace(ONE, duration_s=4.0))
+    histories = np.array([bidirectional(pair, FLAT, np.random.default_rng(number)) for number in range(50)])
+    husid = cumulative_trapezoid((histories**2).mean(axis=0), axis=0, initial=0)
+    starts = [np.interp(0.05, husid[:, axis] / husid[-1, axis], np.arange(len(husid)) * FLAT.dt) for axis in (0, 1)]
+    assert starts[1] == pytest.approx(starts[0], abs=0.3)
