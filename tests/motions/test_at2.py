@@ -44,6 +44,7 @@ def test_units_are_those_of_the_header(tmp_path, units, expected):
     (dict(npts_line="8 values follow"), "four header lines"),
     (dict(npts_line="NPTS= many, DT= .01"), "line 4"),
     (dict(npts_line="NPTS= 8, DT= .0000 SEC"), "greater than 0"),
+    (dict(npts_line="NPTS= 8, DT= 1E400 SEC"), "DT = inf s must be finite"),
     (dict(units="VELOCITY TIME SERIES IN UNITS OF CM/S"), "no accelerations"),
     (dict(units="ACCELERATION IN UNITS OF FURLONGS"), "'FURLONGS'")])
 def test_broken_header_is_refused(tmp_path, arguments, said):
