@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 
 from fecolumn.case import GRAVITY
 from fecolumn.motions.pulses import Pulse, sample
+from fecolumn.motions.processing import rotate
 from fecolumn.motions.record import GroundMotion
 from fecolumn.motions.rocking_spectrum import housner_restitution, rock, rocking_spectrum
 
@@ -155,9 +156,10 @@ def test_larger_blocks_tilt_less_in_the_same_pulse():
 
 def test_component_follows_the_angle():
     motion = sample(Pulse("one_sine", 0.4 * GRAVITY, 0.6), 0.002)
-    turned = GroundMotion(motion.acceleration[:, [1, 0, 2]], motion.dt, "y", "made up")
-    assert rocking_spectrum(turned, [4.0], 0.2, angle_deg=90.0) == pytest.approx(rocking_spectrum(motion, [4.0], 0.2), rel=1e-12)
-    assert rocking_spectrum(turned, [4.0], 0.2) == 0
+    turned = rotate(motion, 40.0)
+    along, across, back = (rocking_spectrum(turned, [4.0], 0.2, angle_deg=angle)[0] for angle in (40.0, 130.0, -40.0))
+    assert along == pytest.approx(rocking_spectrum(motion, [4.0], 0.2)[0], rel=1e-9)
+    assert across == 0 and back == 0
 
 
 def test_block_at_the_very_threshold_neither_hangs_nor_falls():
