@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import next_fast_len
 
+import fecolumn
 from fecolumn.motions.atkinson_silva import duration, fourier_amplitude
 from fecolumn.motions.directivity_pulse import DirectivityPulse, scenario_pulse
 from fecolumn.motions.ensemble import Ensemble
@@ -143,7 +144,8 @@ def near_fault_ensemble(magnitudes=MAGNITUDES, distances=DISTANCES, count: int =
     parameters = {name: np.repeat([value(scenario) for scenario in scenarios], count) for name, value in columns.items()}
     arguments = {"magnitudes": [float(m) for m in magnitudes], "distances_km": [float(d) for d in distances], "count": count,
                  "dt_s": dt, "fault_parallel": fault_parallel}
-    return Ensemble("near-fault synthetics", tuple(motions), parameters, {"model": SOURCE, "seed": seed, "arguments": arguments})
+    return Ensemble("near-fault synthetics", tuple(motions), parameters,
+                    {"model": SOURCE, "version": fecolumn.__version__, "seed": int(seed), "arguments": arguments})
 
 
 def _back(spectra: np.ndarray, lowered, low_cut: float, dt: float) -> np.ndarray:

@@ -10,6 +10,7 @@ from typing import Callable
 import numpy as np
 from scipy.optimize import brentq
 
+import fecolumn
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.record import GroundMotion
 
@@ -171,7 +172,7 @@ def pulse_ensemble(shape: str, amplitudes, periods, dt: float, *, cycles: int = 
                     "pulse_period_s": np.array([pulse.period for pulse in pulses]),
                     "pulse_length_m": np.array([pulse.length_scale for pulse in pulses]),
                     "residual_velocity_m_s": np.array([pulse.residual_velocity for pulse in pulses])},
-        provenance={"model": f"pulse, {SHAPES[shape].source}", "arguments": arguments})
+        provenance={"model": SHAPES[shape].source, "version": fecolumn.__version__, "arguments": arguments})
 
 
 def _at(value: float) -> Callable[[int], float]:

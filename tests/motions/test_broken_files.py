@@ -18,7 +18,8 @@ from fecolumn.motions.record import UnusableRecord
 
 TWO_COLUMNS = "".join(f"{0.01 * i:.2f} {value: .6e}\n" for i, value in enumerate(ACCELERATION))
 CSV = "time [s], ax [g], ay [g]\n" + "".join(f"{0.01 * i:.2f}, {value:.6e}, {-value:.6e}\n" for i, value in enumerate(ACCELERATION))
-READERS = {"at2": read_at2, "csv": lambda path: read_columns(path, 0.0), "two_columns": lambda path: read_columns(path, 0.0), "esm": read_esm}
+READERS = {"at2": read_at2, "csv": lambda path: read_columns(path, 0.0), "two_columns": lambda path: read_columns(path, 0.0),
+           "esm": read_esm}
 readers = pytest.mark.parametrize("kind", READERS)
 
 
@@ -39,7 +40,8 @@ def test_line_ends_byte_order_mark_and_end_mark_change_nothing(kind, tmp_path):
     data = whole(kind, tmp_path)
     plain = read(kind, tmp_path, data)
     assert np.abs(plain.values[:, 0]) == pytest.approx(np.abs(ACCELERATION), rel=1e-6)
-    for other in (data.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + data, data + b"\x1a", data.rstrip(b"\n"), data + b"\n\n  \n", data.replace(b"\n", b" \n")):
+    for other in (data.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + data, data + b"\x1a", data.rstrip(b"\n"), data + b"\n\n  \n",
+                  data.replace(b"\n", b" \n")):
         again = read(kind, tmp_path, other)
         assert np.array_equal(again.values, plain.values) and (again.dt, again.units, again.axes) == (plain.dt, plain.units, plain.axes)
 

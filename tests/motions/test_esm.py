@@ -53,7 +53,8 @@ def test_file_is_told_from_its_first_lines():
     ("0.005000", "0", "line 8: SAMPLING_INTERVAL_S = '0'"), ("0.005000", "nan", "line 8: SAMPLING_INTERVAL_S = 'nan'"),
     ("0.005000", "", "line 8: SAMPLING_INTERVAL_S = ''"), ("TYPE: ACCELERATION", "TYPE: VELOCITY", "line 13: holds no accelerations"),
     ("UNITS: cm/s^2", "UNITS: furlongs", "line 11: units of 'furlongs'"),
-    ("-2.000000e-03", "NaN", "line 16: NaN"), ("-2.000000e-03", "1E999", "line 16: 1E999"), ("-2.000000e-03", "*****", r"line 16: '\*\*\*\*\*'"),
+    ("-2.000000e-03", "NaN", "line 16: NaN"), ("-2.000000e-03", "1E999", "line 16: 1E999"),
+    ("-2.000000e-03", "*****", r"line 16: '\*\*\*\*\*'"),
     ("-2.000000e-03", "1 2", "line 16: '1 2' is not a number"), ("-2.000000e-03", "USER5: x", "line 16: 'USER5: x'")])
 def test_broken_file_is_refused_with_its_place(tmp_path, old, new, said):
     text = text_of()

