@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from fecolumn.motions import makers
+
 _LICK = "lick"
 
 
@@ -23,6 +25,7 @@ def add_arguments(parser) -> None:
     seeded.add_argument("--time-scale", type=float, default=0.5,
                         help="factor on time, accelerations kept; 0.5 fits a specimen of a quarter of the size (default: %(default)s)")
     seeded.set_defaults(command=_make_seeded)
+    makers.add_kinds(make, _add_output, store)
 
     fit = actions.add_parser("fit", help="fit the stochastic model to a record of two components, or to a table of target figures")
     fit.add_argument("source", metavar="RECORD", help="record as in motion.source of a case, TARGET.toml, or lick")
