@@ -16,13 +16,14 @@ class RimPoints:
 
     slots: (n,) foot nodes whose places in the contact they take, the nearest ones. carriers: (n, 4) foot nodes that carry them;
     weights: (4,) their shares, which reproduce the circle's points in any rigid motion. index: node of the rim whose point is
-    that of the angle asked for.
+    that of the angle asked for. phase: how far each point is past the node whose place it takes, in sectors, -1/2 to 1/2.
     """
 
     slots: np.ndarray
     carriers: np.ndarray
     weights: np.ndarray
     index: int
+    phase: float
 
     def of(self, values: np.ndarray) -> np.ndarray:
         """Values (n, ...) at the points from those at the foot's nodes, along the first axis."""
@@ -78,4 +79,4 @@ class Rim:
         near, beside, pull = np.linalg.solve(corners, [np.cos(turn), abs(np.sin(turn)), 1.0])
         offsets = side * np.array([0, 1, n // 2 + 1, (n + 1) // 2])
         carriers = self.nodes[(np.arange(n)[:, None] + offsets) % n]
-        return RimPoints(self.nodes, carriers, np.array([near, beside, pull / 2, pull / 2]), index % n)
+        return RimPoints(self.nodes, carriers, np.array([near, beside, pull / 2, pull / 2]), index % n, turn / self.sector)

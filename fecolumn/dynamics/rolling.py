@@ -16,8 +16,9 @@ def rolled(system, state, dt: float):
     """The state with the contact points of the rim where they are in the step `dt` [s] that begins.
 
     The points turn with the lowest one of the circle. For a step they are those of the rotation halfway, lifted to the height
-    that their like have at its start: the gap's change is then the points' displacement, so that force and gap stay conjugate and
-    rolling takes no energy up to dt^3 (a discrete gradient, Gonzalez 1996). Where they stick moves on by the length of rim rolled.
+    at which steady rolling has them at both its ends. The lowest point's gap then changes by its displacement (a discrete gradient,
+    Gonzalez 1996), those before and behind it do opposite work: rolling takes no energy up to dt^3. Where the points stick moves
+    on by the length of rim rolled.
 
     Where the lowest point leaps, in a column that rocks over, they stay until the part of the rim that carried is free.
     """
@@ -31,36 +32,41 @@ def rolled(system, state, dt: float):
         interface.place(None if np.isnan(state.rim_angle) else rim.points(last))
         return state
 
-    turn = (angle - last + np.pi) % (2 * np.pi) - np.pi
-    carrying = np.flatnonzero(state.forces[rim.nodes, 2] > 0)
-    sectors = (rim.first + carrying * rim.sector - angle) / rim.sector
     n = len(rim.nodes)
-    beside = np.abs((sectors + n / 2) % n - n / 2).min(initial=n) <= REACH
-    leaps = abs(turn) > REACH * rim.sector
-    if leaps and len(carrying) and not beside:
-        interface.place(rim.points(last))
-        return state
-    if leaps:
-        # a part of the rim that rested takes over: the nearest of its points goes to the lowest place
-        turn = (turn / rim.sector + 0.5) % 1 * rim.sector - rim.sector / 2
 
+    def sectors(number):
+        return (number + n / 2) % n - n / 2
+
+    old, new, like = rim.points(last), rim.points(angle), rim.points(rim.lowest(state.rotation)[0])
+    turned = sectors((angle - last) / rim.sector)
+    leaps = abs(turned) > REACH
+    if leaps:
+        carrying = np.flatnonzero(state.forces[rim.nodes, 2] > 0)
+        beside = np.abs(sectors(carrying + old.phase - new.index - new.phase)) <= REACH
+        if len(carrying) and not beside.any():
+            interface.place(old)
+            return state
+        # a part of the rim that rested takes over: the nearest of its points goes to the lowest place
+        turned -= round(turned)
+
+    # by so many nodes the points' slots move
+    passed = round(turned - new.phase + old.phase)
+    numbers = np.roll(np.arange(n), passed)
     places = interface.node_positions(state.x, state.rotation)
-    old, new = rim.points(last), rim.points(last + turn)
-    numbers = np.roll(np.arange(n), new.index - old.index)
     before, now = old.of(places), new.of(places)
-    like = rim.points(last + turn + rim.lowest(state.rotation)[0] - angle)
     start = np.roll(like.of(places), new.index - like.index, axis=0)
-    lift = start[:, 2] - now[:, 2]
-    # only near the lowest point is a point the contact that its like was
-    near = np.abs((np.arange(n) - new.index + n // 2) % n - n // 2) <= REACH
-    lift[~near] = 0.0
+    # only near the lowest point is a point the contact that its like was; at the step's end the height of the points
+    # before it will be what that of the points behind it is now
+    near = (new.index + np.arange(-REACH, REACH + 1)) % n
+    lift = np.zeros(n)
+    lift[near] = start[near, 2] - now[near[::-1], 2]
 
     slots, taken = rim.nodes, rim.nodes[numbers]
     forces, anchors, relative = state.forces.copy(), state.anchors.copy(), state.relative.copy()
     forces[slots], anchors[slots], relative[slots] = state.forces[taken], state.anchors[taken], state.relative[taken]
     shift = now - before[numbers]
-    shift[:, 2] = np.where(near & ~leaps, 0.0, shift[:, 2] + lift)
+    shift[near, 2] = (start - before[numbers])[near, 2] if leaps else 0.0
     anchors[slots] += shift[:, :2]
     relative[slots] += shift
     interface.place(new, lift)
-    return replace(state, forces=forces, anchors=anchors, relative=relative, rim_angle=last + turn)
+    return replace(state, forces=forces, anchors=anchors, relative=relative, rim_angle=angle)

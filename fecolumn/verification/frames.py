@@ -200,7 +200,8 @@ def run(engine: str, long: bool) -> Result:
     grown = np.linalg.norm(disturbed - reference, axis=2).max(axis=1)
 
     def draw(figure):
-        left, right = figure.subplots(1, 2, width_ratios=(1, 1.5))
+        panels, below = figure.subfigures(2, 1, height_ratios=(1, 0.3))
+        left, right = panels.subplots(1, 2, width_ratios=(1, 1.5))
         left.plot(*1e3 * exact_path(times)[0][:, :2].T, color="0.6", linewidth=0.8, label="base, absolute")
         left.plot(*1e3 * reference[:, 0, :2].T, color=LINES[0][0], label="top, table frame")
         left.plot(*1e3 * relative[::5, 0, :2].T, "o", color=LINES[1][0], markersize=3, fillstyle="none", label="top, base moving")
@@ -211,7 +212,7 @@ def run(engine: str, long: bool) -> Result:
         right.semilogy(times, grown, color="0.7", linewidth=2.5, label=f"disturbed by {1e6 * DISTURBANCE:g} µm/s", zorder=0)
         right.semilogy(times, drift * times, color="k", linewidth=0.8, linestyle=":", label="what the solver may leave")
         right.set(xlabel="time [s]", ylabel="largest difference [m]", xlim=(0, times[-1]))
-        figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        below.legend(*right.get_legend_handles_labels(), loc="center", ncols=3)
 
     result.draw = draw
     return result
