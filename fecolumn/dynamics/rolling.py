@@ -38,13 +38,15 @@ def rolled(system, state, dt: float, rolls: bool = True):
         return (number + n / 2) % n - n / 2
 
     turned = sectors((new.index + new.phase) - (old.index + old.phase))
-    leaps = abs(turned) * rim.sector > ROLL
+    leaps = np.isnan(state.rim_angle) or abs(turned) * rim.sector > ROLL
     loaded = np.flatnonzero(state.forces[rim.nodes, 2] > 0)
     past = loaded + old.phase - (new.index + new.phase if leaps else old.index + old.phase)
     carrying = loaded[np.abs(sectors(past)) <= REACH]
     if tilt < FLAT or not rolls or leaps and len(loaded) and not len(carrying):
-        interface.place(None if np.isnan(state.rim_angle) else old, _lifted(n, _near(old, n), state.rim_lift))
-        return state
+        # nothing stands on a point below the rim; one above it only carries less
+        lift = np.maximum(state.rim_lift, 0.0) if tilt < FLAT else state.rim_lift
+        interface.place(None if np.isnan(state.rim_angle) else old, _lifted(n, _near(old, n), lift))
+        return replace(state, rim_lift=lift)
     if leaps:
         # a part of the rim that rested takes over: the nearest of its points goes to the lowest place
         turned -= round(turned)
