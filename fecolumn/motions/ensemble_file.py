@@ -50,7 +50,8 @@ def read_ensemble(path) -> Ensemble:
         UnusableRecord: there is no such file, or it is no ensemble.
     """
     with _open(path) as file:
-        motions = tuple(_motion(stored) for _, stored in sorted(file["motions"].items()))
+        # by number: by name, 10000 would come before 9999
+        motions = tuple(_motion(file["motions"][name]) for name in sorted(file["motions"], key=int))
         parameters = {name: stored[()] for name, stored in file["parameters"].items()}
         return Ensemble(str(file.attrs["name"]), motions, parameters, json.loads(file.attrs["provenance"]))
 
