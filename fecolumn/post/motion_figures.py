@@ -8,9 +8,9 @@ import numpy as np
 
 from fecolumn.case import GRAVITY
 from fecolumn.motions.ensemble import Ensemble
-from fecolumn.motions.ensemble_report import stored_target
+from fecolumn.motions.ensemble_report import measured_along, stored_target
 from fecolumn.motions.processing import integrate
-from fecolumn.motions.spectra import rotd_spectrum
+from fecolumn.motions.spectra import horizontal_spectrum
 from fecolumn.post.style import BLACK, BLUE, PAGE_WIDTH_IN, SKY, VERMILION, new_figure, save, styled
 from fecolumn.statistics.ecdf import ecdf
 
@@ -72,12 +72,13 @@ def _spectra(ensemble: Ensemble, path) -> list[Path]:
     """Every spectrum thin, the median and the band between 16 and 84 % over them, the target as marks."""
     found = stored_target(ensemble)
     periods = np.geomspace(*((found[0].periods_s[0], found[0].periods_s[-1]) if found else (0.02, 5.0)), _N_PERIODS)
-    spectra = np.array([rotd_spectrum(motion, periods, percentiles=(50,))[0] for motion in ensemble.motions]) / GRAVITY
+    spectra = np.array([horizontal_spectrum(motion, periods) for motion in ensemble.motions]) / GRAVITY
     low, middle, high = np.percentile(spectra, [16, 50, 84], axis=0)
+    along_what = measured_along(ensemble)
     figure = new_figure(PAGE_WIDTH_IN, 3.1)
     grid = figure.subplots(1, 2)
-    for axes, power, factor, label in ((grid[0], 0, 1.0, r"$S_a$ (RotD50, 5 %) [g]"),
-                                       (grid[1], 2, 100 * GRAVITY / (2 * np.pi)**2, r"$S_d$ (RotD50, 5 %) [cm]")):
+    for axes, power, factor, label in ((grid[0], 0, 1.0, rf"$S_a$ ({along_what}, 5 %) [g]"),
+                                       (grid[1], 2, 100 * GRAVITY / (2 * np.pi)**2, rf"$S_d$ ({along_what}, 5 %) [cm]")):
         along = factor * periods**power
         axes.plot(periods, (along * spectra).T, color=_GREY, linewidth=0.3, alpha=0.5, zorder=1)
         axes.fill_between(periods, along * low, along * high, facecolor=SKY, edgecolor=BLUE, alpha=0.5, linewidth=0.7,

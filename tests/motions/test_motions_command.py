@@ -1,5 +1,7 @@
 """`fecolumn motions`: files, messages and exit codes."""
 
+import math
+
 import pytest
 
 from fecolumn.cli import main
@@ -30,6 +32,22 @@ def test_info_tells_medians_beside_the_target(lick, capsys):
     assert main(["motions", "info", str(lick)]) == 0
     said = capsys.readouterr().out
     assert "4 motions" in said and "PGV [cm/s]" in said and "Sa(0.075 s) [g]" in said and "figures within what is allowed" in said
+
+
+def test_table_and_info_of_one_component_are_those_of_the_component(lick, tmp_path, capsys):
+    made = tmp_path / "pulses.h5"
+    # a cycle of 3 sin(2 pi t / 0.5 s): PGV 3 T/pi, int |a| dt = 2 * PGV
+    assert main(["motions", "make", "pulses", "one_sine", "--amplitudes", "3", "--periods", "0.5", "-o", str(made)]) == 0
+    assert "PGA, PGV, PGD and Housner: along x; CAV: along x" in capsys.readouterr().out
+    head, row = (line.split(",") for line in made.with_suffix(".csv").read_text().splitlines())
+    row = dict(zip(head, row))
+    assert row["horizontal_components"] == "1" and float(row["pga_m_s2"]) == pytest.approx(3, rel=1e-4)
+    assert float(row["pgv_m_s"]) == pytest.approx(1.5 / math.pi, rel=1e-4) and float(row["cav_m_s"]) == pytest.approx(3 / math.pi, rel=1e-4)
+
+    assert main(["motions", "convert", f"{made}#1", f"{lick}#1", "-o", str(tmp_path / "mixed.h5")]) == 0
+    assert "RotD50, or the only component; CAV: mean of x and y, or the only component" in capsys.readouterr().out
+    assert main(["motions", "info", str(lick)]) == 0
+    assert "PGA, PGV, PGD and Housner: RotD50; CAV: mean of x and y\n" in capsys.readouterr().out
 
 
 def test_figures_are_written(lick, tmp_path):
