@@ -52,7 +52,7 @@ def test_table_and_info_of_one_component_are_those_of_the_component(lick, tmp_pa
 
 def test_figures_are_written(lick, tmp_path):
     assert main(["motions", "plot", str(lick), "-o", str(tmp_path), "--show", "1", "3"]) == 0
-    for name in ("motions", "spectra", "distributions"):
+    for name in ("motions", "spectra", "distributions", "rocking"):
         assert (tmp_path / f"{name}.png").stat().st_size > 20000 and (tmp_path / f"{name}.pdf").read_bytes().startswith(b"%PDF")
 
 
@@ -74,6 +74,8 @@ def test_wrong_input_is_refused_in_a_line(lick, capsys, tmp_path):
     assert "no such file" in refused(capsys, "info", tmp_path / "gone.h5")
     assert "is no HDF5 file" in refused(capsys, "info", lick.with_suffix(".csv"))
     assert "from 1 to 4" in refused(capsys, "plot", lick, "-o", tmp_path, "--show", 5)
+    for alpha in (0, 1.6, "nan"):
+        assert "--slenderness" in refused(capsys, "plot", lick, "-o", tmp_path, "--slenderness", alpha)
     assert "from 1 to 4" in refused(capsys, "convert", f"{lick}#9", "-o", tmp_path / "x")
     assert "two horizontal components" in refused(capsys, "fit", one_component(tmp_path), "-o", tmp_path / "m.toml")
 
