@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from fecolumn.motions import makers
@@ -41,11 +42,13 @@ def add_arguments(parser) -> None:
     info.add_argument("ensemble", metavar="ENSEMBLE.h5")
     info.set_defaults(command=_info)
 
-    plot = actions.add_parser("plot", help="figures of an ensemble: three motions, spectra, distributions")
+    plot = actions.add_parser("plot", help="figures of an ensemble: three motions, spectra, distributions, rocking spectra")
     plot.add_argument("ensemble", metavar="ENSEMBLE.h5")
     plot.add_argument("-o", "--output", required=True, metavar="DIR", help="folder of the figures, PNG and PDF")
     plot.add_argument("--show", type=int, nargs="+", metavar="NUMBER",
                       help="motions to show, counted from 1 (default: small, median and large PGV)")
+    plot.add_argument("--slenderness", type=float, default=0.1, metavar="ALPHA",
+                      help="of the blocks of the rocking spectra, tan alpha = width/height [rad] (default: %(default)s)")
     plot.set_defaults(command=_plot)
 
     convert = actions.add_parser("convert", help="any motions into an ensemble (.h5), or into text files in a folder")
@@ -181,11 +184,13 @@ def _plot(args) -> int:
     from fecolumn.post.motion_figures import motion_figures
     from fecolumn.schema import InputError
 
+    if not 0 < args.slenderness < math.pi / 2:
+        raise InputError("fecolumn motions plot", "--slenderness", args.slenderness, "must lie between 0 and pi/2 rad")
     ensemble = _stored(args.ensemble)
     for number in args.show or ():
         if not 1 <= number <= len(ensemble.motions):
             raise InputError(args.ensemble, "--show", number, f"must be a number from 1 to {len(ensemble.motions)}")
-    for file in motion_figures(ensemble, summary(ensemble), args.output, args.show):
+    for file in motion_figures(ensemble, summary(ensemble), args.output, args.show, args.slenderness):
         print(f"wrote {file}")
     return 0
 

@@ -50,7 +50,8 @@ def read_ensemble(path) -> Ensemble:
         UnusableRecord: there is no such file, or it is no ensemble.
     """
     with _open(path) as file:
-        motions = tuple(_motion(stored) for _, stored in sorted(file["motions"].items()))
+        # by number: by name, 10000 would come before 9999
+        motions = tuple(_motion(file["motions"][name]) for name in sorted(file["motions"], key=int))
         parameters = {name: stored[()] for name, stored in file["parameters"].items()}
         return Ensemble(str(file.attrs["name"]), motions, parameters, json.loads(file.attrs["provenance"]))
 
@@ -83,13 +84,16 @@ def members(source: str) -> list[str]:
 
 
 def summary(ensemble: Ensemble) -> dict[str, np.ndarray]:
-    """Columns of numbers, (n,) each: number, dt_s, length_s, intensity measures, parameters.
+    """Columns of numbers, (n,) each: number, dt_s, length_s, horizontal_components, intensity measures, parameters.
+
+    Where horizontal_components is 1, the measures are of that component, not RotD50 or a mean over x and y.
 
     Motions whose time was scaled have a column time_scale; their parameters are those before.
     """
+    components = np.array([len(motion.horizontal_axes) for motion in ensemble.motions])
     measures = [intensity_measures(motion) for motion in ensemble.motions]
     columns = {"number": np.arange(1, len(measures) + 1), "dt_s": np.array([motion.dt for motion in ensemble.motions]),
-               "length_s": np.array([motion.duration for motion in ensemble.motions])}
+               "length_s": np.array([motion.duration for motion in ensemble.motions]), "horizontal_components": components}
     columns |= {name: np.array([measure[name] for measure in measures]) for name in measures[0]}
     factor = ensemble.provenance.get("arguments", {}).get("time_scale", 1.0)
     if factor != 1:

@@ -35,6 +35,7 @@ def report(ensemble: Ensemble, columns: dict[str, np.ndarray]) -> str:
         low, middle, high = np.percentile(values, [16, 50, 84])
         spread = f"{np.log(values).std(ddof=1):9.2f}" if len(values) > 1 and (values > 0).all() else f"{'-':>9}"
         lines.append(f"{label:22} {low:9.4g} {middle:9.4g} {high:9.4g} {spread}")
+    lines.append(f"PGA, PGV, PGD and Housner: {measured_along(ensemble)}; CAV: {measured_along(ensemble, 'mean of x and y')}")
     found = stored_target(ensemble)
     if found:
         rows = agreement(ensemble.motions, *found)
@@ -43,6 +44,14 @@ def report(ensemble: Ensemble, columns: dict[str, np.ndarray]) -> str:
                   f"{100 * row.tolerance:8.0f}%{'' if row.within else '  missed'}" for row in rows]
         lines.append(f"{sum(row.within for row in rows)} of {len(rows)} figures within what is allowed")
     return "\n".join(lines)
+
+
+def measured_along(ensemble: Ensemble, over_both: str = "RotD50") -> str:
+    """What measures of the horizontal motion are of: RotD50, say, or the one component."""
+    moved = {motion.horizontal_axes for motion in ensemble.motions}
+    if moved == {(0,)} or moved == {(1,)}:
+        return f"along {'xy'[moved.pop()[0]]}"
+    return over_both if not moved & {(0,), (1,)} else f"{over_both}, or the only component"
 
 
 def _range(values) -> str:

@@ -16,15 +16,16 @@ def write_text_files(motions, folder, kind: str) -> list[Path]:
     """Write each motion into a folder: a CSV file [m/s2], or an AT2 file [g] for each component that is not zero.
 
     Args:
-        motions: GroundMotion; files are numbered in their order.
+        motions: sequence of GroundMotion; files are numbered in their order.
         folder: made if missing.
         kind: "csv" or "at2".
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     files = []
+    digits = max(4, len(str(len(motions))))  # sorted by name, the files keep the order
     for number, motion in enumerate(motions, 1):
-        stem = f"{number:04d}_{re.sub(r'[^A-Za-z0-9]+', '_', motion.name).strip('_')}"
+        stem = f"{number:0{digits}d}_{re.sub(r'[^A-Za-z0-9]+', '_', motion.name).strip('_')}"
         contents = {f"{stem}.csv": _csv(motion)} if kind == "csv" else {
             f"{stem}_{axis}.AT2": _at2(motion, column, axis) for axis, column in zip("xyz", motion.acceleration.T) if column.any()}
         for name, text in contents.items():

@@ -1,4 +1,7 @@
-"""Intensity measures of a ground motion: single numbers that say how strong, how long and of what period it is."""
+"""Intensity measures of a ground motion: single numbers that say how strong, how long and of what period it is.
+
+Measures over directions or of both components are those of the one component where the motion is along x or y alone.
+"""
 
 from __future__ import annotations
 
@@ -7,19 +10,21 @@ from scipy.integrate import trapezoid
 
 from fecolumn.motions.processing import arias_intensity, integrate
 from fecolumn.motions.record import GroundMotion
-from fecolumn.motions.spectra import rotated_peaks, rotd_spectrum
+from fecolumn.motions.spectra import horizontal_spectrum, rotated_peaks
 
 _HOUSNER_PERIODS = np.linspace(0.1, 2.5, 121)
 
 
-def peak_values(motion: GroundMotion, percentile: float = 50.0) -> tuple[float, float, float]:
-    """PGA [m/s2], PGV [m/s] and PGD [m] of the horizontal motion as a percentile over directions (RotD50; Boore 2010).
+def peak_values(motion: GroundMotion) -> tuple[float, float, float]:
+    """PGA [m/s2], PGV [m/s] and PGD [m] of the horizontal motion: median over directions (RotD50; Boore 2010), or the one component's.
 
     Velocity and displacement are integrated from rest, without baseline correction.
     """
     velocity, displacement = integrate(motion)
-    return tuple(float(np.percentile(rotated_peaks(history[:, :2]), percentile))
-                 for history in (motion.acceleration, velocity, displacement))
+    histories = motion.acceleration, velocity, displacement
+    if len(motion.horizontal_axes) == 1:
+        return tuple(float(np.abs(history[:, motion.horizontal_axes[0]]).max()) for history in histories)
+    return tuple(float(np.median(rotated_peaks(history[:, :2]))) for history in histories)
 
 
 def total_arias_intensity(motion: GroundMotion) -> float:
@@ -40,15 +45,17 @@ def significant_duration(motion: GroundMotion, start: float = 0.05, end: float =
 
 
 def cumulative_absolute_velocity(motion: GroundMotion) -> float:
-    """Geometric mean over x and y of int |a| dt [m/s] (EPRI 1988), by the trapezoidal rule."""
+    """Geometric mean over x and y of int |a| dt [m/s] (EPRI 1988), by the trapezoidal rule; of one component, its own."""
     magnitude = np.abs(motion.acceleration[:, :2])
     along = motion.dt * (magnitude.sum(axis=0) - 0.5 * (magnitude[0] + magnitude[-1]))
+    if len(motion.horizontal_axes) == 1:
+        return float(along[motion.horizontal_axes[0]])
     return float(np.sqrt(along[0] * along[1]))
 
 
 def housner_intensity(motion: GroundMotion, damping: float = 0.05) -> float:
-    """Integral of the RotD50 pseudo-velocity over periods from 0.1 to 2.5 s [m] (Housner 1952)."""
-    velocity = rotd_spectrum(motion, _HOUSNER_PERIODS, damping, (50.0,))[0] * _HOUSNER_PERIODS / (2 * np.pi)
+    """Integral of the pseudo-velocity, RotD50 or the one component's, over periods from 0.1 to 2.5 s [m] (Housner 1952)."""
+    velocity = horizontal_spectrum(motion, _HOUSNER_PERIODS, damping) * _HOUSNER_PERIODS / (2 * np.pi)
     return float(trapezoid(velocity, _HOUSNER_PERIODS))
 
 

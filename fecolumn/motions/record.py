@@ -47,6 +47,11 @@ class GroundMotion:
         return (len(self.acceleration) - 1) * self.dt
 
     @property
+    def horizontal_axes(self) -> tuple[int, ...]:
+        """Horizontal axes along which the ground moves: 0 for x, 1 for y."""
+        return tuple(axis for axis in (0, 1) if self.acceleration[:, axis].any())
+
+    @property
     def pga(self) -> np.ndarray:
         """Peak absolute acceleration (3,) [m/s2]."""
         return np.abs(self.acceleration).max(axis=0)

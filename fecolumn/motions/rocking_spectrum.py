@@ -82,6 +82,24 @@ def rocking_spectrum(motion: GroundMotion, periods, slenderness, restitution: fl
     return result if np.ndim(slenderness) else result[0]
 
 
+def larger_rocking_spectrum(motion: GroundMotion, periods, slenderness: float) -> np.ndarray:
+    """Peak tilt over slenderness (n_periods,) of planar rectangular blocks along x or y, whichever tilts more; as rocking_spectrum."""
+    along = [rocking_spectrum(motion, periods, slenderness, angle_deg=90.0 * axis) for axis in motion.horizontal_axes or (0,)]
+    return np.max(along, axis=0)
+
+
+def tilt_quantile(peaks: np.ndarray, share: float) -> np.ndarray:
+    """Least tilt within which at least `share` of the motions stay, inf where too many overturn.
+
+    An order statistic: nothing is interpolated between a tilt and an overturning.
+
+    Args:
+        peaks: (n_motions, n_periods) of rocking spectra.
+        share: in (0, 1].
+    """
+    return np.sort(peaks, axis=0)[math.ceil(share * len(peaks) - 1e-9) - 1]
+
+
 def rock(motion: GroundMotion, period: float, slenderness: float, restitution: float | None = None, *,
          tilt: float = 0.0, tilt_velocity: float = 0.0) -> Rocking:
     """Planar rocking along x, from a tilt [rad] and tilt velocity [rad/s] on; other arguments as in rocking_spectrum."""

@@ -32,6 +32,16 @@ def rotd_spectrum(motion: GroundMotion, periods, damping: float = 0.05, percenti
     return np.percentile(_peaks_over_directions(motion, periods, damping), percentiles, axis=0)
 
 
+def horizontal_spectrum(motion: GroundMotion, periods, damping: float = 0.05) -> np.ndarray:
+    """Pseudo-acceleration (n_periods,) [m/s2]: RotD50, or the spectrum of the only component of a motion along x or y alone.
+
+    RotD50 of one component would be cos 45 degrees of it. Arguments as in rotd_spectrum.
+    """
+    if len(motion.horizontal_axes) == 1:
+        return component_spectra(motion, periods, damping)[motion.horizontal_axes[0]]
+    return rotd_spectrum(motion, periods, damping, (50.0,))[0]
+
+
 def component_spectra(motion: GroundMotion, periods, damping: float = 0.05) -> np.ndarray:
     """Pseudo-acceleration along x, y and z, (3, n_periods) [m/s2]; oscillator and arguments as in rotd_spectrum."""
     horizontal = _peaks_over_directions(motion, periods, damping)

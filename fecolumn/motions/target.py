@@ -10,7 +10,7 @@ import numpy as np
 from fecolumn.case import GRAVITY
 from fecolumn.motions.intensity import peak_values, significant_duration
 from fecolumn.motions.record import GroundMotion
-from fecolumn.motions.spectra import rotd_spectrum
+from fecolumn.motions.spectra import horizontal_spectrum
 from fecolumn.schema import parameter
 
 _RECORD_PERIODS = np.geomspace(0.03, 20, 66)
@@ -50,7 +50,7 @@ class Agreement:
 def measured(motion: GroundMotion, periods) -> np.ndarray:
     """Spectrum [m/s2] at the periods, then PGA [m/s2], PGV [m/s], PGD [m], Ds5-75 and Ds5-95 [s]: (n_periods + 5,)."""
     durations = significant_duration(motion, 0.05, 0.75), significant_duration(motion, 0.05, 0.95)
-    return np.concatenate([rotd_spectrum(motion, periods, percentiles=(50,))[0], peak_values(motion), durations])
+    return np.concatenate([horizontal_spectrum(motion, periods), peak_values(motion), durations])
 
 
 def figures(target: Target) -> np.ndarray:

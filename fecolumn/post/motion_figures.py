@@ -1,4 +1,4 @@
-"""Figures of an ensemble of ground motions: sample motions, spectra with their target, distributions."""
+"""Figures of an ensemble of ground motions: sample motions, spectra with their target, distributions, rocking."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ import numpy as np
 
 from fecolumn.case import GRAVITY
 from fecolumn.motions.ensemble import Ensemble
-from fecolumn.motions.ensemble_report import stored_target
+from fecolumn.motions.ensemble_report import measured_along, stored_target
 from fecolumn.motions.processing import integrate
-from fecolumn.motions.spectra import rotd_spectrum
-from fecolumn.post.style import BLACK, BLUE, PAGE_WIDTH_IN, SKY, VERMILION, new_figure, save, styled
+from fecolumn.motions.spectra import horizontal_spectrum
+from fecolumn.post.rocking_figure import rocking_figure
+from fecolumn.post.style import BLACK, BLUE, GREY, PAGE_WIDTH_IN, SKY, VERMILION, new_figure, save, styled
 from fecolumn.statistics.ecdf import ecdf
 
 _ROWS = (r"$a$ [g]", r"$v$ [cm/s]", r"$d$ [cm]")
@@ -22,17 +23,17 @@ _MEASURES = (("pga_m_s2", "PGA [g]", 1 / GRAVITY, "pga_g", 1), ("pgv_m_s", "PGV 
 _HEADROOM = (1.0, 1.2, 1.0)  # the legend stands in the second row
 _N_PERIODS = 150
 _SHORTEST_S = 0.03  # displacements of stiffer oscillators tell nothing
-_GREY = "#9A9A9A"
 
 
-def motion_figures(ensemble: Ensemble, columns: dict[str, np.ndarray], folder, show=None) -> list[Path]:
-    """Write samples, spectra and distributions as PNG and PDF.
+def motion_figures(ensemble: Ensemble, columns: dict[str, np.ndarray], folder, show=None, slenderness: float = 0.1) -> list[Path]:
+    """Write samples, spectra, distributions and rocking spectra as PNG and PDF.
 
     Args:
         ensemble: at least one motion.
         columns: of ensemble_file.summary.
         folder: made if missing.
         show: up to three or so numbers of motions, counted from 1; by default those nearest to the 16, 50 and 84 % PGV.
+        slenderness: of the rocking blocks [rad], in (0, pi/2).
     """
     folder = Path(folder)
     if not show:
@@ -40,7 +41,8 @@ def motion_figures(ensemble: Ensemble, columns: dict[str, np.ndarray], folder, s
         show = dict.fromkeys(int(order[round(share * (len(order) - 1))]) + 1 for share in (0.16, 0.5, 0.84))
     with styled():
         return [*_samples(ensemble, list(show), folder / "motions"), *_spectra(ensemble, folder / "spectra"),
-                *_distributions(ensemble, columns, folder / "distributions")]
+                *_distributions(ensemble, columns, folder / "distributions"),
+                *rocking_figure(ensemble, slenderness, folder / "rocking")]
 
 
 def _samples(ensemble: Ensemble, numbers: list[int], path) -> list[Path]:
@@ -72,14 +74,15 @@ def _spectra(ensemble: Ensemble, path) -> list[Path]:
     """Every spectrum thin, the median and the band between 16 and 84 % over them, the target as marks."""
     found = stored_target(ensemble)
     periods = np.geomspace(*((found[0].periods_s[0], found[0].periods_s[-1]) if found else (0.02, 5.0)), _N_PERIODS)
-    spectra = np.array([rotd_spectrum(motion, periods, percentiles=(50,))[0] for motion in ensemble.motions]) / GRAVITY
+    spectra = np.array([horizontal_spectrum(motion, periods) for motion in ensemble.motions]) / GRAVITY
     low, middle, high = np.percentile(spectra, [16, 50, 84], axis=0)
+    along_what = measured_along(ensemble)
     figure = new_figure(PAGE_WIDTH_IN, 3.1)
     grid = figure.subplots(1, 2)
-    for axes, power, factor, label in ((grid[0], 0, 1.0, r"$S_a$ (RotD50, 5 %) [g]"),
-                                       (grid[1], 2, 100 * GRAVITY / (2 * np.pi)**2, r"$S_d$ (RotD50, 5 %) [cm]")):
+    for axes, power, factor, label in ((grid[0], 0, 1.0, rf"$S_a$ ({along_what}, 5 %) [g]"),
+                                       (grid[1], 2, 100 * GRAVITY / (2 * np.pi)**2, rf"$S_d$ ({along_what}, 5 %) [cm]")):
         along = factor * periods**power
-        axes.plot(periods, (along * spectra).T, color=_GREY, linewidth=0.3, alpha=0.5, zorder=1)
+        axes.plot(periods, (along * spectra).T, color=GREY, linewidth=0.3, alpha=0.5, zorder=1)
         axes.fill_between(periods, along * low, along * high, facecolor=SKY, edgecolor=BLUE, alpha=0.5, linewidth=0.7,
                           label="16-84 %", zorder=2)
         axes.plot(periods, along * middle, color=BLUE, linewidth=1.4, label="median", zorder=3)
@@ -89,7 +92,7 @@ def _spectra(ensemble: Ensemble, path) -> list[Path]:
                       markerfacecolor="white", markeredgewidth=0.7, label=f"target: {found[0].name}", zorder=4)
         axes.set(xscale="log", yscale="log", xlabel=r"period $T$ [s]", ylabel=label, xlim=(periods[0], periods[-1]))
     grid[1].set(xlim=(_SHORTEST_S, periods[-1]), ylim=(0.5 * factor * _SHORTEST_S**2 * np.interp(_SHORTEST_S, periods, low), None))
-    grid[0].plot([], [], color=_GREY, linewidth=0.6, label=f"{len(spectra)} motions")
+    grid[0].plot([], [], color=GREY, linewidth=0.6, label=f"{len(spectra)} motions")
     grid[0].legend(loc="lower left")
     return save(figure, path)
 

@@ -14,6 +14,7 @@ with warnings.catch_warnings():  # a newer matplotlib in a venv over Debian's fi
 COLUMN_WIDTH_IN, PAGE_WIDTH_IN = 3.5, 7.2
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7")  # Okabe & Ito (2008)
+GREY = "#9A9A9A"
 # Told apart by colour and by dash, so that print in grey still reads; yellow is too faint for a line.
 LINES = tuple(zip((BLUE, VERMILION, GREEN, PURPLE, ORANGE, BLACK, SKY), ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)), "-", "--")))
 

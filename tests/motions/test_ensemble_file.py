@@ -50,6 +50,13 @@ def test_motions_are_counted_from_one(stored):
     assert members(f"{stored}#*") == [f"{stored}#{number}" for number in (1, 2, 3)] and members("a.AT2") == ["a.AT2"]
 
 
+def test_motions_beyond_9999_keep_their_order(stored):
+    with h5py.File(stored, "r+") as file:
+        for number in (1, 2, 3):
+            file.move(f"motions/{number:04d}", f"motions/{9998 + number}")
+    assert [motion.name for motion in read_ensemble(stored).motions] == ["noise 0", "noise 1", "noise 2"]
+
+
 @pytest.mark.parametrize("number", ["0", "4", "-1", "x", "1.5", ""])
 def test_motion_that_the_ensemble_does_not_have_is_refused(stored, number):
     with pytest.raises(InputError, match="whole number from 1 to 3") as caught:

@@ -49,9 +49,21 @@ def test_cumulative_absolute_velocity_of_a_sine():
 
 
 def test_housner_intensity_of_an_impulse():
-    # undamped pseudo-velocity of a short impulse is the impulse, at every long period: 0.02 m/s * 2.4 s, RotD50 cos(45 deg) of it
+    # undamped pseudo-velocity of a short impulse is the impulse, at every long period: 0.02 m/s * 2.4 s
     motion = motion_of(np.r_[0, 2, 0], np.zeros(3), 0.01)
-    assert intensity.housner_intensity(motion, 0.0) == pytest.approx(0.02 * 2.4 * math.cos(math.pi / 4), rel=5e-3)
+    assert intensity.housner_intensity(motion, 0.0) == pytest.approx(0.02 * 2.4, rel=5e-3)
+    # the same impulse along both axes is sqrt(2) along the diagonal: RotD50 cos(45 deg) of that
+    assert intensity.housner_intensity(motion_of(np.r_[0, 2, 0], np.r_[0, 2, 0], 0.01), 0.0) == pytest.approx(0.02 * 2.4, rel=5e-3)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_measures_of_one_component_are_its_own(turned):
+    # one cycle of 2 sin(w t), w = 2 pi, from rest: v = 2 (1 - cos)/w, d = 2 (t - sin(w t)/w)/w; int |a| dt = 8/w
+    time, omega = np.arange(1001) * 1e-3, 2 * math.pi
+    components = 2 * np.sin(omega * time), np.zeros(1001)
+    motion = motion_of(*(components[::-1] if turned else components), 1e-3)
+    assert intensity.peak_values(motion) == pytest.approx((2, 4 / omega, 2 / omega), rel=1e-5)
+    assert intensity.cumulative_absolute_velocity(motion) == pytest.approx(8 / omega, rel=1e-5)
 
 
 def test_motion_of_zeros_has_measures_of_zero():

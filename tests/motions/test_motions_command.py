@@ -1,5 +1,7 @@
 """`fecolumn motions`: files, messages and exit codes."""
 
+import math
+
 import pytest
 
 from fecolumn.cli import main
@@ -32,9 +34,25 @@ def test_info_tells_medians_beside_the_target(lick, capsys):
     assert "4 motions" in said and "PGV [cm/s]" in said and "Sa(0.075 s) [g]" in said and "figures within what is allowed" in said
 
 
+def test_table_and_info_of_one_component_are_those_of_the_component(lick, tmp_path, capsys):
+    made = tmp_path / "pulses.h5"
+    # a cycle of 3 sin(2 pi t / 0.5 s): PGV 3 T/pi, int |a| dt = 2 * PGV
+    assert main(["motions", "make", "pulses", "one_sine", "--amplitudes", "3", "--periods", "0.5", "-o", str(made)]) == 0
+    assert "PGA, PGV, PGD and Housner: along x; CAV: along x" in capsys.readouterr().out
+    head, row = (line.split(",") for line in made.with_suffix(".csv").read_text().splitlines())
+    row = dict(zip(head, row))
+    assert row["horizontal_components"] == "1" and float(row["pga_m_s2"]) == pytest.approx(3, rel=1e-4)
+    assert float(row["pgv_m_s"]) == pytest.approx(1.5 / math.pi, rel=1e-4) and float(row["cav_m_s"]) == pytest.approx(3 / math.pi, rel=1e-4)
+
+    assert main(["motions", "convert", f"{made}#1", f"{lick}#1", "-o", str(tmp_path / "mixed.h5")]) == 0
+    assert "RotD50, or the only component; CAV: mean of x and y, or the only component" in capsys.readouterr().out
+    assert main(["motions", "info", str(lick)]) == 0
+    assert "PGA, PGV, PGD and Housner: RotD50; CAV: mean of x and y\n" in capsys.readouterr().out
+
+
 def test_figures_are_written(lick, tmp_path):
     assert main(["motions", "plot", str(lick), "-o", str(tmp_path), "--show", "1", "3"]) == 0
-    for name in ("motions", "spectra", "distributions"):
+    for name in ("motions", "spectra", "distributions", "rocking"):
         assert (tmp_path / f"{name}.png").stat().st_size > 20000 and (tmp_path / f"{name}.pdf").read_bytes().startswith(b"%PDF")
 
 
@@ -56,6 +74,8 @@ def test_wrong_input_is_refused_in_a_line(lick, capsys, tmp_path):
     assert "no such file" in refused(capsys, "info", tmp_path / "gone.h5")
     assert "is no HDF5 file" in refused(capsys, "info", lick.with_suffix(".csv"))
     assert "from 1 to 4" in refused(capsys, "plot", lick, "-o", tmp_path, "--show", 5)
+    for alpha in (0, 1.6, "nan"):
+        assert "--slenderness" in refused(capsys, "plot", lick, "-o", tmp_path, "--slenderness", alpha)
     assert "from 1 to 4" in refused(capsys, "convert", f"{lick}#9", "-o", tmp_path / "x")
     assert "two horizontal components" in refused(capsys, "fit", one_component(tmp_path), "-o", tmp_path / "m.toml")
 

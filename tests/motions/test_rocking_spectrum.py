@@ -11,7 +11,7 @@ from fecolumn.case import GRAVITY
 from fecolumn.motions.pulses import Pulse, sample
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.record import GroundMotion
-from fecolumn.motions.rocking_spectrum import housner_restitution, rock, rocking_spectrum
+from fecolumn.motions.rocking_spectrum import housner_restitution, larger_rocking_spectrum, rock, rocking_spectrum, tilt_quantile
 
 SLENDER = 0.05
 P = 2.0
@@ -160,6 +160,23 @@ def test_component_follows_the_angle():
     along, across, back = (rocking_spectrum(turned, [4.0], 0.2, angle_deg=angle)[0] for angle in (40.0, 130.0, -40.0))
     assert along == pytest.approx(rocking_spectrum(motion, [4.0], 0.2)[0], rel=1e-9)
     assert across == 0 and back == 0
+
+
+def test_larger_of_two_directions_is_that_of_the_component_that_tilts_more():
+    weak, strong = (sample(Pulse("one_sine", share * GRAVITY, 0.6), 0.002) for share in (0.25, 0.4))
+    both = GroundMotion(np.column_stack([weak.acceleration[:, 0], strong.acceleration[:, 0], 0 * strong.acceleration[:, 0]]), 0.002, "", "")
+    periods = [1.0, 3.0, 5.0]
+    alone = rocking_spectrum(strong, periods, 0.2)
+    assert math.isinf(alone[0]) and 0 < alone[2] < 1
+    for motion in (both, rotate(both, 90.0), rotate(strong, 90.0), strong):
+        assert larger_rocking_spectrum(motion, periods, 0.2) == pytest.approx(alone, rel=1e-9)
+    assert larger_rocking_spectrum(still(1.0), periods, 0.2).tolist() == [0, 0, 0]
+
+
+def test_quantiles_count_overturned_motions_as_the_largest():
+    peaks = np.array([[0.1, math.inf], [0.4, 0.3], [math.inf, math.inf], [0.2, 0.1]])
+    assert [tilt_quantile(peaks, share).tolist() for share in (0.25, 0.5, 0.75, 1.0)] == [
+        [0.1, 0.1], [0.2, 0.3], [0.4, math.inf], [math.inf, math.inf]]
 
 
 def test_block_at_the_very_threshold_neither_hangs_nor_falls():

@@ -8,7 +8,7 @@ from scipy.signal import lsim
 
 from fecolumn.motions.processing import integrate
 from fecolumn.motions.record import GroundMotion
-from fecolumn.motions.spectra import component_spectra, rotated_peaks, rotd_spectrum
+from fecolumn.motions.spectra import component_spectra, horizontal_spectrum, rotated_peaks, rotd_spectrum
 
 
 def motion_of(x, y=0.0, z=0.0, dt=0.01):
@@ -74,6 +74,14 @@ def test_rotd_of_one_component_are_the_percentiles_of_a_cosine():
     rotd50, rotd100 = rotd_spectrum(along, [0.5])[:, 0]
     peak = component_spectra(along, [0.5])[0, 0]
     assert rotd100 == pytest.approx(peak, rel=1e-12) and rotd50 == pytest.approx(peak * math.cos(math.pi / 4), rel=1e-4)
+
+
+def test_horizontal_spectrum_of_one_component_is_its_own_and_of_two_rotd50():
+    periods, wave = [0.1, 0.5, 2.0], np.sin(np.arange(2000) * 0.05)
+    own = component_spectra(motion_of(wave), periods)[0]
+    for one in (motion_of(wave), motion_of(0 * wave, wave), motion_of(wave, 0, wave)):
+        assert horizontal_spectrum(one, periods) == pytest.approx(own, rel=1e-12)
+    assert np.array_equal(horizontal_spectrum(noise(), periods), rotd_spectrum(noise(), periods, percentiles=(50,))[0])
 
 
 def test_rotd_does_not_depend_on_the_axes():
