@@ -65,32 +65,117 @@ def gauss_seidel(W, q, forces, mu, rho, sweeps, tolerance):
     return sweeps
 
 
+@numba.njit(cache=True)
 def newton_step(W, q, forces, mu, rho):
-    """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991)."""
+    """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular."""
     n = len(q)
-    trial = forces - rho[:, None] * ((W @ forces.ravel()).reshape(n, 3) + q)
+    trial = forces - rho.reshape(n, 1) * ((W @ forces.ravel()).reshape(n, 3) + q)
     touching = np.flatnonzero(trial[:, 2] > 0)
     updated = np.zeros_like(forces)
-    if not len(touching):
-        return updated
-    length = np.hypot(trial[touching, 0], trial[touching, 1])
-    slipping = length > mu * trial[touching, 2]
-    dofs = (3 * touching[:, None] + np.arange(3)).ravel()
-    matrix, right = W[np.ix_(dofs, dofs)], -q[touching].ravel()
-    for k in np.flatnonzero(slipping):
+    k = len(touching)
+    if k == 0:
+        return updated, True
+    matrix, right = np.empty((3 * k, 3 * k)), np.empty(3 * k)
+    for row in range(k):
+        i = touching[row]
+        for a in range(3):
+            right[3 * row + a] = -q[i, a]
+            for column in range(k):
+                for b in range(3):
+                    matrix[3 * row + a, 3 * column + b] = W[3 * i + a, 3 * touching[column] + b]
+    for row in range(k):
+        i, first = touching[row], 3 * row
+        length = np.hypot(trial[i, 0], trial[i, 1])
+        if length <= mu * trial[i, 2]:
+            continue
         # r_t = mu r_n d with d the direction of the trial force, linearised in r_t, r_n and the slip
-        i, rows = touching[k], slice(3 * k, 3 * k + 2)
-        direction = trial[i, :2] / length[k]
-        pressure = max(forces[i, 2], 0.0)
-        turn = min(mu * pressure / length[k], 1.0) * (np.eye(2) - np.outer(direction, direction))
-        slip_rows = matrix[rows].copy()
-        matrix[rows] = rho[i] * turn @ slip_rows
-        matrix[rows, rows] += np.eye(2) - turn
-        matrix[rows, 3 * k + 2] -= mu * direction
+        d0, d1 = trial[i, 0] / length, trial[i, 1] / length
+        share = min(mu * max(forces[i, 2], 0.0) / length, 1.0)
+        t00, t01, t11 = share * (1 - d0 * d0), -share * d0 * d1, share * (1 - d1 * d1)
+        for j in range(3 * k):
+            s0, s1 = matrix[first, j], matrix[first + 1, j]
+            matrix[first, j] = rho[i] * (t00 * s0 + t01 * s1)
+            matrix[first + 1, j] = rho[i] * (t01 * s0 + t11 * s1)
+        matrix[first, first] += 1 - t00
+        matrix[first, first + 1] -= t01
+        matrix[first + 1, first] -= t01
+        matrix[first + 1, first + 1] += 1 - t11
+        matrix[first, first + 2] -= mu * d0
+        matrix[first + 1, first + 2] -= mu * d1
         # Newton about the present forces, written for the new ones: turn (r_t - rho q_t) drops out along d
-        right[rows] = -rho[i] * turn @ q[i, :2]
-    updated[touching] = np.linalg.solve(matrix, right).reshape(-1, 3)
-    return updated
+        right[first] = -rho[i] * (t00 * q[i, 0] + t01 * q[i, 1])
+        right[first + 1] = -rho[i] * (t01 * q[i, 0] + t11 * q[i, 1])
+    if not solve_in_place(matrix, right):
+        return updated, False
+    for row in range(k):
+        for a in range(3):
+            updated[touching[row], a] = right[3 * row + a]
+    return updated, True
+
+
+@numba.njit(cache=True)
+def solve_in_place(matrix, right):
+    """Solve by Gaussian elimination with row pivoting, LAPACK where it pays; overwrites both, False where singular."""
+    n = len(right)
+    if n > 40:
+        try:
+            right[:] = np.linalg.solve(matrix, right)
+        except Exception:
+            return False
+        return True
+    for k in range(n):
+        pivot = k
+        for i in range(k + 1, n):
+            if abs(matrix[i, k]) > abs(matrix[pivot, k]):
+                pivot = i
+        if matrix[pivot, k] == 0.0:
+            return False
+        if pivot != k:
+            for j in range(k, n):
+                matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
+            right[k], right[pivot] = right[pivot], right[k]
+        inverse = 1 / matrix[k, k]
+        for i in range(k + 1, n):
+            factor = matrix[i, k] * inverse
+            if factor != 0.0:
+                for j in range(k + 1, n):
+                    matrix[i, j] -= factor * matrix[k, j]
+                right[i] -= factor * right[k]
+    for i in range(n - 1, -1, -1):
+        value = right[i]
+        for j in range(i + 1, n):
+            value -= matrix[i, j] * right[j]
+        right[i] = value / matrix[i, i]
+    return True
+
+
+@numba.njit(cache=True)
+def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=6):
+    """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and sweeps."""
+    n = len(q)
+    rho, rho_t = np.empty(n), np.empty(n)
+    for i in range(n):
+        xx, yy, zz = W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1], W[3 * i + 2, 3 * i + 2]
+        rho[i], rho_t[i] = 3 / (xx + yy + zz), 1 / np.hypot(xx, yy)
+    forces = start.copy()
+    best, least = forces, np.inf
+    iterations = sweeps = 0
+    if n == 0:
+        return forces, 0.0, 0, 0
+    for round_ in range(rounds):
+        for _ in range(max_newton):
+            residual = natural_residual(W, q, forces, mu, rho).max()
+            if residual < least:
+                best, least = forces, residual
+            if residual <= tolerance:
+                return best, least, iterations, sweeps
+            forces, regular = newton_step(W, q, forces, mu, rho)
+            if not regular:
+                break
+            iterations += 1
+        forces = best.copy()
+        sweeps += gauss_seidel(W, q, forces, mu, rho_t, 50 * 2**round_, tolerance * rho.min())
+    return best, least, iterations, sweeps
 
 
 def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, rounds: int = 6) -> ContactSolution:
@@ -106,26 +191,5 @@ def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: 
     Semismooth Newton; where its active set cycles, Gauss-Seidel sweeps give it a better start. The residual returned
     is the true one: the caller decides what to do with a solution that has not converged.
     """
-    n = len(q)
-    if not n:
-        return ContactSolution(np.zeros((0, 3)), 0.0, 0, 0)
-    rho = 3.0 / np.diag(W).reshape(n, 3).sum(axis=1)
-    rho_t = 1.0 / np.linalg.norm(np.stack([np.diag(W)[0::3], np.diag(W)[1::3]]), axis=0)
-    forces = np.array(start, float)
-    best, least = forces, np.inf
-    iterations = sweeps = 0
-    for round_ in range(rounds):
-        for _ in range(max_newton):
-            residual = natural_residual(W, q, forces, mu, rho).max()
-            if residual < least:
-                best, least = forces, residual
-            if residual <= tolerance:
-                return ContactSolution(best, least, iterations, sweeps)
-            try:
-                forces = newton_step(W, q, forces, mu, rho)
-            except np.linalg.LinAlgError:
-                break
-            iterations += 1
-        forces = best.copy()
-        sweeps += gauss_seidel(W, q, forces, mu, rho_t, 50 * 2**round_, tolerance * rho.min())
-    return ContactSolution(best, least, iterations, sweeps)
+    W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
+    return ContactSolution(*iterate(W, q, float(mu), start, tolerance, max_newton, rounds))
