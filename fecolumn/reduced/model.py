@@ -54,8 +54,8 @@ class Column(NamedTuple):
     """A ColumnModel as a time step sees it, for compiled code.
 
     With F = 2 s - s^2, s = 1 / (1 + beta (1 + alpha) w^2 dt^2) of each mode (`contact.foot`): pushes: (n, 3, m) F phi, by which
-    contact forces drive modes and modes move the foot; static: (n, n, 3, 3) = flexibility - sum F^2 phi phi / w^2, the memoryless
-    rest; mobility: (n, n, 3, 3) = sum F^2 phi phi, velocity per impulse of the modes.
+    contact forces drive modes and modes move the foot; static: (3 n, 3 n) = flexibility - sum F^2 phi phi / w^2, the memoryless
+    rest; mobility: (3 n, 3 n) = sum F^2 phi phi, velocity per impulse of the modes.
     rim: (n_rim,) foot nodes on the circle, none if the foot is not round; on_rim: (n,) their numbers there, -1 off the rim.
     """
 
@@ -79,7 +79,7 @@ class Column(NamedTuple):
 
 class Scheme(NamedTuple):
     """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (m,) s of each mode,
-    elastic: (n, n, 3, 3) [m/N] modal and static compliance of the foot within a step."""
+    elastic: (3 n, 3 n) [m/N] modal and static compliance of the foot within a step."""
 
     dt: float
     half: float
@@ -100,7 +100,7 @@ def step_column(model: ColumnModel, hht, gravity, friction: float, own: np.ndarr
     on_rim[nodes] = np.arange(len(nodes))
     return Column(
         mass=float(model.mass), inertia=np.ascontiguousarray(model.inertia), inverse=np.linalg.inv(model.inertia), gravity=np.array(gravity, float),
-        arms=np.ascontiguousarray(model.arms), squares=squares, pushes=pushes, static=model.flexibility - _modal(pushes, 1 / squares),
+        arms=np.ascontiguousarray(model.arms), squares=squares, pushes=pushes, static=_flat(model.flexibility) - _modal(pushes, 1 / squares),
         mobility=_modal(pushes, np.ones_like(squares)), own=np.ascontiguousarray(own, float), friction=float(friction),
         width=float(np.ptp(model.arms[:, 0])), rim=nodes.astype(np.int64), on_rim=on_rim, rim_first=rim.first if rim else 0.0,
         rim_sector=rim.sector if rim else 1.0)
@@ -123,7 +123,12 @@ def _scheme(column, dt, half, alpha, beta, gamma, stiffness) -> Scheme:
 
 
 def _modal(shapes: np.ndarray, factors: np.ndarray) -> np.ndarray:
-    """Sum of factor phi phi^T over the modes, (n, n, 3, 3)."""
-    n = len(shapes)
-    flat = shapes.reshape(3 * n, -1)
-    return np.ascontiguousarray(((flat * factors) @ flat.T).reshape(n, 3, n, 3).transpose(0, 2, 1, 3))
+    """Sum of factor phi phi^T over the modes, (3 n, 3 n)."""
+    flat = shapes.reshape(3 * len(shapes), -1)
+    return (flat * factors) @ flat.T
+
+
+def _flat(blocks: np.ndarray) -> np.ndarray:
+    """Node blocks (n, n, 3, 3) as a matrix (3 n, 3 n)."""
+    n = len(blocks)
+    return np.ascontiguousarray(blocks.transpose(0, 2, 1, 3)).reshape(3 * n, 3 * n)
