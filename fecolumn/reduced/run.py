@@ -10,6 +10,7 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.stage import Stop
 from fecolumn.dynamics.stepper import Record, StepFailed
 from fecolumn.reduced import motion as motions
+from fecolumn.reduced.bed import no_bed
 from fecolumn.reduced.equilibrium import CONTACT, FAR_BASE, IMPACT, ITERATIONS, N_CUTS, N_ITERATIONS, OFF_BASE, OK, OVERTURNED
 from fecolumn.reduced.ledger import kinetic, strain, weight_energy
 from fecolumn.reduced.model import scheme, step_column
@@ -23,13 +24,13 @@ _STOPS = {CONTACT: Stop.CONTACT, IMPACT: Stop.CONTACT, ITERATIONS: Stop.ITERATIO
 
 
 @numba.njit(cache=True)
-def advance(column, plate, scheme, points, footing, eye, motion, spare, sway, grounds, rows, last_tilt, ledger, record):
+def advance(column, plate, scheme, points, footing, bed, eye, motion, spare, sway, grounds, rows, last_tilt, ledger, record):
     """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, WIDTH) are filled, last_tilt (1,) kept."""
     booked = ledger.copy()
     for k in range(len(grounds)):
         before = record[N_ITERATIONS]
         booked[:] = ledger
-        answer = step(column, plate, scheme, points, footing, motion, grounds[k], spare, sway, ledger, record)
+        answer = step(column, plate, scheme, points, footing, bed, motion, grounds[k], spare, sway, ledger, record)
         if answer != OK:
             ledger[:] = booked
             return k, answer
@@ -60,7 +61,7 @@ class Engine:
         n, m = len(model.arms), len(model.frequencies)
         self.points, self.footing, self.spare = node_points(model.arms), no_footing(n), motions.at_rest(n, m)
         self.sway = Sway(np.zeros(3), np.zeros(3), np.zeros(m), np.eye(3))
-        self._schemes = {}
+        self.bed, self._schemes = no_bed(n), {}
         self.counts, self.last_tilt = np.zeros(6, np.int64), np.zeros(1)
         self.base.need(np.unique(base.grid.project(model.reference)[0]))
         self.plate = plate_of(base)
@@ -116,7 +117,7 @@ class Engine:
         """Steps of `hht` until one fails for a reason other than a base not known yet."""
         done = 0
         while True:
-            made, answer = advance(self.column, self.plate, self._scheme(hht), self.points, self.footing, self.eye, self.motion, self.spare,
+            made, answer = advance(self.column, self.plate, self._scheme(hht), self.points, self.footing, self.bed, self.eye, self.motion, self.spare,
                                    self.sway, grounds[done:], rows[done:], self.last_tilt, self.ledger, self.counts)
             done += made
             if answer != FAR_BASE:

@@ -29,7 +29,7 @@ def standing(engine, max_iterations: int = 50) -> motions.Motion:
     moved = np.inf
     for _ in range(max_iterations):
         while True:
-            answer = equilibrate(column, engine.plate, resting, engine.points, engine.footing, start, start.center + resting.half * column.gravity,
+            answer = equilibrate(column, engine.plate, resting, engine.points, engine.footing, engine.bed, start, start.center + resting.half * column.gravity,
                                  start.modal, np.zeros(3), end, engine.sway, engine.counts)
             if answer != FAR_BASE:
                 break

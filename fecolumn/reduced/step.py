@@ -14,7 +14,7 @@ from fecolumn.reduced.points import roll
 
 
 @numba.njit(cache=True)
-def step(column, plate, scheme, points, footing, start, ground, end, sway, ledger, record):
+def step(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record):
     """Carry `start` to `end`, one scheme.dt later, under the ground acceleration (3,); the steps of `Stepper._hht_step`.
 
     The contact force r acts at the end of the step and is kept out of the accelerations that HHT remembers; the rotation is
@@ -33,7 +33,7 @@ def step(column, plate, scheme, points, footing, start, ground, end, sway, ledge
     for k in range(m):
         memory = (0.5 - be) * start.modal_acceleration[k] + be * al * column.squares[k] * start.modal[k]
         free_modal[k] = start.modal[k] + dt * start.modal_rate[k] + dt**2 * memory
-    answer = equilibrate(column, plate, scheme, points, footing, start, free_center, free_modal, dt * start.spin, end, sway, record)
+    answer = equilibrate(column, plate, scheme, points, footing, bed, start, free_center, free_modal, dt * start.spin, end, sway, record)
     if answer != OK:
         return answer
     _finish(column, scheme, points, start, ground, end, sway)
