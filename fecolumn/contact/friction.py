@@ -67,49 +67,57 @@ def gauss_seidel(W, q, forces, mu, rho, sweeps, tolerance):
 
 @numba.njit(cache=True)
 def newton_step(W, q, forces, mu, rho):
-    """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular."""
+    """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular.
+
+    With d the direction of the trial force and e across it, a slipping point has r_t = mu r_n d + y e. Linearised in r_t, r_n and the
+    slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c = mu r_n / |trial|: two unknowns, three for a sticking point.
+    """
     n = len(q)
     trial = forces - rho.reshape(n, 1) * ((W @ forces.ravel()).reshape(n, 3) + q)
-    touching = np.flatnonzero(trial[:, 2] > 0)
     updated = np.zeros_like(forces)
-    k = len(touching)
-    if k == 0:
-        return updated, True
-    matrix, right = np.empty((3 * k, 3 * k)), np.empty(3 * k)
-    for row in range(k):
-        i = touching[row]
-        for a in range(3):
-            right[3 * row + a] = -q[i, a]
-            for column in range(k):
-                for b in range(3):
-                    matrix[3 * row + a, 3 * column + b] = W[3 * i + a, 3 * touching[column] + b]
-    for row in range(k):
-        i, first = touching[row], 3 * row
+    # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or gap along test[u]
+    point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
+    own, count = np.zeros(3 * n), 0
+    for i in range(n):
+        if not trial[i, 2] > 0:
+            continue
         length = np.hypot(trial[i, 0], trial[i, 1])
         if length <= mu * trial[i, 2]:
+            for a in range(3):
+                point[count] = i
+                basis[count, a] = test[count, a] = 1.0
+                count += 1
             continue
-        # r_t = mu r_n d with d the direction of the trial force, linearised in r_t, r_n and the slip
-        d0, d1 = trial[i, 0] / length, trial[i, 1] / length
+        x, y = trial[i, 0] / length, trial[i, 1] / length
         share = min(mu * max(forces[i, 2], 0.0) / length, 1.0)
-        t00, t01, t11 = share * (1 - d0 * d0), -share * d0 * d1, share * (1 - d1 * d1)
-        for j in range(3 * k):
-            s0, s1 = matrix[first, j], matrix[first + 1, j]
-            matrix[first, j] = rho[i] * (t00 * s0 + t01 * s1)
-            matrix[first + 1, j] = rho[i] * (t01 * s0 + t11 * s1)
-        matrix[first, first] += 1 - t00
-        matrix[first, first + 1] -= t01
-        matrix[first + 1, first] -= t01
-        matrix[first + 1, first + 1] += 1 - t11
-        matrix[first, first + 2] -= mu * d0
-        matrix[first + 1, first + 2] -= mu * d1
-        # Newton about the present forces, written for the new ones: turn (r_t - rho q_t) drops out along d
-        right[first] = -rho[i] * (t00 * q[i, 0] + t01 * q[i, 1])
-        right[first + 1] = -rho[i] * (t01 * q[i, 0] + t11 * q[i, 1])
+        point[count] = point[count + 1] = i
+        basis[count, 0], basis[count, 1], basis[count, 2] = mu * x, mu * y, 1.0
+        test[count, 2] = 1.0
+        basis[count + 1, 0], basis[count + 1, 1] = -y, x
+        # of the size of the others' equations
+        test[count + 1, 0], test[count + 1, 1] = -share * y, share * x
+        own[count + 1] = (1 - share) / rho[i]
+        count += 2
+    if count == 0:
+        return updated, True
+    half, matrix, right = np.empty((count, 3 * n)), np.empty((count, count)), np.empty(count)
+    for u in range(count):
+        row, x, y, z = 3 * point[u], test[u, 0], test[u, 1], test[u, 2]
+        right[u] = -(x * q[point[u], 0] + y * q[point[u], 1] + z * q[point[u], 2])
+        if x == 0.0 and y == 0.0 and z == 1.0:
+            half[u] = W[row + 2]
+        else:
+            for j in range(3 * n):
+                half[u, j] = x * W[row, j] + y * W[row + 1, j] + z * W[row + 2, j]
+        for v in range(count):
+            column = 3 * point[v]
+            matrix[u, v] = basis[v, 0] * half[u, column] + basis[v, 1] * half[u, column + 1] + basis[v, 2] * half[u, column + 2]
+        matrix[u, u] += own[u]
     if not solve_in_place(matrix, right):
         return updated, False
-    for row in range(k):
+    for u in range(count):
         for a in range(3):
-            updated[touching[row], a] = right[3 * row + a]
+            updated[point[u], a] += right[u] * basis[u, a]
     return updated, True
 
 

@@ -116,71 +116,68 @@ def static_displacement(column, points, plate, footing, rotation, forces, near, 
     """given (n, 3): displacement of the near points (mask) relative to the base that follows the forces at once; without the law's own."""
     n = len(forces)
     given[:] = 0.0
-    loaded = np.zeros(n, np.bool_)
-    on_nodes = np.zeros((n, 3))
-    pressed, slots = np.empty(n, np.int64), np.empty(4 * n, np.int64)
-    known = np.full(len(plate.compliance) // 3, -1)
-    shares = np.zeros((4 * n, 3))
-    n_pressed = n_slots = 0
+    on_nodes, at_node = np.zeros((n, 3)), np.empty((n, 3))
+    pressed, done = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
+    slots, shares, n_slots = np.empty(4 * n, np.int64), np.empty((4 * n, 3)), 0
     for i in range(n):
         r0, r1, r2 = forces[i, 0], forces[i, 1], forces[i, 2]
         if r2 <= 0.0:
             continue
-        loaded[i] = True
         for q in range(points.count[i]):
             carrier, w = points.carriers[i, q], points.weights[i, q]
+            pressed[carrier] |= w != 0.0
             for a in range(3):
                 on_nodes[carrier, a] += w * (rotation[0, a] * r0 + rotation[1, a] * r1 + rotation[2, a] * r2)
         for q in range(4):
             slot, w = footing.slots[i, q], footing.weights[i, q]
-            if known[slot] < 0:
-                known[slot] = n_slots
-                slots[n_slots] = slot
+            # points beside each other share nodes of the base
+            place = n_slots
+            for p in range(max(0, n_slots - 16), n_slots):
+                if slots[p] == slot:
+                    place = p
+            if place == n_slots:
+                slots[place] = slot
+                shares[place] = 0.0
                 n_slots += 1
-            shares[known[slot], 0] += w * r0
-            shares[known[slot], 1] += w * r1
-            shares[known[slot], 2] += w * r2
-    for i in range(n):
-        if on_nodes[i, 0] != 0.0 or on_nodes[i, 1] != 0.0 or on_nodes[i, 2] != 0.0:
-            pressed[n_pressed] = i
-            n_pressed += 1
-    if n_pressed == 0:
+            shares[place, 0] += w * r0
+            shares[place, 1] += w * r1
+            shares[place, 2] += w * r2
+    nodes = np.flatnonzero(pressed)
+    if len(nodes) == 0:
         return
-    at_node, done = np.empty((n, 3)), np.zeros(n, np.bool_)
-    sunk, sunk_done = np.empty((len(known), 3)), np.zeros(len(known), np.bool_)
+    sunk = np.empty(3)
     for i in range(n):
         if not near[i]:
             continue
         u0 = u1 = u2 = 0.0
         for q in range(points.count[i]):
             carrier, w = points.carriers[i, q], points.weights[i, q]
+            if w == 0.0:
+                continue
             if not done[carrier]:
                 done[carrier] = True
-                _respond(column.static, carrier, on_nodes, pressed, n_pressed, at_node[carrier])
+                _respond(column.static, carrier, on_nodes, nodes, at_node[carrier])
             u0, u1, u2 = u0 + w * at_node[carrier, 0], u1 + w * at_node[carrier, 1], u2 + w * at_node[carrier, 2]
         for a in range(3):
             given[i, a] = rotation[a, 0] * u0 + rotation[a, 1] * u1 + rotation[a, 2] * u2
         for q in range(4):
             slot, w = footing.slots[i, q], footing.weights[i, q]
-            if slot < 0:
+            if slot < 0 or w == 0.0:
                 continue
-            if not sunk_done[slot]:
-                sunk_done[slot] = True
-                _respond_rows(plate.compliance, slot, shares, slots, n_slots, sunk[slot])
+            _respond_rows(plate.compliance, slot, shares, slots, n_slots, sunk)
             for a in range(3):
-                given[i, a] += w * sunk[slot, a]
-        if loaded[i] and points.count[i] > 1:
+                given[i, a] += w * sunk[a]
+        if forces[i, 2] > 0 and points.count[i] > 1:
             for a in range(3):
                 given[i, a] += footing.even[i, a, 0] * forces[i, 0] + footing.even[i, a, 1] * forces[i, 1] + footing.even[i, a, 2] * forces[i, 2]
 
 
 @numba.njit(cache=True)
-def _respond(compliance, row, values, places, count, target):
-    """target (3,): displacement at node `row` by values (n, 3) at the first `count` of `places`."""
+def _respond(compliance, row, values, places, target):
+    """target (3,): displacement at node `row` by values (n, 3) at `places`."""
     for a in range(3):
         line, total = compliance[3 * row + a], 0.0
-        for j in range(count):
-            place = places[j]
+        for place in places:
             total += line[3 * place] * values[place, 0] + line[3 * place + 1] * values[place, 1] + line[3 * place + 2] * values[place, 2]
         target[a] = total
 

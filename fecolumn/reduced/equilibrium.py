@@ -18,11 +18,11 @@ from fecolumn.reduced.plate import ON, UNKNOWN, project
 # Ways a step can end; FAR_BASE asks for more of the base's compliance, OVERTURNED ends the analysis
 OK, FAR_BASE, OFF_BASE, CONTACT, ITERATIONS, IMPACT, OVERTURNED = range(7)
 # Points nearer than so many times NEAR are told their static displacement
-CLOSE = 10.0
+CLOSE = 2.0
 # Iterations of a step
 MOST = 25
-# Residual of the contact laws on the moved points at which a step has converged, over that of a contact problem
-CONVERGED = 0.1
+# Residual to which a contact problem is solved, over the one at which the laws hold on the moved points
+SHARP = 0.1
 # Places in a record of counts
 N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_FAST, N_ASSEMBLED = range(6)
 
@@ -77,7 +77,7 @@ def equilibrate(column, plate, scheme, points, footing, bed, start, free_center,
         end: gets center, rotation, modal, elastic, forces, relative, static energy.
     Returns: a way to end.
     """
-    n, mu, tight = len(points.forces), column.friction, CONVERGED * SOLVED * column.width
+    n, mu, tight = len(points.forces), column.friction, SHARP * SOLVED * column.width
     positions, given, slack, relative = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3)), end.relative
     close, active = np.ones(n, np.bool_), np.zeros(n, np.bool_)
     W, rho, listed, assembled = np.empty((0, 0)), np.empty(n), np.empty(0, np.int64), False
@@ -85,7 +85,6 @@ def equilibrate(column, plate, scheme, points, footing, bed, start, free_center,
     forces[:] = points.forces
     end.elastic[:] = start.elastic
     sway.turn[:] = advance
-    last = np.inf
     in_bed = beds.fits(bed, column, points, scheme.half, start.center, start.rotation)
     may_bed = not in_bed and settled(column, points, start, free_center, advance)
     for iteration in range(MOST):
@@ -130,14 +129,13 @@ def equilibrate(column, plate, scheme, points, footing, bed, start, free_center,
             for j in range(count):
                 rho[listed[j]] = 3 / (W[3 * j, 3 * j] + W[3 * j + 1, 3 * j + 1] + W[3 * j + 2, 3 * j + 2])
         residual = law_residual(column, points, relative, forces, active, rho, slack)
-        if residual <= tight or (residual <= SOLVED * column.width and residual >= 0.5 * last):
+        if residual <= SOLVED * column.width:
             energy = 0.0
             for i in range(n):
                 for a in range(3):
                     energy += forces[i, a] * (given[i, a] + column.own[i, a] * forces[i, a])
             end.scalars[STATIC] = energy / 2
             return OK
-        last = residual
         if in_bed:
             residual, newtons = beds.solve(bed, mu, slack, active, forces, tight)
             record[N_CONTACT] += newtons

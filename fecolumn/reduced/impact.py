@@ -19,19 +19,21 @@ def turning_points(column, points, start, end, dt, early, late):
     """Mask (n,) of points whose slip ends within the step: as Stepper._turning; early, late: velocities at its ends, found if needed."""
     n, mu = len(points.forces), column.friction
     turns, slid, slips = np.zeros(n, np.bool_), np.zeros(n, np.bool_), np.zeros(n, np.bool_)
-    some = False
+    some, wanted = False, np.empty(n, np.bool_)
     for i in range(n):
         pull = np.hypot(points.forces[i, 0], points.forces[i, 1])
         touching = end.forces[i, 2] > 0
         slid[i] = pull > 0 and pull >= (1 - 1e-9) * mu * points.forces[i, 2]
         slips[i] = touching and (end.anchors[i, 0] != points.anchors[i, 0] or end.anchors[i, 1] != points.anchors[i, 1])
-        some |= touching and (slid[i] or slips[i])
+        # nothing else can be among those that turn
+        wanted[i] = slid[i] and touching and not slips[i] or slips[i] and points.forces[i, 2] > 0
+        some |= wanted[i]
     if not some:
         return turns
-    point_velocities(column, points, start, early)
-    point_velocities(column, points, end, late)
+    point_velocities(column, points, start, wanted, early)
+    point_velocities(column, points, end, wanted, late)
     for i in range(n):
-        if end.forces[i, 2] <= 0 or not dt * np.hypot(early[i, 0], early[i, 1]) > SLIDE * column.width:
+        if not wanted[i] or not dt * np.hypot(early[i, 0], early[i, 1]) > SLIDE * column.width:
             continue
         s0, s1 = end.anchors[i, 0] - points.anchors[i, 0], end.anchors[i, 1] - points.anchors[i, 1]
         against = min(early[i, 0] * s0 + early[i, 1] * s1, late[i, 0] * s0 + late[i, 1] * s1) < 0
@@ -57,8 +59,10 @@ def collide(column, plate, scheme, points, footing, start, end, landing, turns, 
     compliance *= YIELD * 2 / dt**2
     compliance += mobility
     early, late = np.empty((n, 3)), np.empty((n, 3))
-    point_velocities(column, points, start, early)
-    point_velocities(column, points, end, late)
+    wanted = np.zeros(n, np.bool_)
+    wanted[union] = True
+    point_velocities(column, points, start, wanted, early)
+    point_velocities(column, points, end, wanted, late)
     early, late, given = early[union], late[union], dt * end.forces[union]
     pushed = (mobility @ given.ravel()).reshape(k, 3)
     free = late - pushed

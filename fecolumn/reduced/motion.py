@@ -237,20 +237,23 @@ def point_positions(points, motion, target):
 
 
 @numba.njit(cache=True)
-def point_velocities(column, points, motion, target):
-    """target (n, 3): velocities of the points."""
-    moved = np.empty_like(motion.elastic)
-    foot_displacement(column.pushes, motion.modal_rate, moved)
+def point_velocities(column, points, motion, wanted, target):
+    """target (n, 3): velocities of the wanted points (mask)."""
     v, R, w = motion.velocity, motion.rotation, motion.spin
     arm, own = np.empty(3), np.empty(3)
     for i in range(len(target)):
+        if not wanted[i]:
+            continue
         arm[:] = points.arms[i]
         own[:] = 0.0
         for q in range(points.count[i]):
             carrier, weight = points.carriers[i, q], points.weights[i, q]
             for a in range(3):
+                push, moved = column.pushes[carrier, a], 0.0
+                for k in range(len(motion.modal)):
+                    moved += push[k] * motion.modal_rate[k]
                 arm[a] += weight * motion.elastic[carrier, a]
-                own[a] += weight * moved[carrier, a]
+                own[a] += weight * moved
         x = own[0] + w[1] * arm[2] - w[2] * arm[1]
         y = own[1] + w[2] * arm[0] - w[0] * arm[2]
         z = own[2] + w[0] * arm[1] - w[1] * arm[0]

@@ -91,7 +91,7 @@ class Engine:
         Raises:
             StepFailed: no convergence after max_cuts halvings, or the column left the base; the motion is that before the step.
         """
-        grounds, done = np.ascontiguousarray(grounds, float), 0
+        grounds, done = np.array(grounds, float), 0
         rows = np.empty((len(grounds), WIDTH))
         while done < len(grounds):
             made, answer = self._steps(self.hht, grounds[done:], rows[done:])
