@@ -161,10 +161,12 @@ def solve_in_place(matrix, right):
 def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=6):
     """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and sweeps."""
     n = len(q)
-    rho, rho_t = np.empty(n), np.empty(n)
+    rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
         xx, yy, zz = W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1], W[3 * i + 2, 3 * i + 2]
         rho[i], rho_t[i] = 3 / (xx + yy + zz), 1 / np.hypot(xx, yy)
+        # points that move together are more compliant than one alone: with its own rho each would seem to slip to and fro
+        rho_all[i] = 3 / np.abs(W[3 * i:3 * i + 3]).sum()
     forces = start.copy()
     best, least = forces, np.inf
     iterations = sweeps = 0
@@ -177,7 +179,7 @@ def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=6):
                 best, least = forces, residual
             if residual <= tolerance:
                 return best, least, iterations, sweeps
-            forces, regular = newton_step(W, q, forces, mu, rho)
+            forces, regular = newton_step(W, q, forces, mu, rho_all)
             if not regular:
                 break
             iterations += 1

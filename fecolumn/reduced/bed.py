@@ -20,20 +20,21 @@ TURN, WAY = 1e-4, 5e-5
 
 
 class Bed(NamedTuple):
-    """Compliance W of all points and its inverse, the static part without the contact law's own, all (3 n, 3 n); rho: (n,) scale of
-    the laws [N/m]; center: (3,), rotation: (3, 3), key: (3,) in which it holds: rim angle, half of the scheme, 1 where it is made."""
+    """Compliance W of all points and its inverse, the static part without the contact law's own, all (3 n, 3 n); rho, rho_all: (n,)
+    stiffness of a point alone and with all others, for the laws [N/m]; center: (3,), rotation: (3, 3), key: (3,) in which it holds: rim angle, half of the scheme, 1 where it is made."""
 
     W: np.ndarray
     inverse: np.ndarray
     static: np.ndarray
     rho: np.ndarray
+    rho_all: np.ndarray
     center: np.ndarray
     rotation: np.ndarray
     key: np.ndarray
 
 
 def no_bed(n: int) -> Bed:
-    return Bed(*(np.zeros((3 * n, 3 * n)) for _ in range(3)), np.zeros(n), np.zeros(3), np.eye(3), np.zeros(3))
+    return Bed(*(np.zeros((3 * n, 3 * n)) for _ in range(3)), np.zeros(n), np.zeros(n), np.zeros(3), np.eye(3), np.zeros(3))
 
 
 @numba.njit(cache=True)
@@ -68,6 +69,7 @@ def make(bed, column, plate, scheme, points, footing, center, rotation):
     bed.inverse[:] = np.linalg.inv(bed.W)
     for i in range(n):
         bed.rho[i] = 3 / (bed.W[3 * i, 3 * i] + bed.W[3 * i + 1, 3 * i + 1] + bed.W[3 * i + 2, 3 * i + 2])
+        bed.rho_all[i] = 3 / np.abs(bed.W[3 * i:3 * i + 3]).sum()
         for a in range(3):
             bed.static[3 * i + a, 3 * i + a] -= column.own[i, a]
             for j in range(3 * n):
@@ -80,11 +82,11 @@ def make(bed, column, plate, scheme, points, footing, center, rotation):
 
 
 @numba.njit(cache=True)
-def solve(bed, mu, given, active, forces, tolerance, most=25):
+def solve(bed, mu, given, active, forces, tolerance, usable, most=15):
     """Contact forces by semismooth Newton on the slips of the points that do not stick; as `friction.newton_step`.
 
     Args:
-        given: (n, 3) slips and gaps [m] under the forces (n, 3), which are replaced. active: (n,) mask; the others are open.
+        given: (n, 3) slips and gaps [m] under the forces (n, 3), which are replaced where the residual is `usable`. active: (n,) mask; the others are open.
     Returns: residual of the laws [m], and Newton steps.
     """
     n = len(given)
@@ -96,7 +98,7 @@ def solve(bed, mu, given, active, forces, tolerance, most=25):
         count = 0
         turn = np.zeros((n, 5))
         for i in range(n):
-            rho = bed.rho[i]
+            rho = bed.rho_all[i]
             normal = r[3 * i + 2] - rho * s[3 * i + 2]
             opened[i] = not active[i] or normal <= 0
             if opened[i]:
@@ -134,7 +136,7 @@ def solve(bed, mu, given, active, forces, tolerance, most=25):
                 k0, k1, k2 = bed.inverse[row, unknown[v]], bed.inverse[row + 1, unknown[v]], bed.inverse[row + 2, unknown[v]]
                 matrix[u, v] = (1 - a) * k0 - b * k1 - x * k2
                 matrix[u + 1, v] = -b * k0 + (1 - d) * k1 - y * k2
-            rho = bed.rho[i]
+            rho = bed.rho_all[i]
             matrix[u, u] += rho * a
             matrix[u, u + 1] += rho * b
             matrix[u + 1, u] += rho * b
@@ -168,8 +170,9 @@ def solve(bed, mu, given, active, forces, tolerance, most=25):
             best[:] = r
         if worst <= tolerance:
             break
-    for i in range(n):
-        for a in range(3):
-            forces[i, a] = best[3 * i + a]
+    if least <= usable:
+        for i in range(n):
+            for a in range(3):
+                forces[i, a] = best[3 * i + a]
     return least, newton + 1
 

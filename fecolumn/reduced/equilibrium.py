@@ -137,11 +137,15 @@ def equilibrate(column, plate, scheme, points, footing, bed, start, free_center,
             end.scalars[STATIC] = energy / 2
             return OK
         if in_bed:
-            residual, newtons = beds.solve(bed, mu, slack, active, forces, tight)
+            residual, newtons = beds.solve(bed, mu, slack, active, forces, tight, CONTACT_TOLERANCE * column.width)
             record[N_CONTACT] += newtons
-            if not residual <= CONTACT_TOLERANCE * column.width:
-                in_bed, assembled = False, False
-            continue
+            if residual <= CONTACT_TOLERANCE * column.width:
+                continue
+            listed = np.flatnonzero(active)
+            W = np.empty((3 * count, 3 * count))
+            for i in range(count):
+                for j in range(count):
+                    W[3 * i:3 * i + 3, 3 * j:3 * j + 3] = bed.W[3 * listed[i]:3 * listed[i] + 3, 3 * listed[j]:3 * listed[j] + 3]
         q, old = np.empty((count, 3)), np.empty((count, 3))
         for j in range(count):
             for a in range(3):
