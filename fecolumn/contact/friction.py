@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
+# Newton steps without a better residual after which another way is tried
+STALLED = 10
+
 
 @dataclass(frozen=True, slots=True)
 class ContactSolution:
@@ -158,7 +161,7 @@ def solve_in_place(matrix, right):
 
 
 @numba.njit(cache=True)
-def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=6):
+def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=7):
     """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and sweeps."""
     n = len(q)
     rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
@@ -173,22 +176,29 @@ def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=6):
     if n == 0:
         return forces, 0.0, 0, 0
     for round_ in range(rounds):
+        stalled = 0
         for _ in range(max_newton):
             residual = natural_residual(W, q, forces, mu, rho).max()
+            stalled += 1
             if residual < least:
-                best, least = forces, residual
+                best, least, stalled = forces, residual, 0
             if residual <= tolerance:
                 return best, least, iterations, sweeps
-            forces, regular = newton_step(W, q, forces, mu, rho_all)
+            if stalled > STALLED:
+                break
+            forces, regular = newton_step(W, q, forces, mu, rho_all if round_ % 2 == 0 else rho)
             if not regular:
                 break
             iterations += 1
+        if round_ == 0:
+            forces = start.copy()
+            continue
         forces = best.copy()
-        sweeps += gauss_seidel(W, q, forces, mu, rho_t, 50 * 2**round_, tolerance * rho.min())
+        sweeps += gauss_seidel(W, q, forces, mu, rho_t, 50 * 2 ** (round_ - 1), tolerance * rho.min())
     return best, least, iterations, sweeps
 
 
-def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, rounds: int = 6) -> ContactSolution:
+def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, rounds: int = 7) -> ContactSolution:
     """Solve the frictional contact problem of n points.
 
     Args:
@@ -198,7 +208,7 @@ def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: 
         start: (n, 3) [N] first guess.
         tolerance: residual at convergence [m].
 
-    Semismooth Newton; where its active set cycles, Gauss-Seidel sweeps give it a better start. The residual returned
+    Semismooth Newton, stick and slip judged by the stiffness of all points together, or of each alone; where its active set cycles, Gauss-Seidel sweeps give it a better start. The residual returned
     is the true one: the caller decides what to do with a solution that has not converged.
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))

@@ -56,8 +56,8 @@ def elastic_modes(body, count: int) -> tuple[np.ndarray, np.ndarray]:
     return 2 * np.pi * modes.frequencies[6:], modes.shapes[6:]
 
 
-def column_model(body, foot_nodes, areas, top_nodes, top_weights, n_modes: int) -> ColumnModel:
-    """Reduce a column.
+def column_model(body, foot_nodes, areas, top_nodes, top_weights, n_modes: int) -> tuple[ColumnModel, np.ndarray]:
+    """Reduce a column; also the shapes (n_modes, n_owned, 3) of the modes all over it.
 
     Args:
         body: Body of column and cap.
@@ -77,8 +77,9 @@ def column_model(body, foot_nodes, areas, top_nodes, top_weights, n_modes: int) 
     def at(nodes):
         return np.ascontiguousarray(body.gather(nodes, fields.transpose(1, 2, 0)))
 
-    return ColumnModel(
+    model = ColumnModel(
         mass=float(body.total_mass), inertia=free.masses[3:, 3:], center=body.center, frequencies=frequencies, shapes=at(foot_nodes),
         flexibility=blocks(flexibility), arms=body.all_X[foot_nodes] - body.center, areas=np.asarray(areas),
         top_arm=top_weights @ body.all_X[top_nodes] - body.center, top_shape=np.einsum("i,iam->am", top_weights, at(top_nodes)),
         dofs=3 * body.n_nodes)
+    return model, fields

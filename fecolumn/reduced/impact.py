@@ -114,7 +114,7 @@ def _impulses(mobility, velocity, mu, guess, record):
     for attempt in range(2):
         # a guess far off can trap the iteration: zero is the second
         start = guess if attempt == 0 else np.zeros_like(guess)
-        impulses, residual, newtons, sweeps = iterate(mobility, velocity, mu, start, 1e-12)
+        impulses, residual, newtons, sweeps = iterate(mobility, velocity, mu, start, 0.1 * IMPACT_TOLERANCE * largest)
         record[N_CONTACT] += newtons + sweeps
         if residual <= IMPACT_TOLERANCE * largest:
             return impulses, True
