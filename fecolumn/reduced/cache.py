@@ -3,7 +3,7 @@
 A model is a folder named after the content it was made from, so that nothing has to be invalidated:
 
     column.npz      ColumnModel    base.npz    top of the base, which of its nodes are known
-    compliance.npy  of these nodes, read through the operating system's page cache, which all workers share
+    compliance.npy  (k, 3, k, 3) of these nodes, read through the operating system's page cache, which all workers share
     fields.npy      (m, n_nodes, 3) mode shapes of the whole column, for pictures
 
 $FECOLUMN_CACHE, or fecolumn in $XDG_CACHE_HOME or ~/.cache, holds the models; the folder may be deleted at any time.
@@ -86,7 +86,7 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
     with np.load(folder / "base.npz") as file:
         points, known, frequency, dofs = (file[name] for name in ("points", "known", "frequency", "dofs"))
     # copy on write: compiled code wants arrays that may be written to
-    compliance = np.load(folder / "compliance.npy", mmap_mode="c")
+    compliance = np.load(folder / "compliance.npy", mmap_mode="c").view(np.ndarray).transpose(0, 2, 1, 3)
     base = KnownBase(points, known, compliance, frequency, dofs, lambda: make_bodies(case)[1])
     return ColumnModel(**values).with_modes(case.n_modes), base, folder
 
@@ -119,7 +119,7 @@ def _make(case: Case, folder: Path) -> None:
                              ("base", dict(points=plate.grid.points, known=plate.known, frequency=plate.frequency, dofs=3 * plate.body.n_nodes))):
             with open(partial / f"{name}.npz", "wb") as file:
                 np.savez(file, **values)
-        np.save(partial / "compliance.npy", plate.compliance)
+        np.save(partial / "compliance.npy", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3)))
         np.save(partial / "fields.npy", fields)
         os.replace(partial, folder)
     except OSError:

@@ -89,10 +89,12 @@ class Engine:
         """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k', WIDTH) and whether the column is lost.
 
         Raises:
-            StepFailed: no convergence after max_cuts halvings, or the column left the base; the motion is that before the step.
+            StepFailed: no convergence after max_cuts halvings, or the column left the base; the motion is that before the step, the
+                rows of the steps made are in `made`.
         """
         grounds, done = np.array(grounds, float), 0
         rows = np.empty((len(grounds), WIDTH))
+        self.made = rows[:0]
         while done < len(grounds):
             made, answer = self._steps(self.hht, grounds[done:], rows[done:])
             done += made
@@ -103,6 +105,7 @@ class Engine:
                 try:
                     self._cut(grounds[done], self.hht, answer, 0)
                 except StepFailed:
+                    self.made = rows[:done]
                     motions.copy(saved, self.motion)
                     self.ledger[:] = booked
                     raise
