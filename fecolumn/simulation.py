@@ -248,12 +248,19 @@ class _FullAnalysis(Analysis):
             self.ledger.open(self.state)
             self._note(0)
             if self.fields:
-                self.fields.write(self.state)
+                self._write_fields()
 
     def _fields(self, specimen):
         from fecolumn.post.fields import FieldWriter
 
-        return FieldWriter(self.folder / "fields", self.system, specimen)
+        system = self.system
+        return FieldWriter(self.folder / "fields", system.column, system.base, system.foot_nodes, system.areas, specimen)
+
+    def _write_fields(self) -> None:
+        system, state = self.system, self.state
+        interface = system.interface
+        self.fields.write(state.time, state.x, system.kinematics.local_displacement(state.x), interface.dynamic_position(state.x, state.rotation),
+                          state.forces, interface.at_nodes(state.forces))
 
     def run(self, stop) -> dict:
         from fecolumn.dynamics.stepper import StepFailed
@@ -274,7 +281,7 @@ class _FullAnalysis(Analysis):
                 overturned = self.observer.overturned(measures)
                 progress.show(self.step, measures, self.stepper.record)
                 if self.fields and self.step % self.field_steps == 0:
-                    self.fields.write(self.state)
+                    self._write_fields()
                 due, ended = self._agree(time.perf_counter() - saved > cadence.checkpoint_every_s, stop())
                 if due or ended:
                     self._save()

@@ -113,7 +113,8 @@ def _make(case: Case, folder: Path) -> None:
     model, fields = column_model(body, foot, areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES))
     plate.need(_under(plate.grid.points, model.reference, case.base.slide_allowance_m))
     folder.parent.mkdir(parents=True, exist_ok=True)
-    partial = Path(tempfile.mkdtemp(prefix=folder.name, dir=folder.parent))
+    partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+    partial.chmod(0o755)
     try:
         for name, values in (("column", {field.name: getattr(model, field.name) for field in dataclasses.fields(model)}),
                              ("base", dict(points=plate.grid.points, known=plate.known, frequency=plate.frequency, dofs=3 * plate.body.n_nodes))):

@@ -54,7 +54,8 @@ def place(column, points, angle):
     if np.isnan(angle):
         for i in column.rim:
             points.count[i] = 1
-            points.carriers[i, 0], points.weights[i, 0] = i, 1.0
+            points.carriers[i], points.weights[i] = i, 0.0
+            points.weights[i, 0] = 1.0
             points.arms[i] = column.arms[i]
             points.lift[i] = 0.0
         return 0
