@@ -231,7 +231,7 @@ class _FullAnalysis(Analysis):
         self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
                                plan.max_iterations, plan.max_cuts)
         self.observer = Observer(self.system, specimen, case.overturn.displacement_m)
-        self.fields = self._fields(specimen) if self.field_steps else None
+        self.fields, self.free = self._fields(specimen) if self.field_steps else None, None
         if (folder / CHECKPOINT).is_file():
             self.state, extra = read_checkpoint(folder / CHECKPOINT, self.system)
             self.resumed(extra)
@@ -257,10 +257,19 @@ class _FullAnalysis(Analysis):
         return FieldWriter(self.folder / "fields", system.column, system.base, system.foot_nodes, system.areas, specimen)
 
     def _write_fields(self) -> None:
+        from fecolumn.dynamics.free_body import FreeBody
+
         system, state = self.system, self.state
-        interface = system.interface
-        self.fields.write(state.time, state.x, system.kinematics.local_displacement(state.x), interface.dynamic_position(state.x, state.rotation),
-                          state.forces, interface.at_nodes(state.forces))
+        interface, column, R = system.interface, system.column, state.rotation
+        at_nodes, local = interface.at_nodes(state.forces), system.kinematics.local_displacement(state.x)
+        rest = np.zeros_like(local)
+        if interface.foot.filtered:
+            # what the filter keeps from the body it bears statically: the part of the stress that a step does not resolve
+            self.free = self.free or FreeBody(column)
+            forces = at_nodes @ R
+            unresolved = column.spread(system.foot_nodes, forces) - interface.foot.load(forces)
+            rest = self.free.response(unresolved.reshape(-1, 1)).reshape(-1, 3)
+        self.fields.write(state.time, state.x + rest @ R.T, local + rest, interface.dynamic_position(state.x, R), state.forces, at_nodes)
 
     def run(self, stop) -> dict:
         from fecolumn.dynamics.stepper import StepFailed
