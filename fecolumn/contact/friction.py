@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
+
+from fecolumn._compiled import njit
 
 # Newton steps without a better residual after which another way is tried
 STALLED = 10
@@ -21,7 +22,7 @@ class ContactSolution:
     sweeps: int
 
 
-@numba.njit(cache=True)
+@njit
 def natural_residual(W, q, forces, mu, rho):
     """Violation of the contact laws at each point [m]: distance of r from its projection, over rho.
 
@@ -43,7 +44,7 @@ def natural_residual(W, q, forces, mu, rho):
     return error
 
 
-@numba.njit(cache=True)
+@njit
 def gauss_seidel(W, q, forces, mu, rho, sweeps, tolerance):
     """Projected nonlinear Gauss-Seidel (Jourdan, Alart, Jean 1998); changes `forces`, returns the sweeps made."""
     n = len(q)
@@ -68,7 +69,7 @@ def gauss_seidel(W, q, forces, mu, rho, sweeps, tolerance):
     return sweeps
 
 
-@numba.njit(cache=True)
+@njit
 def newton_step(W, q, forces, mu, rho):
     """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular.
 
@@ -124,7 +125,7 @@ def newton_step(W, q, forces, mu, rho):
     return updated, True
 
 
-@numba.njit(cache=True)
+@njit
 def solve_in_place(matrix, right):
     """Solve by Gaussian elimination with row pivoting, LAPACK where it pays; overwrites both, False where singular."""
     n = len(right)
@@ -160,7 +161,7 @@ def solve_in_place(matrix, right):
     return True
 
 
-@numba.njit(cache=True)
+@njit
 def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=7):
     """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and sweeps."""
     n = len(q)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
+
+from fecolumn._compiled import njit
 
 # Nodes count as a circle: so many at least, their distances from its centre and their sectors equal up to this
 _FEWEST, _ROUND = 12, 1e-6
@@ -73,7 +74,7 @@ class Rim:
         return RimPoints(self.nodes, self.nodes[(np.arange(n)[:, None] + offsets) % n], weights, index)
 
 
-@numba.njit(cache=True)
+@njit
 def on_circle(angle, first, sector, n):
     """Number of the node of n whose point is at `angle`, and from each node on: offsets (4,) of its point's carriers, weights (4,)."""
     index = int(np.rint((angle - first) / sector))

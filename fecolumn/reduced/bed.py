@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 from fecolumn.contact.friction import solve_in_place
 from fecolumn.reduced.compliance import add_below, assemble
 
@@ -37,7 +37,7 @@ def no_bed(n: int) -> Bed:
     return Bed(*(np.zeros((3 * n, 3 * n)) for _ in range(3)), np.zeros(n), np.zeros(n), np.zeros(3), np.eye(3), np.zeros(3))
 
 
-@numba.njit(cache=True)
+@njit
 def fits(bed, column, points, half, center, rotation):
     """Whether the foot is in the place of its bed."""
     if bed.key[2] == 0.0 or bed.key[1] != half:
@@ -57,7 +57,7 @@ def fits(bed, column, points, half, center, rotation):
     return True
 
 
-@numba.njit(cache=True)
+@njit
 def make(bed, column, plate, scheme, points, footing, center, rotation):
     """Make the bed of a foot of which all points stand on a known base."""
     n = len(bed.rho)
@@ -81,7 +81,7 @@ def make(bed, column, plate, scheme, points, footing, center, rotation):
     bed.key[0], bed.key[1], bed.key[2] = points.angle[0], scheme.half, 1.0
 
 
-@numba.njit(cache=True)
+@njit
 def solve(bed, mu, given, active, forces, tolerance, usable, most=15):
     """Contact forces by semismooth Newton on the slips of the points that do not stick; as `friction.newton_step`.
 

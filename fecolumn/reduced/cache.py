@@ -6,7 +6,6 @@ A model is a folder named after the content it was made from, so that nothing ha
     compliance.npy  (k, 3, k, 3) of these nodes, read through the operating system's page cache, which all workers share
     fields.npy      (m, n_nodes, 3) mode shapes of the whole column, for pictures
 
-$FECOLUMN_CACHE, or fecolumn in $XDG_CACHE_HOME or ~/.cache, holds the models; the folder may be deleted at any time.
 """
 
 from __future__ import annotations
@@ -21,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn._compiled import cache_folder
 from fecolumn.case import Case, content
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.reduced.model import ColumnModel
@@ -53,13 +53,6 @@ class KnownBase:
         plate.adopt(self.known, self.compliance)
         plate.need(wanted)
         self.known, self.compliance, self.slot = plate.known, plate.compliance, plate.slot
-
-
-def cache_folder() -> Path:
-    """Where models are kept."""
-    if folder := os.environ.get("FECOLUMN_CACHE"):
-        return Path(folder)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fecolumn"
 
 
 def model_key(case: Case) -> str:

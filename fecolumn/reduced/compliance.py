@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 
-@numba.njit(cache=True)
+
+@njit
 def assemble(column, points, arms, active, rotation, rigid, nodal, W):
     """W (3 k, 3 k): rigid (1/m + arm J^-1 arm^T) + nodal (3 n, 3 n) of the active points, turned into the table frame.
 
@@ -47,7 +48,7 @@ def assemble(column, points, arms, active, rotation, rigid, nodal, W):
                     W[3 * j + b, 3 * i + a] = block[a, b]
 
 
-@numba.njit(cache=True)
+@njit
 def turn_block(rotation, block, half):
     """block = rotation block rotation^T; half: (3, 3) room."""
     for a in range(3):
@@ -58,7 +59,7 @@ def turn_block(rotation, block, half):
             block[a, b] = half[a, 0] * rotation[b, 0] + half[a, 1] * rotation[b, 1] + half[a, 2] * rotation[b, 2]
 
 
-@numba.njit(cache=True)
+@njit
 def add_below(column, plate, footing, active, W, factor):
     """Add factor times the compliance of base, contact law and uneven rim of the active points to W (3 k, 3 k)."""
     k = len(active)
@@ -87,7 +88,7 @@ def add_below(column, plate, footing, active, W, factor):
                 W[3 * i + a, 3 * i + b] += factor * footing.even[p, a, b]
 
 
-@numba.njit(cache=True)
+@njit
 def even(column, points, plate, footing, rotation, i):
     """Find footing.even of point i, zero at a node: see Interface._evened."""
     target = footing.even[i]
@@ -111,7 +112,7 @@ def even(column, points, plate, footing, rotation, i):
                     target[a, b] += w * plate.compliance[row + a, first + b]
 
 
-@numba.njit(cache=True)
+@njit
 def static_displacement(column, points, plate, footing, rotation, forces, near, given):
     """given (n, 3): displacement of the near points (mask) relative to the base that follows the forces at once; without the law's own."""
     n = len(forces)
@@ -172,7 +173,7 @@ def static_displacement(column, points, plate, footing, rotation, forces, near, 
                 given[i, a] += footing.even[i, a, 0] * forces[i, 0] + footing.even[i, a, 1] * forces[i, 1] + footing.even[i, a, 2] * forces[i, 2]
 
 
-@numba.njit(cache=True)
+@njit
 def _respond(compliance, row, values, places, target):
     """target (3,): displacement at node `row` by values (n, 3) at `places`."""
     for a in range(3):
@@ -182,7 +183,7 @@ def _respond(compliance, row, values, places, target):
         target[a] = total
 
 
-@numba.njit(cache=True)
+@njit
 def _respond_rows(compliance, row, values, places, count, target):
     """target (3,): displacement at node `row` by values (count, 3) at `places`."""
     for a in range(3):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.interface import NEAR, SOLVED
 from fecolumn.dynamics.rolling import FLAT
@@ -27,7 +27,7 @@ SHARP = 0.1
 N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_FAST, N_ASSEMBLED = range(6)
 
 
-@numba.njit(cache=True)
+@njit
 def law_residual(column, points, relative, forces, active, rho, slack):
     """Largest violation of the contact laws [m] among the active points (mask); see `friction.natural_residual`.
 
@@ -52,7 +52,7 @@ def law_residual(column, points, relative, forces, active, rho, slack):
     return np.sqrt(worst)
 
 
-@numba.njit(cache=True)
+@njit
 def settled(column, points, start, free_center, advance):
     """Whether the foot stays in its place long enough to make a bed for it."""
     way, turn = 0.0, 0.0
@@ -64,7 +64,7 @@ def settled(column, points, start, free_center, advance):
     return flat and turn < TURN / 5 and way < WAY * column.width / 5 and not points.lift.any()
 
 
-@numba.njit(cache=True)
+@njit
 def equilibrate(column, plate, scheme, points, footing, bed, start, free_center, free_modal, advance, end, sway, record):
     """Find forces and motion at the end of a step.
 

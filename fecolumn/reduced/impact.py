@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.interface import IMPACT_TOLERANCE
 from fecolumn.dynamics.stepper import SLIDE, YIELD
@@ -14,7 +14,7 @@ from fecolumn.reduced.ledger import FRICTION, HIT, kinetic
 from fecolumn.reduced.motion import modal_forces, point_velocities
 
 
-@numba.njit(cache=True)
+@njit
 def turning_points(column, points, start, end, dt, early, late):
     """Mask (n,) of points whose slip ends within the step: as Stepper._turning; early, late: velocities at its ends, found if needed."""
     n, mu = len(points.forces), column.friction
@@ -41,7 +41,7 @@ def turning_points(column, points, start, end, dt, early, late):
     return turns
 
 
-@numba.njit(cache=True)
+@njit
 def collide(column, plate, scheme, points, footing, start, end, landing, turns, contact_work, ledger, record):
     """Replace the impulses of the step by those of a plastic impact, as Stepper._impact; changes velocities of `end`, books."""
     n, dt, lands = len(points.forces), scheme.dt, landing.any()
@@ -104,7 +104,7 @@ def collide(column, plate, scheme, points, footing, start, end, landing, turns, 
     return OK
 
 
-@numba.njit(cache=True)
+@njit
 def _impulses(mobility, velocity, mu, guess, record):
     """As Interface.impact: impulses (k, 3), and whether they obey the laws."""
     largest = 1e-3
@@ -121,7 +121,7 @@ def _impulses(mobility, velocity, mu, guess, record):
     return impulses, False
 
 
-@numba.njit(cache=True)
+@njit
 def _push(column, points, arms, union, impulses, motion):
     """Velocity jump by impulses (k, 3) at the union's points."""
     R, all_impulses, moment = motion.rotation, np.zeros_like(points.forces), np.zeros(3)
@@ -143,7 +143,7 @@ def _push(column, points, arms, union, impulses, motion):
     motion.modal_rate[:] += modal
 
 
-@numba.njit(cache=True)
+@njit
 def _elastic_of_points(points, elastic):
     """Elastic displacement (n, 3) of the points from that of the nodes."""
     result = elastic.copy()
@@ -156,7 +156,7 @@ def _elastic_of_points(points, elastic):
     return result
 
 
-@numba.njit(cache=True)
+@njit
 def _landing_moment(points, end, early, union, landing, dt):
     """As Stepper._landing_moment."""
     total = weights = 0.0
@@ -169,7 +169,7 @@ def _landing_moment(points, end, early, union, landing, dt):
     return total / weights
 
 
-@numba.njit(cache=True)
+@njit
 def _turning_moment(column, points, end, early, free, pushed, union, turns):
     """As Stepper._turning_moment."""
     total = weights = 0.0

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 from fecolumn.reduced.motion import STATIC
 
 # Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS [J]
 START, BASE, FRICTION, HIT, CONTACT_WORK, ALGORITHMIC = range(6)
 
 
-@numba.njit(cache=True)
+@njit
 def kinetic(column, motion):
     """Kinetic energy [J]."""
     v, w, J, total = motion.velocity, motion.spin, column.inertia, 0.0
@@ -22,7 +22,7 @@ def kinetic(column, motion):
     return total / 2
 
 
-@numba.njit(cache=True)
+@njit
 def strain(column, motion):
     """Strain energy of the modes, and of what responds statically [J]."""
     total = 0.0
@@ -31,14 +31,14 @@ def strain(column, motion):
     return total / 2 + motion.scalars[STATIC]
 
 
-@numba.njit(cache=True)
+@njit
 def weight_energy(column, reference, motion):
     """Gravity energy relative to the centre of mass at `reference` (3,) [J]."""
     g, c = column.gravity, motion.center
     return -column.mass * (g[0] * (c[0] - reference[0]) + g[1] * (c[1] - reference[1]) + g[2] * (c[2] - reference[2]))
 
 
-@numba.njit(cache=True)
+@njit
 def book(column, scheme, points, start, end, sway, ledger):
     """Book a step before its impact, as Stepper._book; returns the work of contact [J]."""
     al, ga, dt, work, algorithmic, base = scheme.alpha, scheme.gamma, scheme.dt, 0.0, 0.0, 0.0

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
+
+from fecolumn._compiled import njit
 
 # Places in `Motion.scalars`
 TIME, STATIC, RIM_ANGLE = range(3)
@@ -55,7 +56,7 @@ class Sway(NamedTuple):
     halfway: np.ndarray
 
 
-@numba.njit(cache=True)
+@njit
 def copy(source, target):
     """Copy a Motion."""
     target.center[:] = source.center
@@ -74,7 +75,7 @@ def copy(source, target):
     target.scalars[:] = source.scalars
 
 
-@numba.njit(cache=True)
+@njit
 def turn_by(rotation, vector, target):
     """target = rotation exp(vector), by Rodrigues' formula; orthonormal to rounding if `rotation` is nearly so."""
     x, y, z = vector[0], vector[1], vector[2]
@@ -94,7 +95,7 @@ def turn_by(rotation, vector, target):
         target[i, 2] = r0 * e02 + r1 * e12 + r2 * e22
 
 
-@numba.njit(cache=True)
+@njit
 def orthonormal(rotation):
     """Take the rounding of many turns out of a rotation, in place: R (3 - R^T R) / 2."""
     product = np.empty((3, 3))
@@ -107,7 +108,7 @@ def orthonormal(rotation):
             rotation[i, j] = 1.5 * rotation[i, j] - 0.5 * (r0 * product[0, j] + r1 * product[1, j] + r2 * product[2, j])
 
 
-@numba.njit(cache=True, fastmath={"reassoc", "contract"})
+@njit(fastmath={"reassoc", "contract"})
 def foot_displacement(pushes, modal, target):
     """target (n, 3): filtered displacement of the foot's nodes by modal coordinates (m,)."""
     n, m = len(target), len(modal)
@@ -119,7 +120,7 @@ def foot_displacement(pushes, modal, target):
             target[i, a] = value
 
 
-@numba.njit(cache=True)
+@njit
 def turning(inertia, inverse, advance, rotation, half, spread, turn, moment, halfway):
     """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its moment M, in the column's frame.
 
@@ -166,7 +167,7 @@ def turning(inertia, inverse, advance, rotation, half, spread, turn, moment, hal
             break
 
 
-@numba.njit(cache=True)
+@njit
 def follow(column, scheme, points, start, free_center, free_modal, advance, forces, end, sway):
     """Carry the column to the end of the step under contact forces (n, 3) at the points.
 
@@ -197,7 +198,7 @@ def follow(column, scheme, points, start, free_center, free_modal, advance, forc
     return total
 
 
-@numba.njit(cache=True)
+@njit
 def modal_forces(column, points, rotation, forces, target):
     """target (m,): what forces (n, 3) at the points, the column turned by `rotation`, do on the modes."""
     m = len(target)
@@ -216,7 +217,7 @@ def modal_forces(column, points, rotation, forces, target):
                     target[k] += share * push[k]
 
 
-@numba.njit(cache=True)
+@njit
 def point_positions(points, motion, target):
     """target (n, 3): positions of the points without their static part; points.elastic gets that of the points."""
     c, R = motion.center, motion.rotation
@@ -236,7 +237,7 @@ def point_positions(points, motion, target):
         target[i, 2] += points.lift[i]
 
 
-@numba.njit(cache=True)
+@njit
 def point_velocities(column, points, motion, wanted, target):
     """target (n, 3): velocities of the wanted points (mask)."""
     v, R, w = motion.velocity, motion.rotation, motion.spin

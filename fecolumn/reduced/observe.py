@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 from fecolumn.dynamics.energy import TERMS
 from fecolumn.dynamics.observer import LOST
 from fecolumn.reduced.ledger import kinetic, strain, weight_energy
@@ -39,7 +39,7 @@ def view(model, overturn_displacement: float) -> View:
                 np.einsum("i,iam->am", share, model.shapes), float(overturn_displacement), float(np.arctan2(radius, model.center[2])))
 
 
-@numba.njit(cache=True)
+@njit
 def _displacement(arm, shape, center, motion, axis):
     value = motion.center[axis] - center[axis] - arm[axis]
     for a in range(3):
@@ -50,7 +50,7 @@ def _displacement(arm, shape, center, motion, axis):
     return value
 
 
-@numba.njit(cache=True)
+@njit
 def observe(column, eye, motion, ledger, iterations, row):
     """Fill a row (WIDTH,); returns tilt [rad] and horizontal displacement of the top [m]."""
     R, forces = motion.rotation, motion.forces
@@ -80,7 +80,7 @@ def observe(column, eye, motion, ledger, iterations, row):
     return row[4], np.hypot(row[1], row[2])
 
 
-@numba.njit(cache=True)
+@njit
 def lost(eye, tilt, top, last_tilt):
     """As Observer.overturned."""
     return top >= eye.limit or (tilt > LOST * eye.critical and tilt > last_tilt)

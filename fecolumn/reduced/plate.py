@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
+
+from fecolumn._compiled import njit
 
 # Answers of `project`
 ON, OFF, UNKNOWN = range(3)
@@ -41,7 +42,7 @@ def no_footing(n: int) -> Footing:
     return Footing(np.zeros((n, 4), np.int64), np.zeros((n, 4)), np.zeros((n, 3, 3)))
 
 
-@numba.njit(cache=True)
+@njit
 def project(plate, positions, wanted, footing):
     """Find the nodes under the wanted points (mask) at positions (n, 3): ON, OFF the plate, or UNKNOWN compliance."""
     answer = ON

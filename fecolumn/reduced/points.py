@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 from fecolumn.contact.rim import on_circle
 from fecolumn.dynamics.rolling import FLAT, REACH
 from fecolumn.reduced.motion import RIM_ANGLE, turn_by
@@ -40,13 +40,13 @@ def node_points(arms: np.ndarray) -> Points:
                   np.array([np.nan]))
 
 
-@numba.njit(cache=True)
+@njit
 def lowest(rotation):
     """As Rim.lowest."""
     return np.arctan2(-rotation[2, 1], -rotation[2, 0]), np.hypot(rotation[2, 0], rotation[2, 1])
 
 
-@numba.njit(cache=True)
+@njit
 def place(column, points, angle):
     """Put the rim's points on the circle with one at `angle`, without lift; nan: on the nodes. Returns index of that point."""
     n = len(column.rim)
@@ -73,7 +73,7 @@ def place(column, points, angle):
     return index
 
 
-@numba.njit(cache=True)
+@njit
 def roll(column, motion, dt, points):
     """Place the points of the step `dt` that begins, and bring forces, anchors and relative positions to them; see `rolled`."""
     points.forces[:] = motion.forces

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 from fecolumn.contact.base_top import OffBase
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.stage import Stop
@@ -23,7 +23,7 @@ from fecolumn.reduced.step import step
 _STOPS = {CONTACT: Stop.CONTACT, IMPACT: Stop.CONTACT, ITERATIONS: Stop.ITERATIONS, OFF_BASE: Stop.OFF_BASE}
 
 
-@numba.njit(cache=True)
+@njit
 def advance(column, plate, scheme, points, footing, bed, eye, motion, spare, sway, grounds, rows, last_tilt, ledger, record):
     """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, WIDTH) are filled, last_tilt (1,) kept."""
     booked = ledger.copy()

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 from fecolumn.dynamics.stepper import OPEN, STUCK
 from fecolumn.reduced.equilibrium import OK, equilibrate
 from fecolumn.reduced.impact import collide, turning_points
@@ -13,7 +13,7 @@ from fecolumn.reduced.motion import RIM_ANGLE, TIME, orthonormal
 from fecolumn.reduced.points import roll
 
 
-@numba.njit(cache=True)
+@njit
 def step(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record):
     """Carry `start` to `end`, one scheme.dt later, under the ground acceleration (3,); the steps of `Stepper._hht_step`.
 
@@ -54,7 +54,7 @@ def step(column, plate, scheme, points, footing, bed, start, ground, end, sway, 
     return OK
 
 
-@numba.njit(cache=True)
+@njit
 def _finish(column, scheme, points, start, ground, end, sway):
     """Velocities, accelerations and anchors at the end of the step."""
     dt, al, ga = scheme.dt, scheme.alpha, scheme.gamma
