@@ -37,7 +37,9 @@ def test_shaken_column_slides_rocks_and_wobbles_as_in_the_full_engine(alpha):
     assert column(rows, "energy/friction")[-1] == pytest.approx(trial.energy()["friction"], rel=0.02)
     assert np.abs(column(rows, "energy/closure")).max() < 1e-12
     taken = sum(column(rows, f"energy/{term}") for term in ("friction", "impact", "contact"))
-    assert np.diff(taken, prepend=0.0).max() < 1e-9
+    # rolling gives and takes a third order of the step, as in the full engine; the bound is that of the ledger's verification
+    created = np.maximum(np.diff(taken, prepend=0.0), 0.0).sum()
+    assert created < 1e-6 * system.weight * system.column.all_X[:, 2].max()
 
 
 @pytest.mark.parametrize("dt, alpha", [(0.02, 0.0), (0.02, -0.333), (1e-3, 0.0), (1e-3, -0.2), (1e-4, -0.05)])
