@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from fecolumn._compiled import njit
 from fecolumn.reduced.motion import STATIC
 
