@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import weakref
 
 import dolfinx
 import numpy as np
@@ -69,3 +70,18 @@ def assemble_matrix(form) -> PETSc.Mat:
     matrix = petsc.assemble_matrix(fem.form(form))
     matrix.assemble()
     return matrix
+
+
+def release_with(owner, *objects) -> weakref.finalize:
+    """Destroy PETSc objects when `owner` goes, or when the returned function is called: petsc4py alone would keep them for ever.
+
+    The owner must not be part of a reference cycle: the garbage collector comes at other times on other ranks.
+    """
+    end = weakref.finalize(owner, _destroy, *objects)
+    end.atexit = False
+    return end
+
+
+def _destroy(*objects) -> None:
+    for one in objects:
+        one.destroy()

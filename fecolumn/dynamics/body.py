@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import weakref
+
 import numpy as np
 import ufl
 from mpi4py import MPI
@@ -48,6 +50,8 @@ class Body:
         self.constraint = Constraint(self, *(constrain(self) if constrain else ({}, ())))
         self.mass, self.stiffness = self.constraint.reduce(mass), self.constraint.reduce(stiffness)
         mass.destroy(), stiffness.destroy()
+        tie = self.constraint.projection
+        _dolfinx.release_with(self, self.mass, self.stiffness, *self.work, *([] if tie is None else [tie]))
         #: Largest diagonal entries of stiffness [N/m] and mass [kg].
         self.stiffness_scale, self.mass_scale = (matrix.getDiagonal().max()[1] for matrix in (self.stiffness, self.mass))
         self.unit_loads = np.stack([self.apply(self.mass, np.tile(e, (self.n_owned, 1))) for e in np.eye(3)])
@@ -138,7 +142,7 @@ class Constraint:
     """
 
     def __init__(self, body: Body, ties: dict, held):
-        self.body = body
+        self.body = weakref.proxy(body)
         self.nodes = np.array(sorted(ties) + sorted(held), dtype=np.int64)
         if not len(self.nodes):
             self.projection = None

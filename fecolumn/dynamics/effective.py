@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from petsc4py import PETSc
 
+from fecolumn import _dolfinx
+
 
 class Factor:
     """Cholesky factor (MUMPS) of a symmetric positive definite matrix of a body; the matrix is taken over."""
@@ -19,6 +21,7 @@ class Factor:
         preconditioner.setType("cholesky")
         preconditioner.setFactorSolverType("mumps")
         self._solver.setUp()
+        self._release = _dolfinx.release_with(self, self._solver, self._matrix)
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
         """Displacements (n_owned, 3) of all nodes from reduced forces (n_owned, 3)."""
@@ -44,8 +47,7 @@ class Factor:
         return result
 
     def destroy(self) -> None:
-        self._solver.destroy()
-        self._matrix.destroy()
+        self._release()
 
 
 def effective_factor(body, mass_factor: float, stiffness_factor: float, stiffness: PETSc.Mat | None = None) -> Factor:

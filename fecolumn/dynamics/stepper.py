@@ -19,6 +19,8 @@ OPEN = 1e-8
 STUCK = 1e-10
 # path of a point in a step above which it slides as part of the body; elastic slip of a standing foot is a tenth of it
 SLIDE = 1e-7
+# Work of contact over weight and foot's width above which a step is made again with the rim's points at rest
+CREATED = 1e-6
 # Share of the static compliance in the impact problem. A foot filtered to a long step moves almost rigidly and its many
 # impulses would not be unique; the share leaves a closing velocity of about 1e-6 m/s.
 YIELD = 1e-3
@@ -92,9 +94,9 @@ class Stepper:
             middle = self._advance(state, (state.ground + ground) / 2, half, cuts + 1)
             return self._advance(middle, ground, half, cuts + 1)
 
-    def _hht_step(self, state, ground, hht) -> State:
+    def _hht_step(self, start, ground, hht, rolls=True) -> State:
         system, column, interface = self.system, self.system.column, self.system.interface
-        state = rolled(system, state, hht.dt)
+        state, booked = rolled(system, start, hht.dt, rolls), dict(self.ledger.work)
         dt, al, be, ga = hht.dt, hht.alpha, hht.beta, hht.gamma
         F0, F1 = system.load(state.ground), system.load(ground)
         stage = Stage(
@@ -114,7 +116,8 @@ class Stepper:
         after = State(
             time=state.time + dt, x=outcome.x, v=state.v, a=state.a, contact_a=state.contact_a, internal=outcome.internal,
             strain=outcome.strain, rotation=outcome.rotation, forces=forces, anchors=self._anchors(state, outcome),
-            relative=outcome.relative, static=outcome.static, ground=np.array(ground, float), rim_angle=state.rim_angle)
+            relative=outcome.relative, static=outcome.static, ground=np.array(ground, float), rim_angle=state.rim_angle,
+            rim_lift=state.rim_lift)
         push = interface.load(forces, R)
         if self.plastic:
             w = interface.acceleration(forces, R)
@@ -126,6 +129,10 @@ class Stepper:
         after.a = hht.mass_factor * (after.x - stage.target) - w / (2 * be)
         after.v = state.v + dt * ((1 - ga) * state.a + ga * after.a + w)
         contact_work = self._book(state, after, hht, F0 + F1, worked)
+        if self.plastic and rolls and state is not start and contact_work > CREATED * system.weight * interface.width:
+            # several points of the rim carry while it rolls fast: they stay for this step
+            self.ledger.work.update(booked)
+            return self._hht_step(start, ground, hht, rolls=False)
         landing = (state.forces[:, 2] <= 0) & (state.relative[:, 2] > OPEN * interface.width) & (forces[:, 2] > 0)
         if self.plastic:
             turning = self._turning(state, after, dt)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
@@ -24,7 +24,8 @@ class State:
     relative: (n, 3) position of its points relative to the base, the third column the gap [m];
     static: strain energy of base, foot's static rest and penalty springs [J].
     ground: (3,) acceleration of the base [m/s2].
-    rim_angle: where the round rim's contact point is [rad]; nan while the foot touches with its nodes only.
+    rim_angle: where the round rim's lowest contact point is [rad], nan while the foot touches with its nodes only; rim_lift: (5,)
+        how far it and its neighbours are above the rim there [m].
     """
 
     time: float
@@ -41,10 +42,11 @@ class State:
     static: float
     ground: np.ndarray
     rim_angle: float = np.nan
+    rim_lift: np.ndarray = field(default_factory=lambda: np.zeros(5))
 
     def copy(self) -> "State":
         return State(*(np.copy(value) if isinstance(value, np.ndarray) else value
-                       for value in (getattr(self, field.name) for field in fields(self))))
+                       for value in (getattr(self, one.name) for one in fields(self))))
 
 
 @dataclass(slots=True)

@@ -37,8 +37,8 @@ def read_at2(path) -> Recording:
     if not found:
         raise UnusableRecord(f"line {row}: {line.strip()!r} must state number and step, as in NPTS= 4000, DT= .0100 SEC")
     points, dt = int(found["points"]), number(found["dt"])
-    if dt <= 0:
-        raise UnusableRecord(f"line {row}: DT = {dt:g} s must be greater than 0")
+    if not 0 < dt < np.inf:
+        raise UnusableRecord(f"line {row}: DT = {dt:g} s must be finite and greater than 0")
     values = _values(lines[head + 1:])
     if len(values) != points:
         raise UnusableRecord(f"the header states NPTS = {points} but {len(values)} values follow")

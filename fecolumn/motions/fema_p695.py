@@ -8,6 +8,7 @@ packages are installed without their dependencies.
 
 from __future__ import annotations
 
+import functools
 import importlib.metadata
 import importlib.util
 import re
@@ -102,6 +103,7 @@ def _open(set_name: str):
         raise UnusableRecord(f"{folder / SETS[set_name]}.hdf5 cannot be read ({error}); install again: {INSTALL}") from None
 
 
+@functools.cache
 def _entries(set_name: str) -> dict[int, Entry]:
     with _open(set_name) as file:
         records, components = _rows(file["records/table"]), _rows(file["groundmotions/table"])

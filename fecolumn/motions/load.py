@@ -9,6 +9,8 @@ import numpy as np
 from fecolumn.case import Motion
 from fecolumn.motions.at2 import looks_like_at2, read_at2
 from fecolumn.motions.columns import read_columns
+from fecolumn.motions.ensemble_file import file_and_number, read_member
+from fecolumn.motions.esm import looks_like_esm, read_esm
 from fecolumn.motions.fema_p695 import PREFIX, read_fema_p695
 from fecolumn.motions.processing import resample, rotate, scale, scale_time, strong_part, without_vertical
 from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording, UnusableRecord
@@ -81,14 +83,19 @@ def _recording(motion: Motion, key: str, file) -> Recording:
     try:
         if source.startswith(PREFIX):
             recording = read_fema_p695(source)
-        elif looks_like_at2(source, read_text(source)):
+        elif file_and_number(source):
+            member = read_member(source)
+            recording = Recording(member.acceleration, tuple(AXES), member.dt, "m/s2", member.name, member.source)
+        elif looks_like_esm(text := read_text(source)):
+            recording = read_esm(source)
+        elif looks_like_at2(source, text):
             recording = read_at2(source)
         else:
             recording = read_columns(source, motion.dt_s)
         if len(recording.values) < 2:
             raise UnusableRecord(f"holds {len(recording.values)} samples; at least 2 are needed")
     except UnusableRecord as error:
-        hint = f"; must be a file (.AT2, .csv, .txt) or {PREFIX}SET/INDEX" if str(error) == "no such file" else ""
+        hint = f"; must be a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER or {PREFIX}SET/INDEX" if str(error) == "no such file" else ""
         raise InputError(file, f"motion.{key}", source, f"{error}{hint}") from None
     return recording
 

@@ -43,7 +43,7 @@ def fits(bed, column, points, half, center, rotation):
     if bed.key[2] == 0.0 or bed.key[1] != half:
         return False
     angle = points.angle[0]
-    if not (bed.key[0] == angle or np.isnan(bed.key[0]) and np.isnan(angle)) or points.lift.any():
+    if not (bed.key[0] == angle or np.isnan(bed.key[0]) and np.isnan(angle)):
         return False
     # the foot is a column's height below the centre
     for a in range(2):

@@ -61,7 +61,7 @@ def settled(column, points, start, free_center, advance):
         if a < 2:
             way = max(way, abs(free_center[a] - start.center[a]))
     flat = np.hypot(start.rotation[2, 0], start.rotation[2, 1]) < FLAT
-    return flat and turn < TURN / 5 and way < WAY * column.width / 5 and not points.lift.any()
+    return flat and turn < TURN / 5 and way < WAY * column.width / 5
 
 
 @njit

@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn._compiled import njit
 
 # Places in `Motion.scalars`
-TIME, STATIC, RIM_ANGLE = range(3)
+TIME, STATIC, RIM_ANGLE, RIM_LIFT = range(4)
 
 
 class Motion(NamedTuple):
@@ -20,8 +20,8 @@ class Motion(NamedTuple):
     modal, modal_rate, modal_acceleration: (m,) of the modes, the last one without contact.
     elastic: (n, 3) filtered displacement of the foot's nodes in the column's frame [m].
     forces, anchors, relative: (n, 3), (n, 2), (n, 3) as in `dynamics.system.State`. ground: (3,) acceleration of the base.
-    scalars: (3,) time [s]; strain energy of base, foot's static rest and penalty springs [J]; place of the rim's contact
-    point [rad], nan while the foot touches with its nodes only.
+    scalars: (8,) time [s]; strain energy of base, foot's static rest and penalty springs [J]; place of the rim's lowest contact
+    point [rad], nan while the foot touches with its nodes only; from RIM_LIFT on the lift of it and its neighbours [m].
     """
 
     center: np.ndarray
@@ -43,7 +43,7 @@ class Motion(NamedTuple):
 def at_rest(n: int, m: int) -> Motion:
     """A motion of n foot nodes and m modes with zeros everywhere but an upright rotation."""
     return Motion(*(np.zeros(3) for _ in range(3)), np.eye(3), np.zeros(3), *(np.zeros(m) for _ in range(3)), np.zeros((n, 3)),
-                  np.zeros((n, 3)), np.zeros((n, 2)), np.zeros((n, 3)), np.zeros(3), np.array([0.0, 0.0, np.nan]))
+                  np.zeros((n, 3)), np.zeros((n, 2)), np.zeros((n, 3)), np.zeros(3), np.array([0.0, 0.0, np.nan, *np.zeros(5)]))
 
 
 class Sway(NamedTuple):

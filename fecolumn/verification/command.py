@@ -14,7 +14,7 @@ def add_arguments(parser) -> None:
     parser.add_argument("-k", "--case", metavar="NAME", default="", help=f"cases whose name contains NAME, of {', '.join(CASES)}")
     parser.add_argument("--engine", metavar="E", action="append", choices=ALL_ENGINES, help="engine, of %(choices)s (default: each)")
     parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1, help="cases at a time (default: %(default)s)")
-    parser.add_argument("--long", action="store_true", help="finer meshes and smaller steps as well, hours")
+    parser.add_argument("--long", action="store_true", help="finer meshes and smaller steps as well, about three hours on two cores")
 
 
 def main(args) -> int:

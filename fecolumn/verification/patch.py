@@ -78,7 +78,7 @@ def run(engine: str, long: bool) -> Result:
         maps, errors = left.subplots(1, 2), right.subplots()
         for axes, (foot, base) in zip(maps, pairs):
             one = pairs[foot, base][0]
-            shade = axes.pcolormesh(*one.place, one.pressures, shading="nearest", vmin=0.6, vmax=1.4, cmap="RdBu_r")
+            shade = axes.pcolormesh(one.place[0, 0], one.place[1, :, 0], one.pressures, shading="nearest", vmin=0.6, vmax=1.4, cmap="RdBu_r")
             axes.plot(*one.place.reshape(2, -1), "k.", markersize=3, clip_on=False)
             for line in even(base * counts[0]):
                 axes.axhline(line, color="k", linewidth=0.5)

@@ -80,7 +80,8 @@ def run(engine: str, long: bool) -> Result:
         Row("size x 4, same E, effect of elasticity: path over D [-]", 0.0, elastic.max(), bound.max() / largest, scale=largest)]
 
     def draw(figure):
-        left, right = figure.subplots(1, 2)
+        panels, below = figure.subfigures(2, 1, height_ratios=(1, 0.2))
+        left, right = panels.subplots(1, 2)
         scaled = times * np.sqrt(GRAVITY / diameter)
         for axis, name in enumerate("xy"):
             label = (lambda text: text if axis == 0 else None)
@@ -99,7 +100,7 @@ def run(engine: str, long: bool) -> Result:
         right.semilogy(scaled, bound, color="0.6", label=r"its bound, $4^{2/3}$ times the effect of E x 4")
         right.semilogy(scaled, drift * times / diameter, color="k", linewidth=0.8, linestyle=":", label="what the solver may leave")
         right.set(xlabel=r"$t\,\sqrt{g/D}$", ylabel="largest difference of $u/D$", xlim=(0, scaled[-1]), ylim=(1e-14, 1))
-        figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        below.legend(*right.get_legend_handles_labels(), loc="center", ncols=3)
 
     result.draw = draw
     return result

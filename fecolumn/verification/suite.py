@@ -44,19 +44,23 @@ def run_case(case: str, engine: str, folder: Path | None = None, long: bool = Fa
     module, began = importlib.import_module(f"fecolumn.verification.{case}"), time.perf_counter()
     try:
         result = module.run(engine, long)
+        if folder and result.draw:
+            _draw(result, folder / f"{case}_{engine}")
     except Exception as error:  # one case that breaks must not hide the others
         import traceback
 
         traceback.print_exc()
         return Finding(case, engine, (), time.perf_counter() - began, f"{type(error).__name__}: {error}")
-    if folder and result.draw:
-        from fecolumn.post.style import new_figure, save, styled
-
-        with styled():
-            figure = new_figure(*result.size)
-            result.draw(figure)
-            save(figure, folder / f"{case}_{engine}")
     return Finding(case, engine, tuple(result.rows), time.perf_counter() - began)
+
+
+def _draw(result, path: Path) -> None:
+    from fecolumn.post.style import new_figure, save, styled
+
+    with styled():
+        figure = new_figure(*result.size)
+        result.draw(figure)
+        save(figure, path)
 
 
 def verify(pairs, folder: Path, long: bool = False, workers: int = 1, show=print) -> list[Finding]:

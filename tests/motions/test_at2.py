@@ -44,6 +44,7 @@ def test_units_are_those_of_the_header(tmp_path, units, expected):
     (dict(npts_line="8 values follow"), "four header lines"),
     (dict(npts_line="NPTS= many, DT= .01"), "line 4"),
     (dict(npts_line="NPTS= 8, DT= .0000 SEC"), "greater than 0"),
+    (dict(npts_line="NPTS= 8, DT= 1E400 SEC"), "DT = inf s must be finite"),
     (dict(units="VELOCITY TIME SERIES IN UNITS OF CM/S"), "no accelerations"),
     (dict(units="ACCELERATION IN UNITS OF FURLONGS"), "'FURLONGS'")])
 def test_broken_header_is_refused(tmp_path, arguments, said):
@@ -61,7 +62,8 @@ def test_value_that_is_no_finite_number_is_refused_with_its_line(tmp_path, word,
 
 
 @pytest.mark.parametrize("content, said", [
-    (b"", "is empty"), (b"\n \r\n", "is empty"), (b"\x00\x89\xff", "not a text file"), (b"\x89\xff\x01", "not a text file"), (b"\xfe\xed\xfa\n" * 9, "four header")])
+    (b"", "is empty"), (b"\n \r\n", "is empty"), (b"\x00\x89\xff", "not a text file"), (b"\x89\xff\x01", "not a text file"),
+    (b"\xfe\xed\xfa\n" * 9, "four header")])
 def test_what_is_no_record_is_refused(tmp_path, content, said):
     (tmp_path / "a.AT2").write_bytes(content)
     with pytest.raises(UnusableRecord, match=said):

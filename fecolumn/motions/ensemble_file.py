@@ -1,0 +1,126 @@
+"""Ensembles on disk: one HDF5 file with everything, and a table of what its motions are."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.atomic import write_bytes, write_hdf5
+from fecolumn.motions.ensemble import Ensemble
+from fecolumn.motions.intensity import intensity_measures
+from fecolumn.motions.record import GroundMotion, UnusableRecord
+
+FORMAT = "fecolumn ensemble 1"
+_MEMBER = re.compile(r"(?P<file>.+\.(?:h5|hdf5))#(?P<number>[^#]*)", re.IGNORECASE)
+ALL = "*"
+
+
+def file_and_number(source: str) -> tuple[str, str] | None:
+    """File and number of a source such as ensemble.h5#12, or None for any other source."""
+    found = _MEMBER.fullmatch(source)
+    return (found["file"], found["number"]) if found else None
+
+
+def write_ensemble(ensemble: Ensemble, path) -> None:
+    """Write the ensemble: /motions/0001 ... (n_steps, 3) [m/s2] with dt_s, name and source, /parameters, provenance as JSON."""
+    def fill(file):
+        file.attrs["format"] = FORMAT
+        file.attrs["name"] = ensemble.name
+        file.attrs["provenance"] = json.dumps(ensemble.provenance, sort_keys=True)
+        for number, motion in enumerate(ensemble.motions, 1):
+            stored = file.create_dataset(f"motions/{number:04d}", data=motion.acceleration, chunks=(len(motion.acceleration), 1),
+                                         compression="gzip", shuffle=True)
+            stored.attrs.update({"dt_s": motion.dt, "units": "m/s2", "axes": "x y z", "name": motion.name, "source": motion.source})
+        parameters = file.create_group("parameters")
+        for name, values in ensemble.parameters.items():
+            parameters.create_dataset(name, data=np.asarray(values, dtype=np.float64))
+
+    write_hdf5(Path(path), fill)
+
+
+def read_ensemble(path) -> Ensemble:
+    """Ensemble of a file.
+
+    Raises:
+        UnusableRecord: there is no such file, or it is no ensemble.
+    """
+    with _open(path) as file:
+        motions = tuple(_motion(stored) for _, stored in sorted(file["motions"].items()))
+        parameters = {name: stored[()] for name, stored in file["parameters"].items()}
+        return Ensemble(str(file.attrs["name"]), motions, parameters, json.loads(file.attrs["provenance"]))
+
+
+def read_member(source: str) -> GroundMotion:
+    """Motion of a source such as ensemble.h5#12, counted from 1.
+
+    Raises:
+        UnusableRecord: as read_ensemble; a number that the ensemble does not have.
+    """
+    path, number = file_and_number(source)
+    with _open(path) as file:
+        n = len(file["motions"])
+        if not re.fullmatch("[0-9]{1,6}", number) or not 1 <= int(number) <= n:
+            raise UnusableRecord(f"motion {number!r} of the ensemble: must be a whole number from 1 to {n}")
+        return _motion(file["motions"][f"{int(number):04d}"])
+
+
+def members(source: str) -> list[str]:
+    """Sources of the single motions of ensemble.h5#*; any other source as it is.
+
+    Raises:
+        UnusableRecord: as read_ensemble.
+    """
+    found = file_and_number(source)
+    if not found or found[1] != ALL:
+        return [source]
+    with _open(found[0]) as file:
+        return [f"{found[0]}#{number}" for number in range(1, len(file["motions"]) + 1)]
+
+
+def summary(ensemble: Ensemble) -> dict[str, np.ndarray]:
+    """Columns of numbers, (n,) each: number, dt_s, length_s, intensity measures, parameters.
+
+    Motions whose time was scaled have a column time_scale; their parameters are those before.
+    """
+    measures = [intensity_measures(motion) for motion in ensemble.motions]
+    columns = {"number": np.arange(1, len(measures) + 1), "dt_s": np.array([motion.dt for motion in ensemble.motions]),
+               "length_s": np.array([motion.duration for motion in ensemble.motions])}
+    columns |= {name: np.array([measure[name] for measure in measures]) for name in measures[0]}
+    factor = ensemble.provenance.get("arguments", {}).get("time_scale", 1.0)
+    if factor != 1:
+        columns["time_scale"] = np.full(len(measures), factor)
+    return columns | {f"parameter_{name}": np.asarray(values) for name, values in ensemble.parameters.items()}
+
+
+def write_summary(ensemble: Ensemble, columns: dict[str, np.ndarray], path) -> None:
+    """Write the columns of `summary` and the motions' names as CSV, one motion a row."""
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["name", *columns])
+    for row, motion in enumerate(ensemble.motions):
+        table.writerow([motion.name, *(f"{values[row]:.6g}" for values in columns.values())])
+    write_bytes(Path(path), text.getvalue().encode())
+
+
+def _open(path):
+    import h5py
+
+    if not Path(path).is_file():
+        raise UnusableRecord("is a directory; a file is needed" if Path(path).is_dir() else "no such file")
+    try:
+        file = h5py.File(path, "r")
+    except OSError as error:
+        raise UnusableRecord(f"is no HDF5 file, or damaged ({error})") from None
+    if file.attrs.get("format") != FORMAT:
+        file.close()
+        raise UnusableRecord(f"is no ensemble of motions (its format is not {FORMAT!r}); see fecolumn motions make")
+    return file
+
+
+def _motion(stored) -> GroundMotion:
+    return GroundMotion(stored[()], float(stored.attrs["dt_s"]), str(stored.attrs["name"]), str(stored.attrs["source"]))

