@@ -38,7 +38,7 @@ def rolled(system, state, dt: float, rolls: bool = True):
         return (number + n / 2) % n - n / 2
 
     turned = sectors((new.index + new.phase) - (old.index + old.phase))
-    leaps = abs(turned) * rim.sector > ROLL
+    leaps = np.isnan(state.rim_angle) or abs(turned) * rim.sector > ROLL
     loaded = np.flatnonzero(state.forces[rim.nodes, 2] > 0)
     past = loaded + old.phase - (new.index + new.phase if leaps else old.index + old.phase)
     carrying = loaded[np.abs(sectors(past)) <= REACH]

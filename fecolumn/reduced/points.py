@@ -94,7 +94,7 @@ def roll(column, motion, dt, rolls, points):
     old_index, old_phase, old_offsets, old_weights = on_circle(column.rim_first if np.isnan(before) else before, column.rim_first, sector, n)
     new_index, new_phase, new_offsets, new_weights = on_circle(angle, column.rim_first, sector, n)
     turned = _sectors(new_index + new_phase - old_index - old_phase, n)
-    leaps = abs(turned) * sector > ROLL
+    leaps = np.isnan(before) or abs(turned) * sector > ROLL
     loaded, carries, strongest, most = False, False, 0, 0.0
     for k in range(n):
         force = motion.forces[column.rim[k], 2]

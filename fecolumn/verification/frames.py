@@ -208,7 +208,7 @@ def run(engine: str, long: bool) -> Result:
         left.plot(*1e3 * exact_path(times)[0][:, :2].T, color="0.6", linewidth=0.8, label="base, absolute")
         left.plot(*1e3 * reference[:, 0, :2].T, color=LINES[0][0], label="top, table frame")
         left.plot(*1e3 * relative[::5, 0, :2].T, "o", color=LINES[1][0], markersize=3, fillstyle="none", label="top, base moving")
-        left.set(xlabel="$u_x$ [mm]", ylabel="$u_y$ [mm]", aspect="equal", xlim=(-33, 31), ylim=(-19, 33))
+        left.set(xlabel="$u_x$ [mm]", ylabel="$u_y$ [mm]", aspect="equal")
         left.legend(loc="upper left")
         for (name, difference), (colour, dashes) in zip(series.items(), (*LINES, ("#7F3F00", "-."), ("#882255", (0, (3, 1))))):
             right.semilogy(times, np.maximum(difference, 1e-17), color=colour, linestyle=dashes, label=name)
