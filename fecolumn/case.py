@@ -87,7 +87,8 @@ class Integration:
 
     dt_s: float = parameter(1e-3, doc="time step", unit="s", above=0, high=0.1)
     alpha_hht: float = parameter(-0.2, doc="HHT alpha of Hilber, Hughes and Taylor (OpenSees writes 1 + alpha)", low=-1 / 3, high=0)
-    engine: str = parameter("full", doc="engine", choices=("full",))
+    engine: str = parameter("full", doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, exact static compliance of the same mesh; rigid: reduced without modes", choices=("full", "reduced", "rigid"))
+    n_modes: int = parameter(30, doc="elastic modes of the reduced engine; all others respond statically", low=0, high=1000)
     kinematics: str = parameter("corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian"))
     duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration", unit="s", low=0, high=1e5)
     tolerance: float = parameter(1e-7, doc="residual force at convergence as a fraction of the largest nodal force", above=0, high=1e-2)
@@ -162,8 +163,13 @@ class Case:
         del tables["title"], tables["output"]
         for section, keys in _FILES.items():
             for key in keys if tables[section] else ():
-                tables[section][key] = _content(tables[section][key])
+                tables[section][key] = content(tables[section][key])
         return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:12]
+
+    @property
+    def n_modes(self) -> int:
+        """Elastic modes that move with inertia in the reduced engine."""
+        return 0 if self.integration.engine == "rigid" else self.integration.n_modes
 
     @property
     def mean_radius_m(self) -> float:
@@ -180,7 +186,7 @@ class Case:
 _FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
 
 
-def _content(source: str) -> str:
+def content(source: str) -> str:
     """Digest of the file `source`, or `source` itself where it is no file; with the number of a motion in an ensemble."""
     file, mark, number = (source, "", "") if Path(source).is_file() else source.rpartition("#")
     if not Path(file).is_file():
@@ -249,6 +255,10 @@ def _check(case: Case, file) -> None:
         if getattr(base, key) < column.outer_diameter_m + 2 * base.slide_allowance_m:
             refuse(f"base.{key}", getattr(base, key),
                    f"must be at least outer_diameter_m + 2 slide_allowance_m = {column.outer_diameter_m + 2 * base.slide_allowance_m:g} m")
+    if case.integration.engine != "full":
+        for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic")):
+            if (value := getattr(getattr(case, section), key)) != needed:
+                refuse(f"{section}.{key}", value, f"must be {needed} where integration.engine = {case.integration.engine!r}")
     if case.motion:
         part = case.motion.strong_part
         if len(part) != 2 or not part[0] < part[1]:

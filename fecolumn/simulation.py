@@ -46,7 +46,13 @@ def run(case: Case, folder, *, comm=None, file: str = "case", quiet: bool = Fals
         summary = folder / "summary.json"
         if summary.is_file():
             return json.loads(summary.read_text())
-        return _Analysis(case, folder, comm, file, quiet).run(stop)
+        if case.integration.engine == "full":
+            return _FullAnalysis(case, folder, comm, file, quiet).run(stop)
+        if comm.size > 1:
+            raise InputError(file, "integration.engine", case.integration.engine, "runs on one process: start it without mpirun")
+        from fecolumn.reduced.analysis import ReducedAnalysis
+
+        return ReducedAnalysis(case, folder, comm, file, quiet).run(stop)
 
 
 def read_folder_case(folder) -> tuple[Case, str]:
@@ -101,54 +107,23 @@ def _claimed(folder: Path, case: Case, comm, file):
             lock.close()
 
 
-class _Analysis:
-    """State of a running analysis."""
+class Analysis:
+    """What an analysis is, whatever its engine: motion, result files, summary.
+
+    Attributes:
+        case, folder, comm, quiet: as of `run`. motion: None for a base at rest. steps: to be made; step: the last one made.
+        history: rows so far. stepping_s, earlier_s: wall time of steps, and of earlier runs [s].
+    """
 
     def __init__(self, case, folder, comm, file, quiet):
-        from fecolumn.dynamics import gravity
-        from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
-        from fecolumn.dynamics.checkpoint import read_checkpoint
-        from fecolumn.dynamics.energy import TERMS, Ledger
         from fecolumn.dynamics.history import History
-        from fecolumn.dynamics.observer import Observer
-        from fecolumn.dynamics.stepper import Record, Stepper
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
         self.began = time.perf_counter()
-        plan = case.integration
         self.motion = self._load_motion(file)
-        self.steps = int(round(self._duration() / plan.dt_s))
-        specimen = share_specimen_mesh(case, comm)
-        self.system = build_system(case, comm, specimen)
-        period = 1 / self.system.base.frequency
-        if plan.dt_s < period:
-            warnings.warn(f"{file}: integration.dt_s = {plan.dt_s:g} s resolves the base plate's own vibration (period {period:.2g} s), "
-                          "which is left out: the base responds statically", stacklevel=2)
-        self.ledger = Ledger(self.system)
-        self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
-                               plan.max_iterations, plan.max_cuts)
-        self.observer = Observer(self.system, specimen, case.overturn.displacement_m)
-        self.fields = self._fields(specimen) if case.output.fields_every_s else None
+        self.steps = int(round(self._duration() / case.integration.dt_s))
+        self.history, self.step = History(), 0
         self.stepping_s = self.earlier_s = 0.0
-        if (folder / CHECKPOINT).is_file():
-            self.state, extra = read_checkpoint(folder / CHECKPOINT, self.system)
-            self.history = History({name[5:]: values for name, values in extra.items() if name.startswith("rows.")})
-            self.ledger.start = float(extra["start"])
-            self.ledger.work = dict(zip(TERMS[3:-1], extra["work"].tolist()))
-            self.stepper.record = Record(*extra["record"].tolist())
-            self.step, self.stepping_s, self.earlier_s = int(extra["step"]), float(extra["stepping_s"]), float(extra["wall_s"])
-            self.observer.last_tilt = float(extra["last_tilt"])
-            self._say(f"resuming at t = {self.state.time:.4f} s")
-        else:
-            start = case.initial
-            self.state = gravity.tilted(self.system, start.tilt_rad, np.radians(start.direction_deg)) if start.tilt_rad \
-                else gravity.standing(self.system)
-            self.state.ground = self._ground(0)
-            self.history, self.step = History(), 0
-            self.ledger.open(self.state)
-            self._note(0)
-            if self.fields:
-                self.fields.write(self.state)
 
     def _load_motion(self, file):
         if self.case.motion is None:
@@ -162,15 +137,139 @@ class _Analysis:
             return self.case.integration.duration_s
         return len(self.motion.acceleration) * self.motion.dt + self.case.motion.free_vibration_s
 
-    def _ground(self, step: int) -> np.ndarray:
+    def ground(self, step: int) -> np.ndarray:
+        """Ground acceleration (3,) [m/s2] at a step."""
         if self.motion is None or step >= len(self.motion.acceleration):
             return np.zeros(3)
         return self.motion.acceleration[step]
 
+    @property
+    def field_steps(self) -> int:
+        """Steps between frames of the fields; 0 for no fields."""
+        every = self.case.output.fields_every_s
+        return max(1, round(every / self.case.integration.dt_s)) if every else 0
+
+    def warn_of_base(self, frequency: float, file) -> None:
+        """Tell of a step that resolves the base plate's vibration, of lowest `frequency` [Hz]."""
+        dt = self.case.integration.dt_s
+        if dt < 1 / frequency:
+            warnings.warn(f"{file}: integration.dt_s = {dt:g} s resolves the base plate's own vibration (period {1 / frequency:.2g} s), "
+                          "which is left out: the base responds statically", stacklevel=2)
+
+    def resumed(self, extra: dict) -> None:
+        """Take over what an earlier run had, from the `extra` arrays of its checkpoint."""
+        from fecolumn.dynamics.history import History
+
+        self.history = History({name[5:]: values for name, values in extra.items() if name.startswith("rows.")})
+        self.step, self.stepping_s, self.earlier_s = int(extra["step"]), float(extra["stepping_s"]), float(extra["wall_s"])
+
+    def to_resume(self) -> dict:
+        """The `extra` arrays of a checkpoint that `resumed` takes."""
+        extra = {f"rows.{name}": values for name, values in self.history.arrays().items()}
+        return extra | dict(step=self.step, stepping_s=self.stepping_s, wall_s=self.earlier_s + time.perf_counter() - self.began)
+
+    def write_history(self) -> None:
+        """Write history.h5 on rank 0."""
+        from fecolumn import __version__
+
+        if self.comm.rank == 0:
+            attributes = {"case_id": self.case.id, "version": __version__, "title": self.case.title}
+            self.history.write(self.folder / "history.h5", attributes)
+
+    def finish(self, overturned: bool, dofs: int, record, factorizations: int) -> dict:
+        """Write the last history and the summary, which is returned; the checkpoint goes."""
+        from fecolumn import __version__
+        from fecolumn.dynamics.energy import TERMS
+
+        rows, plan = self.history.arrays(), self.case.integration
+        top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
+        fall, end = rows["u_top"][-1], float(rows["time"][-1])
+        summary = dict(
+            case_id=self.case.id, title=self.case.title, version=__version__, engine=plan.engine, kinematics=plan.kinematics,
+            dofs=dofs, steps=self.step, dt=plan.dt_s, alpha_hht=plan.alpha_hht,
+            motion=self.motion.name if self.motion else "", duration_s=end, u_max_m=float(top.max()),
+            overturned=overturned, overturn_time_s=end if overturned else None,
+            overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0]))) if overturned else None,
+            tilt_max_rad=float(rows["tilt"].max()), residual_slide_m=float(np.hypot(*rows["slide"][-1])),
+            penetration_max_m=float(rows["penetration"].max()), ranks=self.comm.size,
+            wall_s=self.earlier_s + time.perf_counter() - self.began, s_per_step=self.stepping_s / max(self.step, 1),
+            iterations=record.iterations, contact_iterations=record.contact_iterations, impacts=record.impacts,
+            cuts=record.cuts, factorizations=factorizations, energy_closure_rel=energy_closure(rows),
+            energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS})
+        self.write_history()
+        if self.comm.rank == 0:
+            write_json(self.folder / "summary.json", summary)
+            (self.folder / CHECKPOINT).unlink(missing_ok=True)
+        self.comm.barrier()
+        return summary
+
+    def say(self, text: str) -> None:
+        """Tell the user, unless quiet."""
+        if not self.quiet and self.comm.rank == 0:
+            import sys
+
+            print(text, file=sys.stderr, flush=True)
+
+
+class _FullAnalysis(Analysis):
+    """A running analysis of the full-order engine."""
+
+    def __init__(self, case, folder, comm, file, quiet):
+        from fecolumn.dynamics import gravity
+        from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
+        from fecolumn.dynamics.checkpoint import read_checkpoint
+        from fecolumn.dynamics.energy import TERMS, Ledger
+        from fecolumn.dynamics.observer import Observer
+        from fecolumn.dynamics.stepper import Record, Stepper
+
+        super().__init__(case, folder, comm, file, quiet)
+        plan = case.integration
+        specimen = share_specimen_mesh(case, comm)
+        self.system = build_system(case, comm, specimen)
+        self.warn_of_base(self.system.base.frequency, file)
+        self.ledger = Ledger(self.system)
+        self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
+                               plan.max_iterations, plan.max_cuts)
+        self.observer = Observer(self.system, specimen, case.overturn.displacement_m)
+        self.fields, self.free = self._fields(specimen) if self.field_steps else None, None
+        if (folder / CHECKPOINT).is_file():
+            self.state, extra = read_checkpoint(folder / CHECKPOINT, self.system)
+            self.resumed(extra)
+            self.ledger.start = float(extra["start"])
+            self.ledger.work = dict(zip(TERMS[3:-1], extra["work"].tolist()))
+            self.stepper.record = Record(*extra["record"].tolist())
+            self.observer.last_tilt = float(extra["last_tilt"])
+            self.say(f"resuming at t = {self.state.time:.4f} s")
+        else:
+            start = case.initial
+            self.state = gravity.tilted(self.system, start.tilt_rad, np.radians(start.direction_deg)) if start.tilt_rad \
+                else gravity.standing(self.system)
+            self.state.ground = self.ground(0)
+            self.ledger.open(self.state)
+            self._note(0)
+            if self.fields:
+                self._write_fields()
+
     def _fields(self, specimen):
         from fecolumn.post.fields import FieldWriter
 
-        return FieldWriter(self.folder / "fields", self.system, specimen)
+        system = self.system
+        return FieldWriter(self.folder / "fields", system.column, system.base, system.foot_nodes, system.areas, specimen)
+
+    def _write_fields(self) -> None:
+        from fecolumn.dynamics.free_body import FreeBody
+
+        system, state = self.system, self.state
+        interface, column, R = system.interface, system.column, state.rotation
+        at_nodes, local = interface.at_nodes(state.forces), system.kinematics.local_displacement(state.x)
+        rest = np.zeros_like(local)
+        if interface.foot.filtered:
+            # what the filter keeps from the body it bears statically: the part of the stress that a step does not resolve
+            self.free = self.free or FreeBody(column)
+            forces = at_nodes @ R
+            unresolved = column.spread(system.foot_nodes, forces) - interface.foot.load(forces)
+            rest = self.free.response(unresolved.reshape(-1, 1)).reshape(-1, 3)
+        self.fields.write(state.time, state.x + rest @ R.T, local + rest, interface.dynamic_position(state.x, R), state.forces, at_nodes)
 
     def run(self, stop) -> dict:
         from fecolumn.dynamics.stepper import StepFailed
@@ -179,20 +278,19 @@ class _Analysis:
         cadence = self.case.output
         progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet or self.comm.rank > 0)
         saved = time.perf_counter()
-        field_steps = max(1, round(cadence.fields_every_s / self.case.integration.dt_s)) if self.fields else 0
         measures = self.observer.measure(self.state)
         overturned = False
         try:
             while self.step < self.steps and not overturned:
                 began, before = time.perf_counter(), self.stepper.record.iterations
-                state = self.stepper.step(self.state, self._ground(self.step + 1))
+                state = self.stepper.step(self.state, self.ground(self.step + 1))
                 self.state, self.step = state, self.step + 1
                 self.stepping_s += time.perf_counter() - began
                 measures = self._note(self.stepper.record.iterations - before)
                 overturned = self.observer.overturned(measures)
                 progress.show(self.step, measures, self.stepper.record)
-                if self.fields and self.step % field_steps == 0:
-                    self.fields.write(self.state)
+                if self.fields and self.step % self.field_steps == 0:
+                    self._write_fields()
                 due, ended = self._agree(time.perf_counter() - saved > cadence.checkpoint_every_s, stop())
                 if due or ended:
                     self._save()
@@ -204,7 +302,8 @@ class _Analysis:
             raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
         finally:
             progress.end()
-        return self._finish(overturned)
+        dofs = 3 * (self.system.column.n_nodes + self.system.base.body.n_nodes)
+        return self.finish(overturned, dofs, self.stepper.record, self.system.factorizations)
 
     def _agree(self, due: bool, ended: bool) -> tuple[bool, bool]:
         """Checkpoint due, stop asked for: so for all ranks where it is so for one."""
@@ -218,54 +317,14 @@ class _Analysis:
         self.history.add(measures, self.ledger.row(self.state), iterations)
         return measures
 
-    def _attributes(self) -> dict:
-        from fecolumn import __version__
-
-        return {"case_id": self.case.id, "version": __version__, "title": self.case.title}
-
     def _save(self) -> None:
         from fecolumn.dynamics.checkpoint import write_checkpoint
 
-        extra = {f"rows.{name}": values for name, values in self.history.arrays().items()}
-        extra |= dict(start=self.ledger.start, work=list(self.ledger.work.values()), step=self.step,
-                      record=dataclasses.astuple(self.stepper.record), last_tilt=self.observer.last_tilt,
-                      stepping_s=self.stepping_s, wall_s=self.earlier_s + time.perf_counter() - self.began)
+        extra = self.to_resume() | dict(start=self.ledger.start, work=list(self.ledger.work.values()),
+                                        record=dataclasses.astuple(self.stepper.record), last_tilt=self.observer.last_tilt)
         write_checkpoint(self.folder / CHECKPOINT, self.system, self.state, extra)
-        if self.comm.rank == 0:
-            self.history.write(self.folder / "history.h5", self._attributes())
+        self.write_history()
         self.comm.barrier()
-
-    def _finish(self, overturned: bool) -> dict:
-        from fecolumn import __version__
-        from fecolumn.dynamics.energy import TERMS
-
-        rows, plan, record = self.history.arrays(), self.case.integration, self.stepper.record
-        top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
-        fall = rows["u_top"][-1]
-        summary = dict(
-            case_id=self.case.id, title=self.case.title, version=__version__, engine=plan.engine, kinematics=plan.kinematics,
-            dofs=3 * (self.system.column.n_nodes + self.system.base.body.n_nodes), steps=self.step, dt=plan.dt_s, alpha_hht=plan.alpha_hht,
-            motion=self.motion.name if self.motion else "", duration_s=float(self.state.time), u_max_m=float(top.max()),
-            overturned=overturned, overturn_time_s=float(self.state.time) if overturned else None,
-            overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0]))) if overturned else None,
-            tilt_max_rad=float(rows["tilt"].max()), residual_slide_m=float(np.hypot(*rows["slide"][-1])),
-            penetration_max_m=float(rows["penetration"].max()), ranks=self.comm.size,
-            wall_s=self.earlier_s + time.perf_counter() - self.began, s_per_step=self.stepping_s / max(self.step, 1),
-            iterations=record.iterations, contact_iterations=record.contact_iterations, impacts=record.impacts,
-            cuts=record.cuts, factorizations=self.system.factorizations, energy_closure_rel=energy_closure(rows),
-            energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS})
-        if self.comm.rank == 0:
-            self.history.write(self.folder / "history.h5", self._attributes())
-            write_json(self.folder / "summary.json", summary)
-            (self.folder / CHECKPOINT).unlink(missing_ok=True)
-        self.comm.barrier()
-        return summary
-
-    def _say(self, text: str) -> None:
-        if not self.quiet and self.comm.rank == 0:
-            import sys
-
-            print(text, file=sys.stderr, flush=True)
 
 
 def energy_closure(rows: dict) -> float:

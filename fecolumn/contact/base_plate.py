@@ -32,14 +32,20 @@ class BasePlate:
         self._factor = effective_factor(body, 0.0, 1.0)
         self.slot = np.full(len(self.nodes), -1, np.int64)
         self.compliance = np.zeros((0, 0, 3, 3))
-        self._known = np.zeros(0, np.int64)
+        self.known = np.zeros(0, np.int64)
+
+    def adopt(self, known: np.ndarray, compliance: np.ndarray) -> None:
+        """Take over the compliance (k, k, 3, 3) of the top nodes `known` (k,) found before."""
+        self.known, self.compliance = known, compliance
+        self.slot[:] = -1
+        self.slot[known] = np.arange(len(known))
 
     def need(self, wanted: np.ndarray) -> None:
         """Make sure that the compliance holds the top nodes `wanted` (positions in `nodes`)."""
         new = np.unique(wanted[self.slot[wanted] < 0])
         if not len(new):
             return
-        known, old, n = np.concatenate([self._known, new]), len(self._known), len(new)
+        known, old, n = np.concatenate([self.known, new]), len(self.known), len(new)
         response = self._factor.solve_many(unit_loads(self.body, self.nodes[new]))
         columns = self.body.gather(self.nodes[known], response.reshape(self.body.n_owned, 3, 3 * n))
         fresh = columns.reshape(len(known), 3, n, 3).transpose(0, 2, 1, 3)
@@ -49,7 +55,7 @@ class BasePlate:
         compliance[old:, :old] = fresh[:old].transpose(1, 0, 3, 2)
         corner = compliance[old:, old:]
         compliance[old:, old:] = (corner + corner.transpose(1, 0, 3, 2)) / 2
-        self.compliance, self._known = compliance, known
+        self.compliance, self.known = compliance, known
         self.slot[new] = np.arange(old, len(known))
 
     def displacement(self, nodes: np.ndarray, weights: np.ndarray, forces: np.ndarray) -> np.ndarray:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from fecolumn._compiled import njit
 
-@numba.njit(cache=True)
+
+@njit
 def turned(compliance, active, rotation):
     """Compliance (3 n, 3 n) of the active points turned into the table frame.
 
@@ -32,7 +33,7 @@ def turned(compliance, active, rotation):
     return W
 
 
-@numba.njit(cache=True)
+@njit
 def below(compliance, slots, weights):
     """Compliance (3 n, 3 n) of the base under n points.
 

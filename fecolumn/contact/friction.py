@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
+
+from fecolumn._compiled import njit
+
+# Newton steps without a better residual after which another way is tried
+STALLED = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +22,7 @@ class ContactSolution:
     sweeps: int
 
 
-@numba.njit(cache=True)
+@njit
 def natural_residual(W, q, forces, mu, rho):
     """Violation of the contact laws at each point [m]: distance of r from its projection, over rho.
 
@@ -40,7 +44,7 @@ def natural_residual(W, q, forces, mu, rho):
     return error
 
 
-@numba.njit(cache=True)
+@njit
 def gauss_seidel(W, q, forces, mu, rho, sweeps, tolerance):
     """Projected nonlinear Gauss-Seidel (Jourdan, Alart, Jean 1998); changes `forces`, returns the sweeps made."""
     n = len(q)
@@ -65,35 +69,137 @@ def gauss_seidel(W, q, forces, mu, rho, sweeps, tolerance):
     return sweeps
 
 
+@njit
 def newton_step(W, q, forces, mu, rho):
-    """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991)."""
+    """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular.
+
+    With d the direction of the trial force and e across it, a slipping point has r_t = mu r_n d + y e. Linearised in r_t, r_n and the
+    slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c = mu r_n / |trial|: two unknowns, three for a sticking point.
+    """
     n = len(q)
-    trial = forces - rho[:, None] * ((W @ forces.ravel()).reshape(n, 3) + q)
-    touching = np.flatnonzero(trial[:, 2] > 0)
+    trial = forces - rho.reshape(n, 1) * ((W @ forces.ravel()).reshape(n, 3) + q)
     updated = np.zeros_like(forces)
-    if not len(touching):
-        return updated
-    length = np.hypot(trial[touching, 0], trial[touching, 1])
-    slipping = length > mu * trial[touching, 2]
-    dofs = (3 * touching[:, None] + np.arange(3)).ravel()
-    matrix, right = W[np.ix_(dofs, dofs)], -q[touching].ravel()
-    for k in np.flatnonzero(slipping):
-        # r_t = mu r_n d with d the direction of the trial force, linearised in r_t, r_n and the slip
-        i, rows = touching[k], slice(3 * k, 3 * k + 2)
-        direction = trial[i, :2] / length[k]
-        pressure = max(forces[i, 2], 0.0)
-        turn = min(mu * pressure / length[k], 1.0) * (np.eye(2) - np.outer(direction, direction))
-        slip_rows = matrix[rows].copy()
-        matrix[rows] = rho[i] * turn @ slip_rows
-        matrix[rows, rows] += np.eye(2) - turn
-        matrix[rows, 3 * k + 2] -= mu * direction
-        # Newton about the present forces, written for the new ones: turn (r_t - rho q_t) drops out along d
-        right[rows] = -rho[i] * turn @ q[i, :2]
-    updated[touching] = np.linalg.solve(matrix, right).reshape(-1, 3)
-    return updated
+    # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or gap along test[u]
+    point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
+    own, count = np.zeros(3 * n), 0
+    for i in range(n):
+        if not trial[i, 2] > 0:
+            continue
+        length = np.hypot(trial[i, 0], trial[i, 1])
+        if length <= mu * trial[i, 2]:
+            for a in range(3):
+                point[count] = i
+                basis[count, a] = test[count, a] = 1.0
+                count += 1
+            continue
+        x, y = trial[i, 0] / length, trial[i, 1] / length
+        share = min(mu * max(forces[i, 2], 0.0) / length, 1.0)
+        point[count] = point[count + 1] = i
+        basis[count, 0], basis[count, 1], basis[count, 2] = mu * x, mu * y, 1.0
+        test[count, 2] = 1.0
+        basis[count + 1, 0], basis[count + 1, 1] = -y, x
+        # of the size of the others' equations
+        test[count + 1, 0], test[count + 1, 1] = -share * y, share * x
+        own[count + 1] = (1 - share) / rho[i]
+        count += 2
+    if count == 0:
+        return updated, True
+    half, matrix, right = np.empty((count, 3 * n)), np.empty((count, count)), np.empty(count)
+    for u in range(count):
+        row, x, y, z = 3 * point[u], test[u, 0], test[u, 1], test[u, 2]
+        right[u] = -(x * q[point[u], 0] + y * q[point[u], 1] + z * q[point[u], 2])
+        if x == 0.0 and y == 0.0 and z == 1.0:
+            half[u] = W[row + 2]
+        else:
+            for j in range(3 * n):
+                half[u, j] = x * W[row, j] + y * W[row + 1, j] + z * W[row + 2, j]
+        for v in range(count):
+            column = 3 * point[v]
+            matrix[u, v] = basis[v, 0] * half[u, column] + basis[v, 1] * half[u, column + 1] + basis[v, 2] * half[u, column + 2]
+        matrix[u, u] += own[u]
+    if not solve_in_place(matrix, right):
+        return updated, False
+    for u in range(count):
+        for a in range(3):
+            updated[point[u], a] += right[u] * basis[u, a]
+    return updated, True
 
 
-def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, rounds: int = 6) -> ContactSolution:
+@njit
+def solve_in_place(matrix, right):
+    """Solve by Gaussian elimination with row pivoting, LAPACK where it pays; overwrites both, False where singular."""
+    n = len(right)
+    if n > 40:
+        try:
+            right[:] = np.linalg.solve(matrix, right)
+        except Exception:
+            return False
+        return True
+    for k in range(n):
+        pivot = k
+        for i in range(k + 1, n):
+            if abs(matrix[i, k]) > abs(matrix[pivot, k]):
+                pivot = i
+        if matrix[pivot, k] == 0.0:
+            return False
+        if pivot != k:
+            for j in range(k, n):
+                matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
+            right[k], right[pivot] = right[pivot], right[k]
+        inverse = 1 / matrix[k, k]
+        for i in range(k + 1, n):
+            factor = matrix[i, k] * inverse
+            if factor != 0.0:
+                for j in range(k + 1, n):
+                    matrix[i, j] -= factor * matrix[k, j]
+                right[i] -= factor * right[k]
+    for i in range(n - 1, -1, -1):
+        value = right[i]
+        for j in range(i + 1, n):
+            value -= matrix[i, j] * right[j]
+        right[i] = value / matrix[i, i]
+    return True
+
+
+@njit
+def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=7):
+    """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and sweeps."""
+    n = len(q)
+    rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
+    for i in range(n):
+        xx, yy, zz = W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1], W[3 * i + 2, 3 * i + 2]
+        rho[i], rho_t[i] = 3 / (xx + yy + zz), 1 / np.hypot(xx, yy)
+        # points that move together are more compliant than one alone: with its own rho each would seem to slip to and fro
+        rho_all[i] = 3 / np.abs(W[3 * i:3 * i + 3]).sum()
+    forces = start.copy()
+    best, least = forces, np.inf
+    iterations = sweeps = 0
+    if n == 0:
+        return forces, 0.0, 0, 0
+    for round_ in range(rounds):
+        stalled = 0
+        for _ in range(max_newton):
+            residual = natural_residual(W, q, forces, mu, rho).max()
+            stalled += 1
+            if residual < least:
+                best, least, stalled = forces, residual, 0
+            if residual <= tolerance:
+                return best, least, iterations, sweeps
+            if stalled > STALLED:
+                break
+            forces, regular = newton_step(W, q, forces, mu, rho_all if round_ % 2 == 0 else rho)
+            if not regular:
+                break
+            iterations += 1
+        if round_ == 0:
+            forces = start.copy()
+            continue
+        forces = best.copy()
+        sweeps += gauss_seidel(W, q, forces, mu, rho_t, 50 * 2 ** (round_ - 1), tolerance * rho.min())
+    return best, least, iterations, sweeps
+
+
+def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, rounds: int = 7) -> ContactSolution:
     """Solve the frictional contact problem of n points.
 
     Args:
@@ -103,29 +209,8 @@ def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: 
         start: (n, 3) [N] first guess.
         tolerance: residual at convergence [m].
 
-    Semismooth Newton; where its active set cycles, Gauss-Seidel sweeps give it a better start. The residual returned
+    Semismooth Newton, stick and slip judged by the stiffness of all points together, or of each alone; where its active set cycles, Gauss-Seidel sweeps give it a better start. The residual returned
     is the true one: the caller decides what to do with a solution that has not converged.
     """
-    n = len(q)
-    if not n:
-        return ContactSolution(np.zeros((0, 3)), 0.0, 0, 0)
-    rho = 3.0 / np.diag(W).reshape(n, 3).sum(axis=1)
-    rho_t = 1.0 / np.linalg.norm(np.stack([np.diag(W)[0::3], np.diag(W)[1::3]]), axis=0)
-    forces = np.array(start, float)
-    best, least = forces, np.inf
-    iterations = sweeps = 0
-    for round_ in range(rounds):
-        for _ in range(max_newton):
-            residual = natural_residual(W, q, forces, mu, rho).max()
-            if residual < least:
-                best, least = forces, residual
-            if residual <= tolerance:
-                return ContactSolution(best, least, iterations, sweeps)
-            try:
-                forces = newton_step(W, q, forces, mu, rho)
-            except np.linalg.LinAlgError:
-                break
-            iterations += 1
-        forces = best.copy()
-        sweeps += gauss_seidel(W, q, forces, mu, rho_t, 50 * 2**round_, tolerance * rho.min())
-    return ContactSolution(best, least, iterations, sweeps)
+    W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
+    return ContactSolution(*iterate(W, q, float(mu), start, tolerance, max_newton, rounds))

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fecolumn._compiled import njit
+
 # Nodes count as a circle: so many at least, their distances from its centre and their sectors equal up to this
 _FEWEST, _ROUND = 12, 1e-6
 
@@ -69,14 +71,24 @@ class Rim:
         Each is carried by the two nodes beside it and, as it lies outside their chord, by a pull of 1 / n^2 from the far side.
         """
         n = len(self.nodes)
-        index = round((angle - self.first) / self.sector)
-        turn = angle - self.first - index * self.sector
-        side = 1 if turn >= 0 else -1
-        # in a frame with the nearer node at angle 0 and the point at |turn|: nearer, next, and the far two taken together
-        far = -np.cos(self.sector / 2) if n % 2 == 0 else -1.0
-        corners = np.array([[1.0, np.cos(self.sector), far * np.cos(self.sector / 2)],
-                            [0.0, np.sin(self.sector), far * np.sin(self.sector / 2)], [1.0, 1.0, 1.0]])
-        near, beside, pull = np.linalg.solve(corners, [np.cos(turn), abs(np.sin(turn)), 1.0])
-        offsets = side * np.array([0, 1, n // 2 + 1, (n + 1) // 2])
-        carriers = self.nodes[(np.arange(n)[:, None] + offsets) % n]
-        return RimPoints(self.nodes, carriers, np.array([near, beside, pull / 2, pull / 2]), index % n, turn / self.sector)
+        index, phase, offsets, weights = on_circle(angle, self.first, self.sector, n)
+        return RimPoints(self.nodes, self.nodes[(np.arange(n)[:, None] + offsets) % n], weights, index, phase)
+
+
+@njit
+def on_circle(angle, first, sector, n):
+    """Number of the node of n whose point is at `angle`, how far that is past it in sectors, and from each node on: offsets (4,) of its
+    point's carriers, weights (4,)."""
+    index = int(np.rint((angle - first) / sector))
+    turn = angle - first - index * sector
+    side = 1 if turn >= 0 else -1
+    # in a frame with the nearer node at angle 0 and the point at |turn|: nearer, next, and the far two taken together
+    far = -np.cos(sector / 2) if n % 2 == 0 else -1.0
+    cosine, sine, x, y = np.cos(sector), np.sin(sector), far * np.cos(sector / 2), far * np.sin(sector / 2)
+    # near = 1 - beside - pull
+    a, b, c, d = cosine - 1, x - 1, sine, y
+    right, up = np.cos(turn) - 1, abs(np.sin(turn))
+    determinant = a * d - b * c
+    beside, pull = (right * d - b * up) / determinant, (a * up - c * right) / determinant
+    offsets = side * np.array([0, 1, n // 2 + 1, (n + 1) // 2])
+    return index % n, turn / sector, offsets, np.array([1 - beside - pull, beside, pull / 2, pull / 2])

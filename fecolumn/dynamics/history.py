@@ -33,6 +33,11 @@ class History:
         for name, value in row.items():
             self._columns.setdefault(name, []).append(value)
 
+    def extend(self, columns: dict[str, np.ndarray]) -> None:
+        """Append many rows, by column."""
+        for name, values in columns.items():
+            self._columns.setdefault(name, []).extend(values)
+
     def arrays(self) -> dict[str, np.ndarray]:
         """Columns by name, first axis time."""
         return {name: np.asarray(values) for name, values in self._columns.items()}

@@ -14,6 +14,18 @@ from fecolumn.mesh.surface import face_points, nodal_areas
 LOST = 1.5
 
 
+def top_of(column, specimen) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (k,) of the top's face and their shares (k,) in its mean."""
+    mesh = specimen.body
+    part = next(p for p in (CAP, UPPER, LOWER) if mesh.has_part(p))
+    height = mesh.points[:, 2].max()
+    quads = boundary_quads(mesh, part, height, 1e-6 * height)
+    found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
+    nodes, position = np.unique(found, return_inverse=True)
+    areas = nodal_areas(mesh.points[quads], position.reshape(len(quads), -1), len(nodes), column.order)
+    return nodes, areas / areas.sum()
+
+
 class Observer:
     """Measures a state of a system.
 
@@ -23,14 +35,8 @@ class Observer:
 
     def __init__(self, system, specimen, overturn_displacement: float):
         self.system, self.limit = system, overturn_displacement
-        column, mesh = system.column, specimen.body
-        part = next(p for p in (CAP, UPPER, LOWER) if mesh.has_part(p))
-        height = mesh.points[:, 2].max()
-        quads = boundary_quads(mesh, part, height, 1e-6 * height)
-        found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
-        self._top, position = np.unique(found, return_inverse=True)
-        areas = nodal_areas(mesh.points[quads], position.reshape(len(quads), -1), len(self._top), column.order)
-        self._weights = areas / areas.sum()
+        column = system.column
+        self._top, self._weights = top_of(column, specimen)
         radius = np.linalg.norm(column.all_X[system.foot_nodes, :2] - column.center[:2], axis=1).max()
         #: Tilt (slenderness) at which the centre of mass stands over the rim [rad].
         self.critical_tilt = math.atan2(radius, column.center[2])

@@ -22,11 +22,17 @@ class FieldWriter:
     """Writes frames of column and base into a folder; `fields.xdmf` always lists complete frames only.
 
     Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and continued.
+
+    Args:
+        column: Body. plate: BasePlate.
+        foot_nodes: (n,) column nodes that may touch; areas: (n,) tributary to them [m2].
+        specimen: SpecimenMesh of both.
     """
 
-    def __init__(self, folder: Path, system, specimen):
-        self.folder, self.system, self.specimen = folder, system, specimen
-        column, base = system.column, system.base.body
+    def __init__(self, folder: Path, column, plate, foot_nodes, areas, specimen):
+        self.folder, self.specimen = folder, specimen
+        self.column, self.plate, self.foot_nodes, self.areas = column, plate, foot_nodes, areas
+        base = plate.body
         self._nodes = [_vertex_nodes(body) for body in (column, base)]
         self._offset = len(specimen.body.points)
         self._stress = {body: _StressField(body) for body in (column, base)}
@@ -37,7 +43,7 @@ class FieldWriter:
 
     def _points_of_foot(self) -> np.ndarray:
         at = {node: point for point, node in enumerate(self._nodes[0])}
-        return np.array([at.get(node, -1) for node in self.system.foot_nodes])
+        return np.array([at.get(node, -1) for node in self.foot_nodes])
 
     def _write_mesh(self) -> None:
         body, base = self.specimen.body, self.specimen.base
@@ -45,20 +51,23 @@ class FieldWriter:
             "points": np.vstack([body.points, base.points]), "cells": np.vstack([body.cells, base.cells + self._offset]),
             "part": np.concatenate([body.part, base.part]).astype(float)})
 
-    def write(self, state) -> None:
-        """Add the frame of a state; called on every rank."""
-        system = self.system
-        column, plate, interface = system.column, system.base, system.interface
-        footing = interface.project(interface.dynamic_position(state.x, state.rotation))
-        sunk = plate.displacement(footing.nodes, footing.weights, -state.forces)
-        displacement = [gather_all(column, state.x - column.X), gather_all(plate.body, sunk)]
-        stress = [self._stress[column].values(system.kinematics.local_displacement(state.x)), self._stress[plate.body].values(sunk)]
+    def write(self, time: float, x, local, positions, forces, at_nodes) -> None:
+        """Add a frame; called on every rank.
+
+        Args:
+            time: [s]. x: (n_owned, 3) positions of the column [m]; local: its displacements in its own frame [m].
+            positions, forces: (n, 3) of the contact points [m, N]; at_nodes: (n, 3) these forces on the foot's nodes.
+        """
+        column, plate = self.column, self.plate
+        sunk = plate.displacement(*plate.grid.project(positions), -forces)
+        displacement = [gather_all(column, x - column.X), gather_all(plate.body, sunk)]
+        stress = [self._stress[column].values(local), self._stress[plate.body].values(sunk)]
         if column.comm.rank:
             return
         pressure = np.zeros(self._offset + len(self.specimen.base.points))
         at_vertex = self._pressure_points >= 0
-        pressure[self._pressure_points[at_vertex]] = (interface.at_nodes(state.forces)[:, 2] / system.areas)[at_vertex]
-        name = f"frame_{round(state.time * 1e6):012d}.h5"
+        pressure[self._pressure_points[at_vertex]] = (at_nodes[:, 2] / self.areas)[at_vertex]
+        name = f"frame_{round(time * 1e6):012d}.h5"
         _write_h5(self.folder / name, {
             "displacement": np.vstack([values[nodes] for values, nodes in zip(displacement, self._nodes)]),
             "von_mises": np.concatenate(stress), "pressure": pressure})

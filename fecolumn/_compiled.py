@@ -1,0 +1,44 @@
+"""Compiled functions, and where they and other things made once are kept."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import os
+from pathlib import Path
+
+import numba
+
+# Folders of which compiled functions take code or constants
+_SOURCES = ("contact", "dynamics", "reduced")
+
+
+def cache_folder() -> Path:
+    """$FECOLUMN_CACHE, or fecolumn in $XDG_CACHE_HOME or ~/.cache. It may be deleted at any time."""
+    if folder := os.environ.get("FECOLUMN_CACHE"):
+        return Path(folder)
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fecolumn"
+
+
+@functools.cache
+def _folder() -> str:
+    """Folder of the functions compiled from the present sources.
+
+    numba asks only whether a function's own file has changed: code compiled with what another file said before would be run.
+    """
+    digest, package = hashlib.sha256(), Path(__file__).parent
+    for name in _SOURCES:
+        for path in sorted((package / name).glob("*.py")):
+            digest.update(path.read_bytes())
+    return str(cache_folder() / f"compiled-{digest.hexdigest()[:16]}")
+
+
+def njit(function=None, **options):
+    """numba.njit with a cache on disk that knows all sources; a decorator, with or without options."""
+    if function is None:
+        return lambda one: njit(one, **options)
+    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _folder()
+    try:
+        return numba.njit(cache=True, **options)(function)
+    finally:
+        numba.config.CACHE_DIR = before

@@ -1,0 +1,166 @@
+"""The reduced engine: advances a reduced column by many steps at a time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn._compiled import njit
+from fecolumn.contact.base_top import OffBase
+from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.stage import Stop
+from fecolumn.dynamics.stepper import Record, StepFailed
+from fecolumn.reduced import motion as motions
+from fecolumn.reduced.bed import no_bed
+from fecolumn.reduced.equilibrium import CONTACT, FAR_BASE, IMPACT, ITERATIONS, N_CUTS, N_ITERATIONS, OFF_BASE, OK, OVERTURNED
+from fecolumn.reduced.ledger import kinetic, strain, weight_energy
+from fecolumn.reduced.model import scheme, step_column
+from fecolumn.reduced.motion import TIME, Sway
+from fecolumn.reduced.observe import WIDTH, lost, observe
+from fecolumn.reduced.plate import no_footing, plate_of
+from fecolumn.reduced.points import node_points
+from fecolumn.reduced.step import step
+
+_STOPS = {CONTACT: Stop.CONTACT, IMPACT: Stop.CONTACT, ITERATIONS: Stop.ITERATIONS, OFF_BASE: Stop.OFF_BASE}
+
+
+@njit
+def advance(column, plate, scheme, points, footing, bed, eye, motion, spare, sway, grounds, rows, last_tilt, ledger, record):
+    """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, WIDTH) are filled, last_tilt (1,) kept."""
+    booked = ledger.copy()
+    for k in range(len(grounds)):
+        before = record[N_ITERATIONS]
+        booked[:] = ledger
+        answer = step(column, plate, scheme, points, footing, bed, motion, grounds[k], spare, sway, ledger, record)
+        if answer != OK:
+            ledger[:] = booked
+            return k, answer
+        motions.copy(spare, motion)
+        tilt, top = observe(column, eye, motion, ledger, record[N_ITERATIONS] - before, rows[k])
+        fallen = lost(eye, tilt, top, last_tilt[0])
+        last_tilt[0] = tilt
+        if fallen:
+            return k + 1, OVERTURNED
+    return len(grounds), OK
+
+
+class Engine:
+    """A reduced column on its base, its motion and its ledger.
+
+    Args:
+        model: ColumnModel.
+        base: BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
+        eye: View.
+        hht: HHT.
+        gravity, friction, own, rim: as of `model.step_column`.
+        start: function of the engine that returns the first Motion; see `reduced.start`.
+    """
+
+    def __init__(self, model, base, eye, hht: HHT, gravity, friction: float, own, rim, start, max_cuts: int = 4):
+        self.model, self.base, self.eye, self.hht, self.max_cuts = model, base, eye, hht, max_cuts
+        self.column = step_column(model, hht, gravity, friction, own, rim)
+        n, m = len(model.arms), len(model.frequencies)
+        self.points, self.footing, self.spare = node_points(model.arms), no_footing(n), motions.at_rest(n, m)
+        self.sway = Sway(np.zeros(3), np.zeros(3), np.zeros(m), np.eye(3))
+        self.bed, self._schemes = no_bed(n), {}
+        self.counts, self.last_tilt = np.zeros(6, np.int64), np.zeros(1)
+        self.base.need(np.unique(base.grid.project(model.reference)[0]))
+        self.plate = plate_of(base)
+        self.motion = start(self)
+        self.ledger = np.zeros(6)
+        self.ledger[0] = self.mechanical()
+
+    @property
+    def record(self) -> Record:
+        """Counts as the full-order engine gives them."""
+        return Record(*self.counts[:4].tolist())
+
+    def mechanical(self) -> float:
+        """Kinetic, strain and gravity energy now [J]."""
+        motion, column = self.motion, self.column
+        return kinetic(column, motion) + strain(column, motion) + weight_energy(column, self.eye.center, motion)
+
+    def row(self) -> np.ndarray:
+        """The present row (WIDTH,) of the history."""
+        row = np.empty(WIDTH)
+        observe(self.column, self.eye, self.motion, self.ledger, 0, row)
+        return row
+
+    def advance(self, grounds: np.ndarray) -> tuple[np.ndarray, bool]:
+        """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k', WIDTH) and whether the column is lost.
+
+        Raises:
+            StepFailed: no convergence after max_cuts halvings, or the column left the base; the motion is that before the step, the
+                rows of the steps made are in `made`.
+        """
+        grounds, done = np.array(grounds, float), 0
+        rows = np.empty((len(grounds), WIDTH))
+        self.made = rows[:0]
+        while done < len(grounds):
+            made, answer = self._steps(self.hht, grounds[done:], rows[done:])
+            done += made
+            if answer == OVERTURNED:
+                return rows[:done], True
+            if answer != OK:
+                saved, booked = self._save(), self.ledger.copy()
+                try:
+                    self._cut(grounds[done], self.hht, answer, 0)
+                except StepFailed:
+                    self.made = rows[:done]
+                    motions.copy(saved, self.motion)
+                    self.ledger[:] = booked
+                    raise
+                tilt, top = observe(self.column, self.eye, self.motion, self.ledger, 0, rows[done])
+                fallen, self.last_tilt[0] = lost(self.eye, tilt, top, self.last_tilt[0]), tilt
+                done += 1
+                if fallen:
+                    return rows[:done], True
+        return rows, False
+
+    def _steps(self, hht, grounds, rows) -> tuple[int, int]:
+        """Steps of `hht` until one fails for a reason other than a base not known yet."""
+        done = 0
+        while True:
+            made, answer = advance(self.column, self.plate, self._scheme(hht), self.points, self.footing, self.bed, self.eye, self.motion, self.spare,
+                                   self.sway, grounds[done:], rows[done:], self.last_tilt, self.ledger, self.counts)
+            done += made
+            if answer != FAR_BASE:
+                return done, answer
+            self.extend_base(self.spare)
+
+    def _cut(self, ground, hht, answer, cuts) -> None:
+        """The step that failed with `answer`, in two halves."""
+        if cuts == self.max_cuts or answer == OFF_BASE:
+            cut = f" (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else ""
+            raise StepFailed(_STOPS[answer], f"t = {self.motion.scalars[TIME]:.6g} s: {_STOPS[answer].value}{cut}")
+        self.counts[N_CUTS] += 1
+        half, row = HHT(hht.dt / 2, hht.alpha), np.empty((1, WIDTH))
+        for target in ((self.motion.ground + ground) / 2, ground):
+            _, answer = self._steps(half, target[None], row)
+            if answer not in (OK, OVERTURNED):
+                self._cut(target, half, answer, cuts + 1)
+
+    def _scheme(self, hht):
+        if hht not in self._schemes:
+            self._schemes[hht] = scheme(self.column, hht)
+        return self._schemes[hht]
+
+    def _save(self):
+        saved = motions.at_rest(len(self.model.arms), len(self.model.frequencies))
+        motions.copy(self.motion, saved)
+        return saved
+
+    def extend_base(self, motion) -> None:
+        """Make the base's compliance known under the foot and two rows of its nodes around."""
+        grid = self.base.grid
+        places = motion.center + self.model.arms @ motion.rotation.T
+        try:
+            nodes, _ = grid.project(places)
+        except OffBase as error:
+            raise StepFailed(Stop.OFF_BASE, f"t = {motion.scalars[TIME]:.6g} s: {error}") from None
+        where = np.empty((len(self.base.slot), 2), np.int64)
+        where[grid.number.ravel()] = np.stack(np.unravel_index(np.arange(grid.number.size), grid.number.shape), axis=1)
+        around = np.stack(np.meshgrid(np.arange(-2, 3), np.arange(-2, 3)), axis=-1).reshape(-1, 2)
+        wanted = where[np.unique(nodes)][:, None] + around
+        wanted = np.clip(wanted, 0, np.array(grid.number.shape) - 1).reshape(-1, 2)
+        self.base.need(np.unique(grid.number[wanted[:, 0], wanted[:, 1]]))
+        self.plate = plate_of(self.base)

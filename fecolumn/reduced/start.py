@@ -1,0 +1,68 @@
+"""Motion at t = 0: gravity equilibrium of the standing column, or a rigid tilt released at rest; as `dynamics.gravity`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.dynamics.gravity import PSEUDO_INERTIA, REST
+from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.reduced import motion as motions
+from fecolumn.reduced.equilibrium import FAR_BASE, OK, equilibrate
+from fecolumn.reduced.model import resting_scheme
+from fecolumn.reduced.motion import point_positions
+
+
+def standing(engine, max_iterations: int = 50) -> motions.Motion:
+    """Gravity equilibrium, by the same proximal steps as the full-order engine: it needs no factorisation.
+
+    Raises:
+        RuntimeError: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
+    """
+    column, model = engine.column, engine.model
+    n, m = len(model.arms), len(model.frequencies)
+    start, end = motions.at_rest(n, m), motions.at_rest(n, m)
+    start.center[:] = model.center
+    start.anchors[:] = model.reference[:, :2]
+    engine.points.anchors[:] = start.anchors
+    engine.points.forces[:] = 0.0
+    resting = resting_scheme(column, PSEUDO_INERTIA)
+    moved = np.inf
+    for _ in range(max_iterations):
+        while True:
+            answer = equilibrate(column, engine.plate, resting, engine.points, engine.footing, engine.bed, start, start.center + resting.half * column.gravity,
+                                 start.modal, np.zeros(3), end, engine.sway, engine.counts)
+            if answer != FAR_BASE:
+                break
+            engine.extend_base(end)
+        if answer != OK:
+            raise RuntimeError("gravity equilibrium: contact does not converge")
+        moved = max(np.abs(end.center - start.center).max(), np.abs(engine.sway.turn).max() * np.abs(model.center).max(),
+                    np.abs(end.elastic - start.elastic).max())
+        end.anchors[:] = start.anchors
+        motions.copy(end, start)
+        engine.points.forces[:] = end.forces
+        if moved < REST:
+            break
+    else:
+        raise RuntimeError(f"gravity equilibrium: still moving by {moved:.2e} m after {max_iterations} iterations")
+    engine.counts[:] = 0
+    start.acceleration[:] = -start.forces.sum(axis=0) / column.mass
+    start.modal_acceleration[:] = -column.squares * start.modal
+    return start
+
+
+def tilted(engine, tilt: float, direction: float) -> motions.Motion:
+    """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest point on the base."""
+    column, model = engine.column, engine.model
+    motion = motions.at_rest(len(model.arms), len(model.frequencies))
+    turn = rotation_matrix(tilt * np.array([-np.sin(direction), np.cos(direction), 0.0]))
+    foot = model.reference
+    pivot = np.array([np.cos(direction), np.sin(direction), 0.0]) * np.linalg.norm(foot[:, :2], axis=1).max()
+    # a round rim stands on the pivot itself, between nodes
+    lift = 0.0 if len(column.rim) else -((foot - pivot) @ turn.T + pivot)[:, 2].min()
+    motion.center[:] = turn @ (model.center - pivot) + pivot + [0.0, 0.0, lift]
+    motion.rotation[:] = turn
+    motion.acceleration[:] = column.gravity
+    point_positions(engine.points, motion, motion.relative)
+    motion.anchors[:] = motion.relative[:, :2]
+    return motion

@@ -1,0 +1,43 @@
+"""The coarse specimen in both engines from the same finite-element operators."""
+
+import numpy as np
+
+from fecolumn.dynamics import gravity
+from fecolumn.reduced import start
+from fecolumn.reduced.build import column_model
+from fecolumn.reduced.observe import COLUMNS, view
+from fecolumn.reduced.run import Engine
+from fecolumn.verification.models import column_system
+from fecolumn.verification.trial import Trial
+
+PLACES = dict(zip([name for name, _ in COLUMNS], np.cumsum([0] + [width for _, width in COLUMNS])))
+
+
+def top_nodes(body):
+    height = body.all_X[:, 2]
+    nodes = np.flatnonzero(height > height.max() - 1e-9)
+    return nodes, np.full(len(nodes), 1 / len(nodes))
+
+
+def reduced(system, n_modes=30, begin=start.standing, overturn=0.25):
+    """The reduced engine of a full-order system."""
+    body, interface = system.column, system.interface
+    model, _ = column_model(body, system.foot_nodes, system.areas, *top_nodes(body), n_modes)
+    return Engine(model, system.base, view(model, overturn), system.hht, system.gravity, interface.friction, interface.own, interface.rim, begin)
+
+
+def tops(system, grounds, begin=gravity.standing):
+    """Displacement (n, 3) [m] of the top's middle in the full-order engine, and its trial."""
+    trial = Trial(system, begin)
+    nodes, weights = top_nodes(system.column)
+    return np.array([weights @ (trial.step(ground).x[nodes] - system.column.X[nodes]) for ground in grounds]), trial
+
+
+def column(rows, name, width=1):
+    """A column of the reduced engine's rows."""
+    place = PLACES[name]
+    return rows[:, place] if width == 1 else rows[:, place:place + width]
+
+
+def system_of(**tables):
+    return column_system("corotated", **tables)

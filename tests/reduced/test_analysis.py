@@ -1,0 +1,86 @@
+"""Analyses with the reduced engine from case to result folder."""
+
+import json
+
+import h5py
+import numpy as np
+import pytest
+
+import fecolumn.reduced.analysis  # noqa: F401  (compiled functions belong in the user's cache, not in this module's)
+from fecolumn import simulation
+from fecolumn.case import case_from_tables, read_toml
+from fecolumn.schema import InputError, merge
+
+SPECIMEN = "meshes/specimen.toml"
+
+
+@pytest.fixture(autouse=True, scope="module")
+def cache(tmp_path_factory):
+    """Models of this module only; compiled functions stay where they are."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("FECOLUMN_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
+def case_of(**sections):
+    tables = merge(read_toml(SPECIMEN), {
+        "column": {"fine_height_m": 0.01}, "base": {"slide_allowance_m": 0.01, "length_m": 0.3, "width_m": 0.3},
+        "mesh": {"coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05},
+        "integration": {"engine": "reduced", "duration_s": 1.2, "dt_s": 1e-3}, "initial": {"tilt_rad": 0.03}})
+    return case_from_tables(merge(tables, sections), SPECIMEN)
+
+
+def history(folder):
+    with h5py.File(folder / "history.h5") as file:
+        return {name: file[name][()] for name in ("time", "u_top", "tilt", "active_nodes", "energy/kinetic", "energy/closure")}
+
+
+def test_interrupted_analysis_goes_on_to_the_last_digit(tmp_path):
+    asked = iter([False, True])
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(case_of(), tmp_path / "two", quiet=True, stop=lambda: next(asked))
+    assert (tmp_path / "two" / "checkpoint.npz").is_file()
+    assert len(history(tmp_path / "two")["time"]) == 1001
+    simulation.run(case_of(), tmp_path / "two", quiet=True)
+    summary = simulation.run(case_of(), tmp_path / "one", quiet=True)
+    one, two = history(tmp_path / "one"), history(tmp_path / "two")
+    assert len(one["time"]) == 1201 and summary["impacts"] > 0
+    for name in one:
+        np.testing.assert_array_equal(one[name], two[name])
+    assert not (tmp_path / "two" / "checkpoint.npz").exists()
+
+
+def test_rigid_is_the_reduced_engine_without_modes(tmp_path):
+    rigid = simulation.run(case_of(integration={"engine": "rigid"}), tmp_path / "rigid", quiet=True)
+    bare = simulation.run(case_of(integration={"n_modes": 0}), tmp_path / "bare", quiet=True)
+    assert rigid["u_max_m"] == bare["u_max_m"] and rigid["engine"] == "rigid"
+
+
+def test_result_has_what_a_full_order_one_has(tmp_path):
+    short = {"duration_s": 0.02}
+    simulation.run(case_of(integration=short), tmp_path / "reduced", quiet=True)
+    simulation.run(case_of(integration=short | {"engine": "full"}), tmp_path / "full", quiet=True)
+    names = []
+    for engine in ("full", "reduced"):
+        with h5py.File(tmp_path / engine / "history.h5") as file:
+            found = {}
+            file.visititems(lambda name, item: found.update({name: (item.shape, item.attrs["unit"])}) if hasattr(item, "shape") else None)
+        names.append((found, sorted(json.loads((tmp_path / engine / "summary.json").read_text()))))
+    assert names[0] == names[1]
+
+
+def test_slide_beyond_the_allowance_extends_the_base_and_off_the_plate_says_so(tmp_path):
+    """mu = 0.02 on a base pushed by 2 m/s2 slides until its foot leaves a plate 14 mm wider than it to each side."""
+    sections = dict(contact={"friction_coefficient": 0.02}, initial={"tilt_rad": 0.0}, base={"slide_allowance_m": 0.0, "length_m": 0.13, "width_m": 0.13})
+    (tmp_path / "push.csv").write_text("time [s],ax [m/s2]\n" + "".join(f"{0.01 * k:.2f},{-2.0 if 0 < k else 0.0}\n" for k in range(60)))
+    sections["motion"] = {"source": str(tmp_path / "push.csv"), "free_vibration_s": 0.0}
+    sections["integration"] = {"duration_s": 0.5, "dt_s": 2e-3}
+    with pytest.raises(simulation.AnalysisFailed, match="left the base plate"):
+        simulation.run(case_of(**sections), tmp_path / "out", quiet=True)
+    slid = history(tmp_path / "out")
+    assert np.abs(slid["u_top"][-1, 0]) > 0.012
+
+
+def test_literal_hht_is_refused():
+    with pytest.raises(InputError, match="contact.impact"):
+        case_of(contact={"impact": "none"})
