@@ -68,7 +68,9 @@ class Ledger:
         try:
             found = sqlite3.connect(other) if recover else open_to_read(other)
         except sqlite3.Error:
-            return  # damaged or of an earlier version: the results tell
+            found = None
+        if found is None:
+            return  # damaged, of an earlier version or empty: the results tell
         names = ", ".join(_TOLD)
         try:
             self._connection.executemany(
@@ -138,15 +140,17 @@ class Ledger:
         self._connection.close()
 
 
-def open_to_read(file: Path) -> sqlite3.Connection:
-    """A ledger, read only; where the folder may not be written, readers cannot be counted, and need not be."""
+def open_to_read(file: Path) -> sqlite3.Connection | None:
+    """A ledger, read only, None where it is just being made; where the folder may not be written, readers cannot be counted, and need not be."""
     for option in ("mode=ro", "mode=ro&immutable=1"):
         ledger = sqlite3.connect(f"{file.resolve().as_uri()}?{option}", uri=True, timeout=30.0)
         try:
             ledger.execute(f"SELECT {', '.join(_ROW)} FROM analysis LIMIT 1")
             return ledger
-        except sqlite3.OperationalError:
+        except sqlite3.OperationalError as error:
             ledger.close()
+            if "no such table" in str(error):
+                return None
             if "immutable" in option:
                 raise
 

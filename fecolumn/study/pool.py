@@ -26,7 +26,7 @@ _STILLBORN = 3
 
 
 class LocalPool:
-    """A `Team` of processes, as many as asked for and needed.
+    """A `Team` of processes, started when there is something for them to do.
 
     Args:
         size: number of workers.

@@ -52,16 +52,7 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
         with Store(folder, plan, entry, share) as store:
             if retry_failed:
                 store.ledger.plan_again(state=FAILED)
-            queue = collections.deque(store.missing())
-            team = team or LocalPool(min(workers, len(queue)), entry, plan.file)
-            progress = Progress(store.ledger.counts(), sum(a.effort for a in queue), team.size, stream)
-            try:
-                _work_off(store, queue, team, progress)
-            finally:
-                team.stop()
-                progress.end()
-                store.ledger.plan_again(state=RUNNING)  # what a stop has left
-                store.ledger.commit()
+            drive(store, team or LocalPool(workers, entry, plan.file), stream)
             return store.rows()
     except sqlite3.OperationalError as error:
         full = "full" in str(error) or "disk I/O" in str(error)
@@ -70,6 +61,20 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
         if disk_full(error):
             raise StudyError(_DISK_FULL) from None
         raise
+
+
+def drive(store: Store, team: Team, stream) -> Progress:
+    """Have a team do what is missing in a study's folder; the counts, of which `stream` is told."""
+    queue = collections.deque(store.missing())
+    progress = Progress(store.ledger.counts(), sum(a.effort for a in queue), min(team.size, len(queue)), stream)
+    try:
+        _work_off(store, queue, team, progress)
+    finally:
+        team.stop()
+        progress.end()
+        store.ledger.plan_again(state=RUNNING)  # what a stop has left
+        store.ledger.commit()
+    return progress
 
 
 def check_motions(plan: Plan) -> None:

@@ -57,8 +57,11 @@ class Store:
                 os.replace(own, self.folder / "study.json")
             self.analyses = _share(plan, share)
             self.ledger = Ledger(self.folder / f"{stem(share)}.sqlite", many_readers=share is None)
-        except BaseException:
+        except BaseException as error:
             self._lock.close()
+            if isinstance(error, sqlite3.DatabaseError) and not isinstance(error, sqlite3.OperationalError):
+                raise InputError(self.folder / f"{stem(share)}.sqlite", "", None, f"is damaged ({error}); delete it, the results tell what is done") \
+                    from None
             raise
         try:
             self._reconcile(share)
@@ -88,6 +91,8 @@ class Store:
             elif not outcome and state == DONE:
                 self.ledger.plan_again(case_id=case_id)
         self.ledger.commit()
+        for name in ("analyses", "logs"):
+            (self.folder / name).mkdir(exist_ok=True)
         if share is None:
             for other in others:
                 for file in self.folder.glob(other.name + "*"):
@@ -163,7 +168,8 @@ def read_study(folder) -> Study:
     ledgers, files = [], sorted(folder.glob("study*.sqlite"))
     try:
         for file in files:
-            ledgers.append(open_to_read(file))
+            if ledger := open_to_read(file):
+                ledgers.append(ledger)
         rows = read_rows(*ledgers)
     except sqlite3.Error as error:
         raise InputError(folder, "", None, f"its ledger cannot be read ({error}); run fecolumn study on this folder again") from None

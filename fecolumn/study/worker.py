@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import faulthandler
+import functools
 import importlib
 import os
 import platform
@@ -59,7 +60,6 @@ def work_off(batch: list[Task], run, file: str) -> Iterator[Outcome]:
 def _analyse(task: Task, run, comm, file: str) -> tuple[str, bool]:
     """Do one analysis, its words in its own log: why it failed, empty where it did not, and whether the disk is full."""
     task.folder.mkdir(parents=True, exist_ok=True)
-    task.log.parent.mkdir(parents=True, exist_ok=True)
     (task.folder / "summary.json").unlink(missing_ok=True)  # damaged, or of another case
     problem, full = "", False
     with open(task.log, "a") as log:
@@ -98,6 +98,7 @@ def die_with_parent() -> None:
     ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, int(signal.SIGKILL))
 
 
+@functools.cache
 def machine() -> str:
     """Name and processor of this machine."""
     try:
