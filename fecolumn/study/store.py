@@ -13,6 +13,7 @@ import os
 import socket
 import sqlite3
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.atomic import write_json
@@ -75,9 +76,7 @@ class Store:
 
     def rows(self) -> list[dict]:
         """Every analysis in the order of the study file, its axes and summary as dicts (summary None until done)."""
-        names = ("id", "axes", "state", "reason", "wall_s", "version", "summary")
-        rows = [dict(zip(names, row)) for row in self._ledger.execute(f"SELECT {', '.join(names)} FROM analysis ORDER BY place")]
-        return [{**row, "axes": json.loads(row["axes"]), "summary": json.loads(row["summary"] or "null")} for row in rows]
+        return _rows(self._ledger)
 
     def result_folder(self, case_id: str) -> Path:
         return self.folder / "analyses" / case_id
@@ -134,6 +133,66 @@ class Store:
 
     def __exit__(self, *_):
         self.close()
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """What a study folder holds.
+
+    Attributes:
+        title: of the study file.
+        axes: values of each axis by its dotted key, in the order of the study file.
+        rows: one dict an analysis in the order of the study file: id, axes, state ("planned", "running", "done", "failed"),
+            reason (why it failed), wall_s [s], version, summary (None until done).
+    """
+
+    title: str
+    axes: dict[str, list]
+    rows: list[dict]
+
+
+def read_study(folder) -> Study:
+    """The study in a folder, read without its study file and without touching it, finished or not.
+
+    Raises:
+        InputError: the folder holds no study, or one that cannot be read.
+    """
+    folder = Path(folder)
+    try:
+        identity = json.loads((folder / "study.json").read_text())
+        title, axes = identity["title"], identity["axes"]
+    except (FileNotFoundError, NotADirectoryError):
+        raise InputError(folder, "", None, "holds no study (no study.json); a folder of fecolumn study is needed") from None
+    except (ValueError, KeyError, TypeError):
+        raise InputError(folder / "study.json", "", None, "is damaged") from None
+    try:
+        ledger = _opened_to_read(folder / "study.sqlite")
+        try:
+            rows = _rows(ledger)
+        finally:
+            ledger.close()
+    except sqlite3.Error as error:
+        raise InputError(folder / "study.sqlite", "", None, f"cannot be read ({error}); run fecolumn study on this folder again") from None
+    return Study(title, axes, rows)
+
+
+def _opened_to_read(file: Path) -> sqlite3.Connection:
+    """The ledger, read only; in a folder that may not be written the journal of readers cannot be made, and is not needed."""
+    for option in ("mode=ro", "immutable=1"):
+        ledger = sqlite3.connect(f"{file.resolve().as_uri()}?{option}", uri=True)
+        try:
+            ledger.execute("SELECT count(*) FROM analysis")
+            return ledger
+        except sqlite3.OperationalError:
+            ledger.close()
+            if option == "immutable=1":
+                raise
+
+
+def _rows(ledger: sqlite3.Connection) -> list[dict]:
+    names = ("id", "axes", "state", "reason", "wall_s", "version", "summary")
+    rows = [dict(zip(names, row)) for row in ledger.execute(f"SELECT {', '.join(names)} FROM analysis ORDER BY place")]
+    return [{**row, "axes": json.loads(row["axes"]), "summary": json.loads(row["summary"] or "null")} for row in rows]
 
 
 def _refuse_foreign(folder: Path, identity: dict) -> None:
