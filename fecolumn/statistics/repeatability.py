@@ -121,7 +121,8 @@ def aligned(runs) -> tuple[np.ndarray, np.ndarray]:
 
 def _scatter(paths: np.ndarray) -> np.ndarray:
     """Root mean square distance from the mean run, (steps,)."""
-    deviation = paths - paths.mean(axis=0)
+    deviation = paths - paths[0]  # exactly 0 of equal runs, which their mean is not
+    deviation -= deviation.mean(axis=0)
     return np.sqrt((deviation**2).sum(axis=(0, 2)) / (len(paths) - 1))
 
 
