@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from fecolumn.post.style import BLACK, BLUE, GREY, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
 from fecolumn.statistics.bands import dkw
@@ -46,13 +48,12 @@ def _distributions(axes, a, b, labels, limit_mm: float) -> None:
         axes.step(x, _whole(curve.cdf), where="post", color=colour, linestyle=dashes, zorder=3,
                   label=f"{label}: $n$ = {curve.n}, overturned {100 * curve.overturned / curve.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]")
         if sample is b and curve.x.size:
-            for edge, note in zip(dkw(curve), ("simultaneous 95 % band of the latter", None)):
+            for edge, note in zip(dkw(curve), ("simultaneous 95 % band of the reference", None)):
                 axes.step(x, _whole(edge), where="post", color=colour, linestyle=":", linewidth=0.8, zorder=2, label=note)
     axes.set(xlim=(0, limit_mm), ylim=(0, 1.02), xlabel=r"top displacement $u$ [mm]", ylabel=r"$P\,(u_{\max} \leq u)$")
-    handles, texts = axes.get_legend_handles_labels()
-    order = [texts.index(text) for text in sorted(texts, key=lambda text: (text.startswith("simul"), not text.startswith(labels[0] + ":")))]
-    axes.legend([handles[place] for place in order], [texts[place] for place in order], loc="upper center", bbox_to_anchor=(0.5, -0.17),
-                framealpha=0, borderaxespad=0)
+    *of_b, of_a = axes.get_legend_handles_labels()[0]
+    shade = Patch(facecolor=GREY, alpha=0.4, linewidth=0, label="pointwise 95 % band")
+    axes.legend(handles=[of_a, of_b[0], shade, *of_b[1:]], loc="upper center", bbox_to_anchor=(0.5, -0.17), framealpha=0, borderaxespad=0)
 
 
 def _whole(edge: np.ndarray) -> np.ndarray:
@@ -73,7 +74,7 @@ def _pairs(axes, a, b, labels, limit_mm: float, correlation) -> None:
     axes.plot(x[one], y[one], "D", color=VERMILION, markersize=3.4, markerfacecolor="none", markeredgewidth=0.8, zorder=3,
               label=f"overturns in one: {one.sum()}")
     axes.plot(x[both][:1], y[both][:1], "s", color=BLACK, markersize=4.5, zorder=3, label=f"overturns in both: {both.sum()}")
-    ticks = [tick for tick in axes.get_xticks() if 0 <= tick < 0.97 * limit_mm]
+    ticks = [tick for tick in MaxNLocator(5).tick_values(0, limit_mm) if 0 <= tick < 0.97 * limit_mm]
     names = [f"{tick:g}" for tick in ticks] + ["overturn"]
     axes.set(xlim=(0, end), ylim=(0, end), aspect="equal", xlabel=rf"$u_{{\max}}$ [mm], {labels[1]}", ylabel=rf"$u_{{\max}}$ [mm], {labels[0]}")
     axes.set_xticks([*ticks, fallen], names)

@@ -40,7 +40,7 @@ def main(args) -> int:
     result = compare(a.u_max, a.overturned, b.u_max, b.overturned, paired=paired, cap_m=1e-3 * args.cap_mm, seed=args.seed)
     names = _names(a, b)
     print(f"A  {a.source}: {names[0]}\nB  {b.source}: {names[1]}  (reference)")
-    print("\n".join(notes))
+    print("\n".join(notes) + "\n")
     print(comparison_text(result, a, b, args.cap_mm))
     if args.output:
         for file in _write(Path(args.output), result, a, b, paired, args.cap_mm):
@@ -66,26 +66,24 @@ def comparison_text(result, a, b, cap_mm: float) -> str:
     from fecolumn.statistics.compare import evidence
     from fecolumn.statistics.flips import contingency
 
-    def tested(name, value, p, word=None):
-        return [name, value, f"p = {p:.4f}" if p >= 1e-4 else f"p = {p:.1e}", word or f"evidence of a difference: {evidence(p)}"]
+    def tested(name, value, p):
+        return [name, value, _p(p), evidence(p)]
 
-    lines = [["", "A", "B", ""],
-             ["runs", str(result.n_a), str(result.n_b), ""],
-             ["P(overturn) [95 % Wilson]", _share(a.overturned), _share(b.overturned), ""],
-             ["median u_max [mm]", _millimetres(result.median_a_m), _millimetres(result.median_b_m), ""],
-             ["", "A and B", "", ""],
-             tested("Kolmogorov-Smirnov, D", f"{result.ks:.3f}", result.ks_p, f"evidence of a difference: {result.ks_evidence}"),
-             tested("Anderson-Darling, A2", f"{result.ad:.3f}", result.ad_p),
-             tested("Cramer-von Mises, T", f"{result.cvm:.3f}", result.cvm_p)]
+    of_each = [["", "A", "B"],
+               ["runs", str(result.n_a), str(result.n_b)],
+               ["P(overturn) [95 % Wilson]", _share(a.overturned), _share(b.overturned)],
+               ["median u_max [mm]", _millimetres(result.median_a_m), _millimetres(result.median_b_m)]]
+    of_both = [["A against B", "value", "p", "evidence of a difference"],
+               ["Kolmogorov-Smirnov, D", f"{result.ks:.3f}", _p(result.ks_p), result.ks_evidence],
+               tested("Anderson-Darling, A2", f"{result.ad:.3f}", result.ad_p),
+               tested("Cramer-von Mises, T", f"{result.cvm:.3f}", result.cvm_p)]
     if result.paired_p is not None:
         table = contingency(a.overturned, b.overturned)
-        lines += [tested("same motions: D, settings swapped", f"{result.ks:.3f}", result.paired_p),
-                  tested("overturns in A alone / B alone", f"{table[1, 0]} / {table[0, 1]}", result.mcnemar_p),
-                  [f"correlation R, cap {cap_mm:g} mm", f"{result.correlation:.3f}" if math.isfinite(result.correlation) else "undefined", "", ""]]
-    lines.append(["median error e50 = |A - B| / B", f"{result.e50:.3f}" if math.isfinite(result.e50) else "undefined", "", ""])
-    widths = [max(map(len, column)) for column in zip(*lines)]
-    text = "\n".join(("  ".join([line[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(line[1:3], widths[1:3])), line[3]])).rstrip()
-                     for line in lines)
+        of_both += [tested("same motions: D, settings swapped", f"{result.ks:.3f}", result.paired_p),
+                    tested("overturns in A alone / B alone", f"{table[1, 0]} / {table[0, 1]}", result.mcnemar_p),
+                    [f"correlation R, cap {cap_mm:g} mm", _defined(result.correlation), "", ""]]
+    of_both.append(["median error e50 = |A - B| / B", _defined(result.e50), "", ""])
+    text = f"{_columns(of_each)}\n\n{_columns(of_both)}"
     if result.paired_p is not None:
         text += ("\nThe first three tests take A and B for independent; for the same motions in both their p is too large,"
                  "\nand the one with settings swapped within motions is to be judged by.")
@@ -135,6 +133,21 @@ def _share(overturned) -> str:
     k, n = int(overturned.sum()), overturned.size
     low, high = proportion_interval(k, n)
     return f"{100 * k / n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
+
+
+def _columns(lines) -> str:
+    """First column to the left, figures to the right, words of the fourth to the left."""
+    widths = [max(map(len, column)) for column in zip(*lines)]
+    return "\n".join("  ".join(cell.ljust(width) if place in (0, 3) else cell.rjust(width)
+                               for place, (cell, width) in enumerate(zip(line, widths))).rstrip() for line in lines)
+
+
+def _p(p: float) -> str:
+    return f"{p:.4f}" if p >= 1e-4 else f"{p:.1e}"
+
+
+def _defined(value: float) -> str:
+    return f"{value:.3f}" if math.isfinite(value) else "undefined"
 
 
 def _millimetres(u_m: float) -> str:

@@ -49,7 +49,7 @@ def test_two_settings_of_a_study_are_compared_motion_by_motion(study, tmp_path, 
 def test_setting_and_itself_are_the_same(study, capsys):
     same = f"{study}@integration.dt_s=0.02,integration.alpha_hht=-0.2"
     said = compared(capsys, same, same)
-    assert "p = 1.0000  evidence of a difference: small or none" in said and "0.000" in said
+    assert said.count("1.0000  small or none") == 5 and "0 / 0" in said
 
 
 def test_experiment_with_its_own_motions_matches_by_name(study, tmp_path, capsys):
