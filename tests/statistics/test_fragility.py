@@ -31,6 +31,38 @@ def test_lognormal_is_the_maximum_of_the_likelihood():
     assert (found.median, found.beta) == pytest.approx(other.x, rel=1e-5) and found.loglik == pytest.approx(-other.fun, abs=1e-8)
 
 
+def minus_hessian(function, x, step=1e-4):
+    """By central differences."""
+    e = step * np.eye(len(x))
+    return -np.array([[(function(x + u + v) - function(x + u - v) - function(x - u + v) + function(x - u - v)) / (4 * step**2)
+                       for u in e] for v in e])
+
+
+def test_covariance_is_the_inverse_of_the_observed_information():
+    im, overturned = stripes(np.random.default_rng(1), 10)
+
+    def loglik(q):
+        eta = (np.log(im) - q[0]) / q[1]
+        return norm.logcdf(np.where(overturned, eta, -eta)).sum()
+
+    fit = lognormal(im, overturned)
+    information = minus_hessian(loglik, np.array([math.log(fit.median), fit.beta]))
+    np.testing.assert_allclose(np.linalg.inv(fit.covariance), information, rtol=1e-4)
+
+
+def test_covariance_with_censored_displacements_is_the_inverse_of_the_observed_information():
+    im, u, overturned = draw(np.random.default_rng(12), 60)
+
+    def loglik(q):
+        mean = q[0] + q[1] * np.log(im)
+        return np.where(overturned, norm.logsf(math.log(0.25), mean, q[2]), norm.logpdf(np.log(u), mean, q[2])).sum()
+
+    fit = displacement(im, u, overturned)
+    best = np.append(fit.coefficients, fit.sigma)
+    assert fit.loglik == pytest.approx(loglik(best), abs=1e-9) and overturned.sum() > 10
+    np.testing.assert_allclose(np.linalg.inv(fit.covariance), minus_hessian(loglik, best), rtol=1e-4, atol=1e-3)
+
+
 def test_lognormal_parameters_lie_within_their_intervals_in_95_of_100_ensembles():
     rng, median, beta, curve = np.random.default_rng(2), [], [], []
     for _ in range(800):
