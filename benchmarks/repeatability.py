@@ -26,7 +26,8 @@ def main(folder) -> None:
             axes = row["axes"]
             size = max(abs(axes["contact.friction_coefficient"] / 0.3 - 1), axes["motion.delay_s"] / row["summary"]["dt"])
             motions[axes["motion.source"]][float(f"{size:.0e}")].append((Path(folder) / "analyses" / row["id"] / "history.h5", row["summary"]))
-    print(f"{'motion':34} {'perturbed by':>12} {'runs':>4} {'overturned':>10} {'u_max [mm]':>17} {'horizon [s]':>11} {'rate [1/s]':>10}  95 % interval")
+    print(f"{'motion':34} {'perturbed by':>12} {'runs':>4} {'overturned':>10} {'u_max [mm]':>10} {'apart by':>9} {'spread/peak':>11} {'end [s]':>7} "
+          f"{'horizon [s]':>11} {'rate [1/s]':>10}  95 % interval")
     names, sizes, horizons = [], [], []
     for motion, groups in motions.items():
         for size in sorted(size for size in groups if size):
@@ -40,9 +41,11 @@ def main(folder) -> None:
             sizes.append(size)
             horizons.append(horizon(grown.spread, times, grown.peak, _SHARE))
             peaks = sorted(1e3 * summary["u_max_m"] for _, summary in runs if not summary["overturned"])
-            extent = f"{peaks[0]:.2f} to {peaks[-1]:.2f}" if peaks else "-"
-            rate = f"{grown.rate:10.1f}  [{grown.interval[0]:.1f}, {grown.interval[1]:.1f}]" if math.isfinite(grown.rate) else f"{'-':>10}"
-            print(f"{motion:34} {size:12.0e} {len(runs):4} {sum(s['overturned'] for _, s in runs):10} {extent:>17} {horizons[-1]:11.3f} {rate}")
+            extent = f"{peaks[0]:10.3f} {peaks[-1] / peaks[0] - 1:9.1e}" if peaks else f"{'-':>10} {'-':>9}"
+            end = f"{horizons[-1]:11.3f}" if math.isfinite(horizons[-1]) else f"{'beyond':>11}"
+            rate = f"{grown.rate:10.2f}  [{grown.interval[0]:.2f}, {grown.interval[1]:.2f}]" if math.isfinite(grown.rate) else f"{'-':>10}"
+            print(f"{motion:34} {size:12.0e} {len(runs):4} {sum(summary['overturned'] for _, summary in runs):10} {extent} "
+                  f"{grown.spread.max() / grown.peak:11.1e} {times[-1]:7.2f} {end} {rate}")
     for motion in dict.fromkeys(names):
         of_motion = [place for place, name in enumerate(names) if name == motion and math.isfinite(horizons[place])]
         if len(of_motion) >= 3:

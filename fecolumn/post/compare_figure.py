@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from fecolumn.post.style import BLACK, BLUE, GREY, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
-from fecolumn.statistics.bands import dkw
+from fecolumn.statistics.bands import dkw, dkw_distance
 from fecolumn.statistics.ecdf import censored, ecdf, proportion_interval
 
 _STRIP = 0.09  # beyond the overturn displacement, where overturned runs are drawn; as a share of the axis
@@ -48,17 +48,18 @@ def _distributions(axes, a, b, labels, limit_mm: float) -> None:
         axes.step(x, _whole(curve.cdf), where="post", color=colour, linestyle=dashes, zorder=3,
                   label=f"{label}: $n$ = {curve.n}, overturned {100 * curve.overturned / curve.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]")
         if sample is b and curve.x.size:
-            for edge, note in zip(dkw(curve), ("simultaneous 95 % band of the reference", None)):
-                axes.step(x, _whole(edge), where="post", color=colour, linestyle=":", linewidth=0.8, zorder=2, label=note)
+            lower, upper = dkw(curve)
+            for edge, first, note in ((lower, 0.0, "simultaneous 95 % band of the reference"), (upper, dkw_distance(curve.n), None)):
+                axes.step(x, _whole(edge, first), where="post", color=colour, linestyle=":", linewidth=0.8, zorder=2, label=note)
     axes.set(xlim=(0, limit_mm), ylim=(0, 1.02), xlabel=r"top displacement $u$ [mm]", ylabel=r"$P\,(u_{\max} \leq u)$")
     *of_b, of_a = axes.get_legend_handles_labels()[0]
     shade = Patch(facecolor=GREY, alpha=0.4, linewidth=0, label="pointwise 95 % band")
     axes.legend(handles=[of_a, of_b[0], shade, *of_b[1:]], loc="upper center", bbox_to_anchor=(0.5, -0.17), framealpha=0, borderaxespad=0)
 
 
-def _whole(edge: np.ndarray) -> np.ndarray:
-    """A step function from 0 and on to the end of the axis."""
-    return np.concatenate([[0.0], edge, edge[-1:] if edge.size else [0.0]])
+def _whole(edge: np.ndarray, first: float = 0.0) -> np.ndarray:
+    """A step function from its `first` value at u = 0 on to the end of the axis."""
+    return np.concatenate([[first], edge, edge[-1:] if edge.size else [first]])
 
 
 def _pairs(axes, a, b, labels, limit_mm: float, correlation) -> None:

@@ -103,20 +103,23 @@ def aligned(runs) -> tuple[np.ndarray, np.ndarray]:
     """Runs of different length on common times: (times (steps,), paths (k, steps, d)).
 
     A run that ended earlier, because it overturned, keeps its last value: from then on its distance from the others is that
-    of a column that has fallen.
+    of a column that has fallen. The last row of a thinned history may lie between the others; it counts only as that value.
 
     Args:
-        runs: list of (times (n,), path (n, d)), each with the same step.
+        runs: list of (times (n,), path (n, d)), each with the same step but for the last.
 
     Raises:
         ValueError: steps that differ.
     """
     runs = [(np.asarray(times, float), np.asarray(path, float).reshape(len(times), -1)) for times, path in runs]
-    longest = max((times for times, _ in runs), key=len)
+    common = max((times for times, _ in runs), key=len)
+    if len(common) > 2 and not math.isclose(common[-1] - common[-2], common[1] - common[0], rel_tol=1e-6):
+        common = common[:-1]
     for times, _ in runs:
-        if not np.allclose(times, longest[:times.size], rtol=1e-9, atol=0):
+        inner = times[:-1][:common.size]
+        if not np.allclose(inner, common[:inner.size], rtol=1e-9, atol=0):
             raise ValueError("runs must have the same time step")
-    return longest, np.array([np.pad(path, ((0, longest.size - len(path)), (0, 0)), mode="edge") for _, path in runs])
+    return common, np.array([np.stack([np.interp(common, times, column) for column in path.T], axis=-1) for times, path in runs])
 
 
 def _scatter(paths: np.ndarray) -> np.ndarray:

@@ -75,4 +75,11 @@ def test_run_that_overturned_early_stays_fallen():
     assert times.size == 4 and paths.shape == (2, 4, 2)
     np.testing.assert_array_equal(paths[1, 1:], [[0.25, 0.1]] * 3)
     with pytest.raises(ValueError, match="same time step"):
-        aligned([([0, 1.0], [0, 0]), ([0, 0.5], [0, 0])])
+        aligned([([0, 1.0, 2.0], [0, 0, 0]), ([0, 0.5, 1.0], [0, 0, 0])])
+
+
+def test_last_row_of_a_thinned_history_does_not_make_a_step_of_its_own():
+    thin, times = np.arange(5) * 0.005, np.array([0, 0.005, 0.010, 0.013])
+    common, paths = aligned([(np.append(thin, 0.022), np.append(2 * thin, 0.044)), (times, 2 * times)])
+    np.testing.assert_array_equal(common, thin)
+    np.testing.assert_allclose(paths[:, :, 0], [2 * thin, [0, 0.01, 0.02, 0.026, 0.026]], rtol=1e-12)
