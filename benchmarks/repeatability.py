@@ -36,7 +36,7 @@ def main(folder) -> None:
                 continue
             histories = [read_history(file) for file, _ in runs]
             times, paths = aligned([(history["time"], history["u_top"][:, :2]) for history in histories])
-            grown = spread(paths, times, _SHARE)
+            grown = spread(paths, times, _SHARE, size)
             names.append(motion)
             sizes.append(size)
             horizons.append(horizon(grown.spread, times, grown.peak, _SHARE))
