@@ -32,14 +32,14 @@ def main(args) -> int:
         raise InputError("fecolumn study", "-j", args.jobs, "must be at least 1")
     share = _share(args)
     if not mpi.under_mpirun():
-        return _main(args, share, None)
+        return _run(args, share, None)[0]
     if args.jobs is not None:
         raise InputError("fecolumn study", "-j", args.jobs, "is for one machine; here mpirun -n says how many, one more than analyses at a time")
     with mpi.executor() as pool:
         if pool is None:
             return 0
-        code = _main(args, share, pool)
-        if code == 130 or code == 1 and args.stopped:
+        code, stopped = _run(args, share, pool)
+        if stopped:  # the other ranks are at work
             mpi.abort(code)
     return code
 
@@ -57,11 +57,11 @@ def _share(args) -> tuple[int, int] | None:
     return index, size
 
 
-def _main(args, share, pool) -> int:
+def _run(args, share, pool) -> tuple[int, bool]:
+    """Run the study, by the executor `pool` or in processes; exit code, and whether it was stopped."""
     from fecolumn.study.plan import read_plan
     from fecolumn.study.run import ENTRY, StudyError, check_motions, run_study
 
-    args.stopped = False
     plan = read_plan(args.study)
     if args.entry is None:  # an analysis function of the user's may read motions this package does not know
         check_motions(plan)
@@ -78,12 +78,11 @@ def _main(args, share, pool) -> int:
                          share=share, team=team)
     except KeyboardInterrupt:
         print("stopped; what is done is kept, the same command does the rest", file=sys.stderr, flush=True)
-        return 130
+        return 130, True
     except StudyError as error:
-        args.stopped = True
         print(f"{error}; nothing done is lost, the same command does the rest", file=sys.stderr, flush=True)
-        return 1
-    return _show(plan, rows, args.output, share)
+        return 1, True
+    return _show(plan, rows, args.output, share), False
 
 
 def _show(plan, rows: list[dict], folder, share) -> int:

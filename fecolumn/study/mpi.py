@@ -7,6 +7,7 @@ import os
 from concurrent.futures import FIRST_COMPLETED, wait
 from pathlib import Path
 
+from fecolumn.schema import InputError
 from fecolumn.study.lock import hold_as_worker
 from fecolumn.study.outcome import Outcome, Task
 from fecolumn.study.team import StudyError
@@ -23,11 +24,18 @@ def under_mpirun() -> bool:
 
 @contextlib.contextmanager
 def executor():
-    """An executor of mpi4py.futures on rank 0; None on the others, after they have served it to the end."""
+    """An executor of mpi4py.futures on rank 0; None on the others, after they have served it to the end.
+
+    Raises:
+        InputError: MPI does not know of the ranks the launcher has started.
+    """
     os.environ.update(ONE_THREAD)
     import petsc4py
     from mpi4py import MPI
 
+    if MPI.COMM_WORLD.size == 1:
+        raise InputError("fecolumn study", "", None, "was started in several copies that do not know of each other: use the mpirun of the MPI "
+                         "that mpi4py was built for, or --array-index and --array-size")
     # importing dolfinx starts PETSc on all ranks together, which would wait for those that do not import it
     petsc4py.init(comm=MPI.COMM_SELF)
     from mpi4py.futures import MPICommExecutor

@@ -45,12 +45,14 @@ class Analysis:
         case: what is analysed.
         id: of the case.
         keys, levels: axes, by their dotted keys in the order of the study file, and their values.
+        duration_s: analysed time [s] as far as known: a second where only the motion can tell, and nobody has asked it.
     """
 
-    __slots__ = ("case", "id", "keys", "levels")
+    __slots__ = ("case", "id", "keys", "levels", "duration_s")
 
     def __init__(self, case: Case, case_id: str, keys: tuple[str, ...], levels: tuple):
         self.case, self.id, self.keys, self.levels = case, case_id, keys, levels
+        self.duration_s = case.integration.duration_s or 1.0
 
     @property
     def values(self) -> dict[str, typing.Any]:
@@ -64,9 +66,9 @@ class Analysis:
 
     @property
     def effort(self) -> float:
-        """Expected work in steps of the reduced engine; only ratios count, so an unknown duration counts as one second."""
+        """Expected work in steps of the reduced engine; only ratios count."""
         plan = self.case.integration
-        return (plan.duration_s or 1.0) / plan.dt_s * _COST[plan.engine]
+        return self.duration_s / plan.dt_s * _COST[plan.engine]
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import collections
+import dataclasses
 import sqlite3
 import sys
 
@@ -78,16 +79,24 @@ def drive(store: Store, team: Team, stream) -> Progress:
 
 
 def check_motions(plan: Plan) -> None:
-    """Load every ground motion once with every step it is run with, before anything runs.
+    """Load every ground motion once, before anything runs, and note how long its analyses are.
 
     Raises:
         InputError: a motion that cannot be used, in the loader's words.
     """
     from fecolumn.motions.load import load_motion
 
-    pairs = dict.fromkeys((a.case.motion, a.case.integration.dt_s) for a in plan.analyses if a.case.motion)
-    for motion, dt_s in pairs:
-        load_motion(motion, dt_s, plan.file)
+    # factor and direction change neither length nor whether it can be used; the longest step is the most demanding
+    longest_step, users = {}, {}
+    for analysis in plan.analyses:
+        if motion := analysis.case.motion:
+            key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
+            longest_step[key] = max(longest_step.get(key, 0.0), analysis.case.integration.dt_s)
+            users.setdefault(key, []).append(analysis)
+    for motion, dt_s in longest_step.items():
+        ground = load_motion(motion, dt_s, plan.file)
+        for analysis in users[motion]:
+            analysis.duration_s = analysis.case.integration.duration_s or ground.duration + motion.free_vibration_s
 
 
 def _work_off(store: Store, queue: collections.deque[Analysis], team: Team, progress: Progress) -> None:

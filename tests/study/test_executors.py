@@ -82,6 +82,13 @@ def test_a_rank_that_dies_ends_the_job_and_the_next_one_does_the_rest(tmp_path, 
     assert all(count == 1 for name, count in _calls(tmp_path / "out").items() if name in finished)
 
 
+def test_copies_that_do_not_know_of_each_other_are_refused(tmp_path):
+    study = write_study(tmp_path)
+    done = subprocess.run(list(map(str, [*COMMAND, study, "-o", tmp_path / "out"])), capture_output=True, text=True,
+                          env=_environment(PMI_SIZE="4"), timeout=60)
+    assert done.returncode == 2 and "do not know of each other" in done.stderr and not (tmp_path / "out").exists()
+
+
 def test_tasks_of_a_job_array_work_in_one_folder_at_once(tmp_path, study, expected):
     command = [*COMMAND, study, "-o", tmp_path / "out", "--entry", ENTRY]
     tasks = [subprocess.Popen(list(map(str, [*command, "-j", 1, "--array-index", index, "--array-size", 3])), stdout=subprocess.PIPE,
