@@ -15,13 +15,13 @@ def axis_text(key: str, value) -> str:
     if isinstance(value, dict):
         return ", ".join(axis_text(f"{key}.{inner}", item) for inner, item in value.items())
     number = f"{value:g}".replace("-", "\N{MINUS SIGN}") if isinstance(value, (int, float)) and not isinstance(value, bool) else str(value)
-    unit = _unit(key)
+    unit = axis_unit(key)
     name = _SYMBOLS.get(key, key.split(".")[-1].removesuffix(f"_{unit}").replace("_", " "))
     return f"{name} = {number}" + (f" {unit}" if unit != "-" else "")
 
 
-def _unit(key: str) -> str:
-    """Unit of a key, from the case's own declaration."""
+def axis_unit(key: str) -> str:
+    """Unit of a key, from the case's own declaration; "-" where it has none."""
     section, _, name = key.partition(".")
     kind = typing.get_type_hints(Case)[section]
     owner = next((k for k in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(k)), Case)

@@ -1,0 +1,104 @@
+"""What a report is made of: sections of paragraphs, figures and tables, numbered as they come."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from fecolumn.atomic import write_bytes
+
+_REFERENCE = re.compile(r"\[\[(\w+)\]\]")
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """Text; "[[name]]" stands for "Figure 3" or "Table 2"."""
+
+    text: str
+    kind: str = "text"
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A figure already written as name.png, .pdf and .svg; `wide` ones may be scrolled on a narrow screen."""
+
+    name: str
+    svg: Path
+    caption: str
+    kind: str = "figure"
+
+    @property
+    def source(self) -> str:
+        """The drawing as a data URI: an image of its own, whose names cannot clash with those of other figures."""
+        return "data:image/svg+xml;base64," + base64.b64encode(self.svg.read_bytes()).decode()
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of a table: its name in the CSV file, its heading with the unit, how a value is written."""
+
+    name: str
+    heading: str
+    form: Callable[[Any], str] = str
+    text: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table; rows hold plain values, which the CSV file takes as they are. `folded` ones open on demand."""
+
+    name: str
+    columns: tuple[Column, ...]
+    rows: list[tuple]
+    caption: str
+    folded: bool = False
+    kind: str = "table"
+
+    def cells(self) -> list[list[str]]:
+        """What the page shows."""
+        return [[column.form(value) for column, value in zip(self.columns, row)] for row in self.rows]
+
+    def write_csv(self, folder: Path) -> Path:
+        """Write name.csv."""
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow([column.name for column in self.columns])
+        writer.writerows([["" if value is None or value != value else value for value in row] for row in self.rows])
+        write_bytes(folder / f"{self.name}.csv", text.getvalue().encode())
+        return folder / f"{self.name}.csv"
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A numbered section."""
+
+    title: str
+    blocks: list = field(default_factory=list)
+
+    @property
+    def anchor(self) -> str:
+        return re.sub(r"\W+", "-", self.title.lower())
+
+
+def numbered(sections: list[Section]) -> dict[str, str]:
+    """"Figure 1", "Table 1" of every figure and table by name."""
+    labels: dict[str, str] = {}
+    for kind in ("figure", "table"):
+        named = [block for section in sections for block in section.blocks if block.kind == kind]
+        labels |= {block.name: f"{kind.capitalize()}\N{NO-BREAK SPACE}{place}" for place, block in enumerate(named, 1)}
+    return labels
+
+
+def referenced(text: str, labels: dict[str, str]) -> str:
+    """Text with its references resolved.
+
+    Raises:
+        KeyError: a figure or table that is not there.
+    """
+    return _REFERENCE.sub(lambda match: labels[match[1]], text)
