@@ -65,9 +65,9 @@ def line_trends(sweep: Sweep, axis: str) -> list[LineTrend]:
     return [LineTrend(line, found, float(p), _fine_trend(line)) for line, found, p in zip(lines, trends, corrected)]
 
 
-def individual_claims(sweep: Sweep) -> list[Claim]:
-    """That peaks change with the setting, and that no trend is in it, axis by axis."""
-    return [_change(sweep), *(_trend(sweep, axis) for axis in sweep.varied)]
+def individual_claims(sweep: Sweep, axes) -> list[Claim]:
+    """That peaks change with the setting, and that no trend is in it, for each of the axes."""
+    return [_change(sweep), *(_trend(sweep, axis) for axis in axes)]
 
 
 def _fine_trend(line: Line) -> Trend | None:
