@@ -74,7 +74,7 @@ def _scatter(axes, a: Variable, b: Variable, limit: float) -> None:
 
 def _name(axes, a: Variable, count: int) -> None:
     size = 8.5 if count < 5 else 7.5
-    axes.text(0.5, 0.56, a.name.replace(", ", "\n"), transform=axes.transAxes, ha="center", va="center", fontsize=size, weight="bold")
+    axes.text(0.5, 0.56, a.name.replace(", ", "\n"), transform=axes.transAxes, ha="center", va="center", fontsize=size + 1)
     axes.text(0.5, 0.2, f"{int(a.overturned.sum())} of {a.overturned.size}\noverturned", transform=axes.transAxes, ha="center", va="center",
               fontsize=size - 1)
 

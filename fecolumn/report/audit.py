@@ -9,7 +9,7 @@ from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.distributions import axis_columns
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import axis_name, count, level_text, number, setting_text
+from fecolumn.report.notation import axis_name, count, fixed, number, setting_text
 from fecolumn.report.sweep import Setting, Sweep
 from fecolumn.study.store import DONE, FAILED
 
@@ -64,14 +64,22 @@ def _table(sweep: Sweep) -> Table:
              _share(setting, "algorithmic"), _share(setting, "impact"), _share(setting, "friction"), _first_and_last(setting)[0], _first_and_last(setting)[1])
             for setting in sweep.settings]
     columns = (*axis_columns(sweep.varied), Column("planned", "planned"), Column("done", "done"), Column("failed", "failed"),
-               Column("closure_median", "closure, median", number), Column("closure_worst", "closure, worst", number),
-               Column("penetration_max_m", "penetration, worst [mm]", lambda value: number(None if value is None else 1e3 * value)),
-               Column("cuts", "step cuts, sum", number), Column("impacts_mean", "impacts, mean", number),
-               Column("algorithmic_share", "loss by damping", number), Column("impact_share", "by impact", number), Column("friction_share", "by friction", number),
-               Column("overturn_first_s", "overturned from [s]", number), Column("overturn_last_s", "to [s]", number))
+               Column("closure_median", "closure, median", number), Column("closure_worst", "worst", number),
+               Column("penetration_max_m", "pene\N{SOFT HYPHEN}tration [mm]", lambda value: number(None if value is None else 1e3 * value)),
+               Column("cuts", "step cuts", number), Column("impacts_mean", "impacts a run", number),
+               Column("algorithmic_share", "loss by damping [%]", _hundred), Column("impact_share", "impact [%]", _hundred), Column("friction_share", "friction [%]", _hundred),
+               Column("overturn_first_s overturn_last_s", "overturned at [s]", _span))
     return Table("audit", columns, rows, "Audit of every setting: analyses; relative closure error of the energy ledger; largest penetration; step cuts; impacts; of the energy "
                  "lost, the parts taken by numerical damping, impact and friction (sums over the motions; negative where energy was gained); "
                  "first and last overturn.", folded=len(rows) > _FOLD)
+
+
+def _span(first, last) -> str:
+    return number(None) if first is None else f"{fixed(first)}–{fixed(last)}"
+
+
+def _hundred(share) -> str:
+    return fixed(None if share is None else 100 * share, 1)
 
 
 def _median_and_worst(setting: Setting, name: str):

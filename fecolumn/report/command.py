@@ -6,6 +6,7 @@ from __future__ import annotations
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn report`."""
     parser.add_argument("study", metavar="DIR", help="folder of fecolumn study, finished or not; the report goes to DIR/report")
+    parser.add_argument("-o", "--output", metavar="DIR", default=None, help="another folder for the report")
 
 
 def main(args) -> int:
@@ -16,5 +17,5 @@ def main(args) -> int:
     """
     from fecolumn.report.page import write_report
 
-    print(f"wrote {write_report(args.study)}")
+    print(f"wrote {write_report(args.study, args.output)}")
     return 0

@@ -31,8 +31,7 @@ def _different(key: str, paper: str, pairs: list[Pair]) -> Claim:
     clear, widest = [pair for pair in pairs if pair.p_holm < 0.05], max(pairs, key=lambda pair: pair.distance)
     excluded = max(pair.bound for pair in pairs)
     parts = [f"{len(clear)} of {count(len(pairs), 'pair')} differ significantly; {_widest(widest)}"]
-    if not clear:
-        parts.append(_open(excluded))
+    parts.append(_why(widest) if clear else _open(excluded))
     return Claim(key, paper, " ".join(parts), _DIFFERENT, SUPPORTED if clear else NOT_SUPPORTED if excluded <= MARGIN else UNDECIDED)
 
 
@@ -61,8 +60,8 @@ def _names(pair: Pair) -> str:
 
 
 def _open(bound: float) -> str:
-    text = f"Not significant is not equal: the largest difference of two CDFs that the data cannot exclude at 95 % is {fixed(bound)}"
-    return text + (f", below {MARGIN:.2f}." if bound <= MARGIN else f", more than {MARGIN:.2f}.")
+    text = f"Not significant is not equal: the largest difference of two CDFs that the data cannot exclude at 95 % is {fixed(bound, 3)}"
+    return text + (f", below {MARGIN:.3f}." if bound <= MARGIN else f", more than {MARGIN:.3f}.")
 
 
 def _why(pair: Pair) -> str:

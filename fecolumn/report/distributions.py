@@ -13,7 +13,7 @@ from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.claim import CALIBRATION_TARGET, MARGIN
 from fecolumn.report.document import Column, Figure, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, number, p_value, percent, setting_text)
+from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, number, p_value, percent, percent_interval, setting_text)
 from fecolumn.report.pair import Pair
 from fecolumn.report.sweep import Setting, Sweep
 from fecolumn.statistics.convergence import cdf_convergence
@@ -21,8 +21,8 @@ from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
 
 _LINES, _PANELS, _ROWS = 7, 9, 40
 _FOLD = 20
-TARGET_NOTE = (f"{percent(CALIBRATION_TARGET)} is a calibration target, not a result: the specimen's size is not published, and height and cap "
-               "were chosen so that P(overturn) comes near it")
+TARGET_NOTE = (f"{percent(CALIBRATION_TARGET)} is a calibration target, never a result: the specimen's size is not published, and height and cap "
+               "are there to be chosen so that P(overturn) comes near it")
 
 
 def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
@@ -41,11 +41,11 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
     blocks.insert(0, Paragraph(_opening(sweep, first)))
     blocks += _overturning(sweep, gallery)
     if pairs:
-        blocks += [Paragraph("[[comparisons]] compares settings that differ in one parameter alone. The same motions are in both, so the paired "
+        blocks += [Paragraph("[[families]] and, pair by pair, [[comparisons]] compare settings that differ in one parameter alone. The same motions are in both, so the paired "
                              "permutation p is the one to judge by, and that of independent samples is conservative; p (Holm) is the paired one, "
-                             "corrected for the family of tests that answer one question. The last column is the other side of the test: "
-                             f"the largest distance that the data cannot exclude at 95 %. For scale: two times 115 motions need {fixed(MARGIN)} to reject."),
-                   _comparisons(sweep, pairs)]
+                             "corrected for the family of tests that answer one question. The last column is the other side of the test, the "
+                             f"largest distance that the data cannot exclude at 95 %. For scale: two times 115 motions need {fixed(MARGIN)} to reject."),
+                   _families(pairs), _comparisons(sweep, pairs)]
     return Section("Distributions", blocks + _convergence(sweep, gallery))
 
 
@@ -99,21 +99,21 @@ def _overturning(sweep: Sweep, gallery: Gallery) -> list:
         estimates.append(Estimate(_in_figure({axis: setting.values[axis] for axis in sweep.varied}) or "all analyses",
                                   100 * k / n, 100 * wilson[0], 100 * wilson[1]))
     table = Table("p_overturn", (*axis_columns(sweep.varied), Column("planned", "planned"), Column("n", "run"),
-                                 Column("overturned", "over\N{SOFT HYPHEN}turned", _whole), Column("p_overturn", "P(overturn)", percent),
-                                 Column("wilson_low", "Wilson low", percent), Column("wilson_high", "high", percent),
-                                 Column("exact_low", "exact low", percent), Column("exact_high", "high", percent),
+                                 Column("overturned", "over\N{SOFT HYPHEN}turned", _whole),
+                                 Column("p_overturn", "P(overturn) [%]", lambda share: fixed(None if share is None else 100 * share, 1)),
+                                 Column("wilson_low wilson_high", "Wilson [%]", percent_interval), Column("exact_low exact_high", "exact [%]", percent_interval),
                                  Column("u_max_16_m", "u₁₆ [mm]", millimetres), Column("u_max_50_m", "u₅₀ [mm]", millimetres),
                                  Column("u_max_84_m", "u₈₄ [mm]", millimetres)), rows,
                   "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and Pearson), and percentiles of u_max; “overturn” where that "
                   f"share of the runs does not stand. {TARGET_NOTE}." if gallery.paper else
                   "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and Pearson), and percentiles of u_max; “overturn” where that "
                   "share of the runs does not stand.", folded=len(rows) > _ROWS)
-    if len(estimates) < 2:
+    if not 2 <= len(estimates) <= _ROWS:
         return [table]
     scale = Scale(r"$P$(overturn) [%], 95 % interval (Wilson)", (0, None),
                   *((100 * CALIBRATION_TARGET, "calibration target 43.5 %") if gallery.paper else ()))
-    files = interval_figure([(scale, estimates[:_ROWS])], gallery.path("p_overturn"), gallery.formats)
-    caption = "Probability of overturning in every setting" + (f" ({_ROWS} of {len(estimates)})" if len(estimates) > _ROWS else "") + "."
+    files = interval_figure([(scale, estimates)], gallery.path("p_overturn"), gallery.formats)
+    caption = "Probability of overturning in every setting."
     return [gallery.figure("overturning", files, caption + (f" Dashed: {TARGET_NOTE}." if gallery.paper else "")), table]
 
 
@@ -133,6 +133,15 @@ def _level(value) -> str:
     return f"{value:g}".replace("-", "\N{MINUS SIGN}") if plain else str(value)
 
 
+def _levels(axis: str, low, high) -> str:
+    return f"{axis_name(axis)}: {level_text(axis, low)}, {level_text(axis, high)}"
+
+
+def setting_words(values: dict) -> str:
+    """Values of the other axes, nothing where there are none."""
+    return setting_text(values) if values else ""
+
+
 def _whole(value) -> str:
     return "\N{EM DASH}" if value is None else str(value)
 
@@ -141,12 +150,11 @@ def _comparisons(sweep: Sweep, pairs: list[Pair]) -> Table:
     rows = []
     for pair in pairs:
         it = pair.comparison
-        rows.append((axis_name(pair.axis), level_text(pair.axis, pair.low), level_text(pair.axis, pair.high),
-                     setting_text({key: value for key, value in pair.others.items() if key in sweep.varied}) if pair.others else "", it.n_a,
+        rows.append((pair.axis, pair.low, pair.high, {key: value for key, value in pair.others.items() if key in sweep.varied}, it.n_a,
                      it.ks, it.ks_p, it.ks_evidence, it.paired_p, pair.p_holm, it.ad_p, it.cvm_p, it.e50, it.correlation, it.flips,
                      it.mcnemar_p, pair.bound))
-    columns = (Column("axis", "axis", text=True), Column("low", "a", text=True), Column("high", "b", text=True), Column("others", "at", text=True),
-               Column("n", "n"), Column("ks", "KS D", fixed), Column("ks_p", "p", p_value), Column("ks_evidence", "evidence", text=True),
+    columns = (Column("axis a b", "a against b", _levels, text=True), Column("at", "at", setting_words, text=True),
+               Column("n", "n"), Column("ks", "D", fixed), Column("ks_p", "p", p_value), Column("ks_evidence", "evidence", text=True),
                Column("paired_p", "paired p", p_value), Column("p_holm", "p (Holm)", p_value), Column("ad_p", "AD p", p_value),
                Column("cvm_p", "CvM p", p_value), Column("e50", "e₅₀", fixed), Column("correlation", "R", fixed), Column("flips", "flips"),
                Column("mcnemar_p", "McNemar p", p_value), Column("bound_95", "D not excluded", fixed))
@@ -154,6 +162,21 @@ def _comparisons(sweep: Sweep, pairs: list[Pair]) -> Table:
                  "for the evidence against one distribution; p of paired permutations; Anderson-Darling and Cramér-von Mises as independent samples; error of the "
                  "median e₅₀ (a against b); correlation R with overturned runs at the limit; motions that overturn in one setting alone (flips) with McNemar's p.",
                  folded=len(rows) > _FOLD)
+
+
+def _families(pairs: list[Pair]) -> Table:
+    rows = []
+    for family in dict.fromkeys(pair.family for pair in pairs):
+        own = [pair for pair in pairs if pair.family == family]
+        axis, _, kind = family.partition(", ")
+        rows.append((axis, kind or "all", len(own), sum(pair.p_holm < 0.05 for pair in own), max(pair.distance for pair in own),
+                     min(pair.comparison.ks_p for pair in own), min(pair.comparison.paired_p for pair in own), min(pair.p_holm for pair in own),
+                     max(pair.bound for pair in own)))
+    columns = (Column("axis", "settings that differ in", axis_name, text=True), Column("pairs_of", "pairs", text=True), Column("pairs", "number"), Column("significant", "p (Holm) < 0.05"),
+               Column("ks_max", "largest D", fixed), Column("ks_p_min", "least p, independent", p_value), Column("paired_p_min", "least p, paired", p_value),
+               Column("p_holm_min", "least p (Holm)", p_value), Column("bound_95_max", "largest D not excluded", fixed))
+    return Table("families", columns, rows, "Families of pairs: the largest Kolmogorov-Smirnov distance D of two CDFs, the smallest p values, and the largest distance that "
+                 "the data cannot exclude at 95 % in the pair where they say least.")
 
 
 def _convergence(sweep: Sweep, gallery: Gallery) -> list:

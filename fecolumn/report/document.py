@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import csv
 import io
+import itertools
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -14,6 +15,7 @@ from typing import Any
 from fecolumn.atomic import write_bytes
 
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
+_WIDE = 11
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,12 +43,19 @@ class Figure:
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column of a table: its name in the CSV file, its heading with the unit, how a value is written."""
+    """A column of the page's table: its names in the CSV file, its heading with the unit, how its values are written.
+
+    A column may show several values in one cell, such as an interval; `name` then holds their names with blanks between.
+    """
 
     name: str
     heading: str
-    form: Callable[[Any], str] = str
+    form: Callable[..., str] = str
     text: bool = False
+
+    @property
+    def names(self) -> list[str]:
+        return self.name.split()
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,16 +71,32 @@ class Table:
 
     def cells(self) -> list[list[str]]:
         """What the page shows."""
-        return [[column.form(value) for column, value in zip(self.columns, row)] for row in self.rows]
+        cells = []
+        for row in self.rows:
+            values = iter(row)
+            cells.append([column.form(*itertools.islice(values, len(column.names))) for column in self.columns])
+        return cells
+
+    @property
+    def wide(self) -> bool:
+        """Whether it may stand out into the margins."""
+        return len(self.columns) > _WIDE
 
     def write_csv(self, folder: Path) -> Path:
         """Write name.csv."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow([column.name for column in self.columns])
-        writer.writerows([["" if value is None or value != value else value for value in row] for row in self.rows])
+        writer.writerow([name for column in self.columns for name in column.names])
+        writer.writerows([[_plain(value) for value in row] for row in self.rows])
         write_bytes(folder / f"{self.name}.csv", text.getvalue().encode())
         return folder / f"{self.name}.csv"
+
+
+def _plain(value):
+    """A value as the CSV file takes it: nothing for what is missing, key=value for a setting."""
+    if isinstance(value, dict):
+        return " ".join(f"{key}={item}" for key, item in value.items())
+    return "" if value is None or value != value else value
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,11 +6,11 @@ import numpy as np
 
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.scatter_matrix import Variable, scatter_matrix
-from fecolumn.report.distributions import axis_columns
+from fecolumn.report.distributions import setting_words
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.individual_claims import line_trends, spread
-from fecolumn.report.notation import axis_name, count, fixed, millimetres, number, p_value, percent, setting_text
+from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres, number, p_value, percent, setting_text
 from fecolumn.report.sweep import Line, Sweep
 
 _VARIABLES, _MATRICES, _FOLD = 6, 4, 20
@@ -28,12 +28,11 @@ def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
                  f"overturn in some and stand in others" + (f"; of those that always stand, the largest peak is {fixed(float(np.median(found.factor)))} "
                  f"times the smallest in the median." if found.factor.size else "."))
     blocks = [Paragraph(text), *matrices]
-    rows = [row for axis in sweep.varied for row in _trends(sweep, axis)]
+    rows = [row for axis in sweep.varied if all(isinstance(level, (int, float)) for level in sweep.axes[axis]) for row in _trends(sweep, axis)]
     if rows:
-        others = "at"
-        blocks.append(Table("trends", (Column("axis", "along", text=True), Column("others", others, text=True), Column("levels", "levels"), Column("n", "n"),
-                                       Column("rising", "rise"), Column("falling", "fall"), Column("tau", "mean τ", fixed), Column("tau_low", "low", fixed),
-                                       Column("tau_high", "high", fixed), Column("p", "p", p_value), Column("p_holm", "p (Holm)", p_value)), rows,
+        blocks.append(Table("trends", (Column("axis", "along", axis_name, text=True), Column("at", "at", setting_words, text=True), Column("levels", "levels"), Column("n", "n"),
+                                       Column("rising", "rise"), Column("falling", "fall"), Column("tau", "mean τ", fixed), Column("tau_low tau_high", "95 %", interval),
+                                       Column("p", "p", p_value), Column("p_holm", "p (Holm)", p_value)), rows,
                             "Trend of the peak of one and the same motion along a parameter: motions whose peak rises or falls on the whole, mean Kendall τ "
                             "with its 95 % interval over the motions, p of no trend (Page; sign test for two levels). Overturned runs rank above all standing ones.",
                             folded=len(rows) > _FOLD))
@@ -61,7 +60,7 @@ def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
 
 
 def _trends(sweep: Sweep, axis: str) -> list[tuple]:
-    return [(axis_name(axis), setting_text({key: value for key, value in one.line.others.items() if key in sweep.varied}) if one.line.others else "",
+    return [(axis, {key: value for key, value in one.line.others.items() if key in sweep.varied},
              one.trend.levels, one.trend.n, one.trend.rising, one.trend.falling, one.trend.tau, one.trend.tau_low, one.trend.tau_high, one.trend.p, one.p_holm)
             for one in line_trends(sweep, axis)]
 

@@ -107,7 +107,7 @@ def _trend(sweep: Sweep, axis: str) -> Claim:
     low, high = min(one.trend.tau for one in found), max(one.trend.tau for one in found)
     reach = f"τ = {fixed(low)}" if len(found) == 1 else f"τ from {fixed(low)} to {fixed(high)} over {count(len(found), 'line')}"
     up, down = sum(one.trend.rising for one in found), sum(one.trend.falling for one in found)
-    parts = [f"Along {name}, {reach}; peaks rise {up} and fall {down} times."]
+    parts = [f"Along {name}, {reach}; with rising {name}, peaks rise {up} and fall {down} times."]
     worst = min(found, key=lambda one: (one not in wrong, one.p_holm))
     if wrong:
         parts.append(f"Here ours disagrees: {_line(worst)} the trend is τ = {fixed(worst.trend.tau)} "

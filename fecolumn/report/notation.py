@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import math
+import re
 
 from fecolumn.post.axis_text import axis_unit
 
 MINUS, DASH, THIN = "\N{MINUS SIGN}", "\N{EM DASH}", "\N{NARROW NO-BREAK SPACE}"
 _SYMBOLS = {"integration.dt_s": "\N{GREEK CAPITAL LETTER DELTA}t", "integration.alpha_hht": "\N{GREEK SMALL LETTER ALPHA}",
             "contact.friction_coefficient": "\N{GREEK SMALL LETTER MU}"}
+_TYPESET = [(re.compile(pattern), replacement) for pattern, replacement in (
+    (r"\bu_max\b", "<i>u</i><sub>max</sub>"), (r"\bu([₀-₉]{2})", r"<i>u</i>\1"), (r"\be([₀-₉]{2})", r"<i>e</i>\1"),
+    (r"\bP\(", "<i>P</i>("), (r"Δt\b", "Δ<i>t</i>"), (r"([αμτ])", r"<i>\1</i>"),
+    (r"\b([pnRD])(?=[\s\u202f]?(?:=|&lt;)|\Z)", r"<i>\1</i>"))]
 _SUPERSCRIPTS = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -57,6 +62,21 @@ def interval(low, high, form=fixed) -> str:
     return f"[{form(low)}, {form(high)}]"
 
 
+def percent_interval(low, high) -> str:
+    """"[34.8, 52.6]" of two shares, in per cent."""
+    return DASH if low is None else interval(100 * low, 100 * high, lambda value: fixed(value, 1))
+
+
+def typeset(text: str):
+    """Plain text as HTML: escaped, symbols in italics, true apostrophes."""
+    from markupsafe import Markup, escape
+
+    html = str(escape(text.replace("'", "\N{RIGHT SINGLE QUOTATION MARK}")))
+    for pattern, replacement in _TYPESET:
+        html = pattern.sub(replacement, html)
+    return Markup(html)
+
+
 def count(n: int, noun: str) -> str:
     """"1 motion", "3 motions"; nouns in -s stay ("analysis" takes "analyses")."""
     plural = {"analysis": "analyses"}.get(noun, noun + "s")
@@ -83,5 +103,5 @@ def setting_text(values: dict) -> str:
     """Values of all axes, such as "Δt = 0.001 s, α = −0.2"."""
     if not values:
         return "all analyses"
-    return ", ".join(level_text(key, value) if isinstance(value, dict) else f"{axis_name(key)} = {level_text(key, value)}"
+    return ", ".join(level_text(key, value) if isinstance(value, dict) else f"{axis_name(key)}\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}{level_text(key, value)}"
                      for key, value in values.items())

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from fecolumn.atomic import write_bytes
 from fecolumn.report.audit import audit
-from fecolumn.report.claim import CALIBRATION_TARGET, Claim
+from fecolumn.report.claim import SUPPORTED, Claim
 from fecolumn.report.cost import cost_claims
 from fecolumn.report.distribution_claims import distribution_claims
 from fecolumn.report.distributions import TARGET_NOTE, distributions
@@ -17,7 +17,7 @@ from fecolumn.report.document import Column, Paragraph, Section, Table, numbered
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.individual import individual
 from fecolumn.report.individual_claims import individual_claims
-from fecolumn.report.notation import axis_name, count, percent, setting_text
+from fecolumn.report.notation import axis_name, count, percent, setting_text, typeset
 from fecolumn.report.pair import Pair, read_pairs
 from fecolumn.report.provenance import provenance
 from fecolumn.report.sensitivity import sensitivity_section
@@ -36,8 +36,8 @@ class ClaimList:
     kind: str = "claims"
 
 
-def write_report(folder) -> Path:
-    """Write folder/report/index.html, its figures and its tables; returns the page.
+def write_report(folder, output=None) -> Path:
+    """Write index.html, its figures and its tables into `output`, or folder/report; returns the page.
 
     Raises:
         InputError: the folder holds no study, or none of its analyses is done.
@@ -45,7 +45,7 @@ def write_report(folder) -> Path:
     sweep = read_sweep(folder)
     if not sweep.done:
         raise InputError(folder, "", None, f"none of its {len(sweep.rows)} analyses is done; nothing to report yet")
-    target = Path(folder) / "report"
+    target = Path(output) if output else Path(folder) / "report"
     for part in ("figures", "tables"):  # of an earlier report, which may have had others
         shutil.rmtree(target / part, ignore_errors=True)
         (target / part).mkdir(parents=True)
@@ -77,12 +77,12 @@ def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
 
 
 def _claims_section(sweep: Sweep, claims: list[Claim]) -> Section:
-    table = Table("claims", (Column("claim", "claim", text=True), Column("paper", "the paper’s finding", text=True), Column("verdict", "here", text=True),
+    table = Table("claims", (Column("claim", "claim", text=True), Column("paper", "the paper’s finding", text=True), Column("verdict", "here", lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"), text=True),
                              Column("ours", "finding"), Column("rule", "rule")),
                   [(claim.key, claim.paper, claim.verdict, claim.ours, claim.rule) for claim in claims], "")
     short = Table("claims", table.columns[:3], [row[:3] for row in table.rows], "The paper’s findings and this study’s verdicts.")
     text = ("Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three time steps and five values of α, and found (a) that single peaks depend on both without "
-            f"trend, (b) that the distribution does not depend on the time step once it is small, (c) that α is then marginal, (d) what it costs. Their P(overturn), {TARGET_NOTE}. "
+            f"trend, (b) that the distribution does not depend on the time step once it is small, (c) that α is then marginal, (d) what it costs. On their P(overturn): {TARGET_NOTE}. "
             "What follows judges each finding on this study by a rule stated beforehand; “supported” says that this study shows the same, “undecided” that it cannot tell.")
     return Section("The paper’s findings", [Paragraph(text), short, ClaimList(claims)])
 
@@ -97,11 +97,12 @@ def _html(sweep: Sweep, sections: list[Section]) -> str:
 
     return pages.get_template("page.html").render(
         title=sweep.title, byline=_byline(sweep), abstract=_abstract(sweep, sections), sections=sections, labels=labels,
-        style=Markup((here / "page.css").read_text()), text=lambda words: referenced(words, labels))
+        style=Markup((here / "page.css").read_text()), plain=lambda words: referenced(words, labels),
+        text=lambda words: typeset(referenced(words, labels)))
 
 
 def _byline(sweep: Sweep) -> str:
-    return f"fecolumn, {datetime.date.today():%-d %B %Y}. {count(len(sweep.rows), 'analysis')}: {count(len(sweep.done), 'setting')}, {count(len(sweep.motions), 'motion')}"
+    return f"fecolumn, {datetime.date.today():%-d %B %Y}. {count(len(sweep.rows), 'analysis')}: {count(len(sweep.settings), 'setting')} × {count(len(sweep.motions), 'motion')}"
 
 
 def _abstract(sweep: Sweep, sections: list[Section]) -> str:
@@ -122,9 +123,10 @@ def _abstract(sweep: Sweep, sections: list[Section]) -> str:
         parts.append(f"P(overturn) is {percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
     claims = next((block.claims for section in sections for block in section.blocks if isinstance(block, ClaimList)), [])
     if claims:
-        tally = {verdict: [claim.key.split(",")[0] for claim in claims if claim.verdict == verdict] for verdict in dict.fromkeys(c.verdict for c in claims)}
-        parts.append(f"Of {len(claims)} findings of Katsamakas and Vassiliou put to it, " + _listed([f"{len(keys)} {'is' if len(keys) == 1 else 'are'} {verdict}"
-                                                                                             for verdict, keys in tally.items()]) + ".")
+        tally = {verdict: [claim.key for claim in claims if claim.verdict == verdict] for verdict in dict.fromkeys(c.verdict for c in claims)}
+        parts.append(f"Of {len(claims)} findings of Katsamakas and Vassiliou put to it, " + _listed([
+            f"{len(keys)} {'is' if len(keys) == 1 else 'are'} {verdict}" + ("" if verdict == SUPPORTED else f" ({'; '.join(keys)})")
+            for verdict, keys in tally.items()]) + ".")
     return " ".join(parts)
 
 

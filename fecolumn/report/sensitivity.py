@@ -5,7 +5,7 @@ from __future__ import annotations
 from fecolumn.post.interval_figure import Estimate, Scale, interval_figure
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import axis_name, count, fixed, interval, level_text, percent
+from fecolumn.report.notation import axis_name, count, fixed, interval, level_text, percent_interval
 from fecolumn.report.ranking import Rank, ranking
 from fecolumn.report.sweep import Sweep
 
@@ -19,8 +19,8 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
     above = [axis_name(rank.axis) for rank in ranks if rank.effect.distance > rank.effect.chance]
     text = (f"[[sensitivity]] and [[ranking]] rank the parameters by the largest distance of the CDF between their extreme levels, averaged over all other "
             f"settings. {axis_name(first.axis)} comes first with {fixed(first.effect.distance)} {interval(first.effect.distance_low, first.effect.distance_high)}. ")
-    text += f"Beyond what chance alone gives {'is' if len(above) == 1 else 'are'} {', '.join(above)}." if above else \
-        "No parameter goes beyond what chance alone gives."
+    text += f"{'Only ' if len(above) < len(ranks) else ''}{' and '.join(above)} {'goes' if len(above) == 1 else 'go'} beyond what chance alone gives." \
+        if above else "No parameter goes beyond what chance alone gives."
     names = [f"{axis_name(rank.axis)}: {_level(rank, rank.low)} to {_level(rank, rank.high)}" for rank in ranks]
     files = interval_figure([
         (Scale("largest distance of the CDF", (0, None)), [Estimate(name, r.effect.distance, r.effect.distance_low, r.effect.distance_high, r.effect.chance)
@@ -28,12 +28,12 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
         (Scale(r"change of $P$(overturn) [%]", level=0.0), [Estimate(name, 100 * r.effect.change, 100 * r.effect.change_low, 100 * r.effect.change_high)
                                                             for name, r in zip(names, ranks)])],
         gallery.path("sensitivity"), gallery.formats)
-    rows = [(axis_name(r.axis), _level(r, r.low), _level(r, r.high), r.settings, r.effect.n, r.effect.distance, r.effect.distance_low, r.effect.distance_high,
+    rows = [(r.axis, *_ends(r), r.settings, r.effect.n, r.effect.distance, r.effect.distance_low, r.effect.distance_high,
              r.effect.chance, r.effect.change, r.effect.change_low, r.effect.change_high) for r in ranks]
-    columns = (Column("axis", "parameter", text=True), Column("low", "from", text=True), Column("high", "to", text=True), Column("settings", "settings"),
-               Column("n", "motions"), Column("distance", "distance", fixed), Column("distance_low", "low", fixed), Column("distance_high", "high", fixed),
-               Column("chance", "chance", fixed), Column("change_p_overturn", "ΔP(overturn)", percent), Column("change_low", "low", percent),
-               Column("change_high", "high", percent))
+    columns = (Column("axis from to", "parameter", lambda axis, low, high: f"{axis_name(axis)}: {level_text(axis, low)} to {level_text(axis, high)}", text=True), Column("settings", "settings"),
+               Column("n", "motions"), Column("distance", "distance", fixed), Column("distance_low distance_high", "95 %", interval),
+               Column("chance", "chance", fixed), Column("change_p_overturn", "change of P(overturn) [%]", lambda share: fixed(100 * share, 1)),
+               Column("change_low change_high", "95 % [%]", percent_interval))
     return Section("Sensitivity", [
         Paragraph(text),
         gallery.figure("sensitivity", files, "Effect of each parameter between its extreme levels: largest distance of the CDF, and change of P(overturn), with 95 % "
@@ -41,6 +41,12 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
                        "distance is never negative, so only beyond the red line is there evidence of an effect."),
         Table("ranking", columns, rows, "Parameters ranked by the largest distance of the CDF between their extreme levels (of a sampled parameter: its outer "
               f"quarters), averaged over the settings of all others; bootstrap over {count(first.effect.n, 'motion')}.")])
+
+
+def _ends(rank: Rank) -> tuple:
+    """Levels compared; of a sampled parameter the least and the largest value."""
+    low, high = rank.low, rank.high
+    return low[0] if isinstance(low, tuple) else low, high[1] if isinstance(high, tuple) else high
 
 
 def _level(rank: Rank, value) -> str:

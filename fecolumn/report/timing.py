@@ -26,8 +26,8 @@ def timing(sweep: Sweep, gallery: Gallery) -> Section | None:
              float(np.nanmean(setting.column("steps"))), _per_step(setting, "iterations"), _per_step(setting, "contact_iterations"),
              float(np.nansum(setting.column("wall_s"))) / 3600) for setting, cost in zip(sweep.done, medians)]
     columns = (*axis_columns(sweep.varied), Column("n", "n"), Column("wall_s_per_s", "cost [s/s]", number), Column("ratio", "ratio", number),
-               Column("ms_per_step", "step [ms]", number), Column("steps", "steps", lambda value: f"{value:.0f}"), Column("iterations_per_step", "iterations a step", number),
-               Column("contact_iterations_per_step", "contact iterations a step", number), Column("wall_h", "total [h]", number))
+               Column("ms_per_step", "step [ms]", number), Column("steps", "steps", lambda value: f"{value:.0f}"), Column("iterations_per_step", "itera\N{SOFT HYPHEN}tions a step", number),
+               Column("contact_iterations_per_step", "contact itera\N{SOFT HYPHEN}tions a step", number), Column("wall_h", "total [h]", number))
     total = np.nansum([row[-1] for row in rows])
     blocks = [Paragraph(f"At {setting_text(sweep.reference.values)} a second of analysed motion takes {number(base)} s of one core in the median; the whole study took "
                         f"{number(float(total))} h of one core. Times are those of workers that may have shared cores and memory with others: ratios below about "
@@ -66,7 +66,29 @@ def _figure(sweep: Sweep, gallery: Gallery):
         costs = [np.concatenate([second_cost(one) for one in members if one.values[DT] == step]) for step in steps]
         quantiles = np.array([np.nanquantile(cost, [0.16, 0.5, 0.84]) for cost in costs])
         curves.append(Curve(axis_text(axis, level) if axis else "", np.array(steps), quantiles[:, 1], (quantiles[:, 0], quantiles[:, 2]), markers=True))
-    panel = CurvePanel(r"time step $\Delta t$ [s]", "wall time per second of motion [s/s]", curves, {"xscale": "log", "yscale": "log"})
-    files = line_figure([panel], gallery.path("cost"), gallery.formats)
-    return gallery.figure("cost", files, "Cost of a second of motion against the time step" + (f", for each {axis_name(axis)}" if axis else "") +
-                          ": median and 16–84 % over the motions.")
+    panels = [CurvePanel(r"time step $\Delta t$ [s]", "wall time per second of motion [s/s]", curves, {"xscale": "log", "yscale": "log"})]
+    caption = "Cost of a second of motion against the time step" + (f", for each {axis_name(axis)}" if axis else "") + ": median and 16–84 % over the motions."
+    if axis and (relative := _relative(sweep, axis)):
+        panels.append(CurvePanel(axis_text(axis, 0).split(" = ")[0], "cost relative to the lowest value", relative, {"ylim": (0, None)}))
+        caption += f" Right: cost along {axis_name(axis)} relative to its lowest value, same motions, geometric mean with 95 % interval."
+    files = line_figure(panels, gallery.path("cost"), gallery.formats)
+    return gallery.figure("cost", files, caption)
+
+
+def _relative(sweep: Sweep, axis: str) -> list[Curve]:
+    """Cost along an axis of numbers relative to its lowest level, a curve for each time step."""
+    if not all(isinstance(level, (int, float)) for level in sweep.axes[axis]):
+        return []
+    curves = []
+    for step in sweep.axes[DT][:_CURVES]:
+        lines = [line for line in sweep.lines(axis) if line.others[DT] == step]
+        if not lines:
+            continue
+        line, motions = lines[len(lines) // 2], lines[len(lines) // 2].motions()
+        with np.errstate(divide="ignore", invalid="ignore"):
+            logs = np.log([second_cost(setting, motions) / second_cost(line.settings[0], motions) for setting in line.settings])
+        reach = 1.96 * logs.std(axis=1) / len(motions)**0.5
+        middle = logs.mean(axis=1)
+        if np.isfinite(middle).all():
+            curves.append(Curve(axis_text(DT, step), np.array(line.levels, float), np.exp(middle), (np.exp(middle - reach), np.exp(middle + reach)), markers=True))
+    return curves

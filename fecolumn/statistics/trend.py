@@ -50,7 +50,7 @@ def trend(u_max, overturned, seed: int = 0) -> Trend:
         raise ValueError(f"u_max {u.shape}: at least two levels and one motion are needed")
     levels, n = u.shape
     first, second = np.triu_indices(levels, 1)
-    tau = (np.sign(np.where(u[second] == u[first], 0.0, u[second] - u[first]))).mean(axis=0)
+    tau = ((u[second] > u[first]) * 1.0 - (u[second] < u[first])).mean(axis=0)
     drawn = np.random.default_rng(seed).integers(0, n, (_RESAMPLES, n))
     low, high = np.quantile(tau[drawn].mean(axis=1), [0.025, 0.975])
     rising, falling = int((tau > 0).sum()), int((tau < 0).sum())
