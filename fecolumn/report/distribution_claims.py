@@ -45,7 +45,7 @@ def _same(key: str, paper: str, pairs: list[Pair], needed: str) -> Claim:
         parts = [f"Here ours disagrees: {len(clear)} of {count(len(pairs), 'pair')} differ significantly; {_widest(worst)}", _why(worst)]
     else:
         independent = min(pair.comparison.ks_p for pair in pairs)
-        parts = [f"None of {count(len(pairs), 'pair')} differs significantly (smallest Holm {p_clause(min(pair.p_holm for pair in pairs))}; as "
+        parts = [f"Of {count(len(pairs), 'pair')} not one differs significantly (smallest Holm {p_clause(min(pair.p_holm for pair in pairs))}; as "
                  f"independent samples, uncorrected, {p_clause(independent)}); {_widest(widest)}", _open(excluded)]
     return Claim(key, paper, " ".join(parts), _SAME, NOT_SUPPORTED if clear else SUPPORTED if excluded <= MARGIN else UNDECIDED)
 

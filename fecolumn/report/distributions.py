@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 
 import numpy as np
 
@@ -11,9 +10,9 @@ from fecolumn.post.cdf_figure import Panel, cdf_figure
 from fecolumn.post.interval_figure import Estimate, Scale, interval_figure
 from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.claim import CALIBRATION_TARGET, MARGIN
-from fecolumn.report.document import Column, Figure, Paragraph, Section, Table
+from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, number, p_value, percent, percent_interval, setting_text)
+from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, p_value, percent, percent_interval, setting_text)
 from fecolumn.report.pair import Pair
 from fecolumn.report.sweep import Setting, Sweep
 from fecolumn.statistics.convergence import cdf_convergence

@@ -10,7 +10,7 @@ from fecolumn.report.distributions import setting_words
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.individual_claims import line_trends, spread
-from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres, number, p_value, percent, setting_text
+from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres, p_value, percent, setting_text
 from fecolumn.report.sweep import Line, Sweep
 
 _VARIABLES, _MATRICES, _FOLD = 6, 4, 20

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED, Claim
-from fecolumn.report.notation import axis_name, count, fixed, interval, number, p_clause, percent, setting_text
+from fecolumn.report.notation import axis_name, count, fixed, interval, p_clause, percent, setting_text
 from fecolumn.report.sweep import DT, FINE_DT_S, Line, Sweep, common_motions
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.trend import Trend, trend
@@ -116,7 +116,7 @@ def _trend(sweep: Sweep, axis: str) -> Claim:
         parts.append(f"A drift is detected ({_line(worst)} {p_clause(worst.p_holm)}), too weak to foretell a single motion."
                      if not outside else f"A drift is detected ({_line(worst)} {p_clause(worst.p_holm)}), its strength is not settled.")
     else:
-        parts.append(f"None is significant (smallest {p_clause(worst.p_holm)}).")
+        parts.append(f"Not one is significant (smallest {p_clause(worst.p_holm)}).")
     if verdict == UNDECIDED:
         widest = max(outside, key=lambda one: one.trend.tau_high - one.trend.tau_low)
         parts.append(f"{count(widest.trend.n, 'motion')} leave τ {interval(widest.trend.tau_low, widest.trend.tau_high)} open {_line(widest)}.")

@@ -35,6 +35,12 @@ class ClaimList:
     claims: list[Claim]
     kind: str = "claims"
 
+    def write_csv(self, folder: Path) -> Path:
+        """Write claims.csv, the whole of every claim."""
+        names = ("key", "paper", "verdict", "ours", "rule")
+        rows = [tuple(getattr(claim, name) for name in names) for claim in self.claims]
+        return Table("claims", tuple(Column(name, name) for name in names), rows, "").write_csv(folder)
+
 
 def write_report(folder, output=None) -> Path:
     """Write index.html, its figures and its tables into `output`, or folder/report; returns the page.
@@ -52,7 +58,7 @@ def write_report(folder, output=None) -> Path:
     sections = _sections(sweep, Gallery(target / "figures", has_claims(sweep)))
     for section in sections:
         for block in section.blocks:
-            if isinstance(block, Table):
+            if isinstance(block, (Table, ClaimList)):
                 block.write_csv(target / "tables")
     write_bytes(target / "index.html", _html(sweep, sections).encode())
     return target / "index.html"
@@ -71,20 +77,20 @@ def claims_of(sweep: Sweep, pairs: list[Pair]) -> list[Claim]:
 def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
     pairs = read_pairs(sweep)
     claims = claims_of(sweep, pairs) if gallery.paper else []
-    parts = [_claims_section(sweep, claims) if claims else None, distributions(sweep, pairs, gallery), individual(sweep, gallery),
+    parts = [_claims_section(claims) if claims else None, distributions(sweep, pairs, gallery), individual(sweep, gallery),
              sensitivity_section(sweep, gallery), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
     return [part for part in parts if part]
 
 
-def _claims_section(sweep: Sweep, claims: list[Claim]) -> Section:
-    table = Table("claims", (Column("claim", "claim", text=True), Column("paper", "the paper’s finding", text=True), Column("verdict", "here", lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"), text=True),
-                             Column("ours", "finding"), Column("rule", "rule")),
-                  [(claim.key, claim.paper, claim.verdict, claim.ours, claim.rule) for claim in claims], "")
-    short = Table("claims", table.columns[:3], [row[:3] for row in table.rows], "The paper’s findings and this study’s verdicts.")
-    text = ("Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three time steps and five values of α, and found (a) that single peaks depend on both without "
-            f"trend, (b) that the distribution does not depend on the time step once it is small, (c) that α is then marginal, (d) what it costs. On their P(overturn): {TARGET_NOTE}. "
-            "What follows judges each finding on this study by a rule stated beforehand; “supported” says that this study shows the same, “undecided” that it cannot tell.")
-    return Section("The paper’s findings", [Paragraph(text), short, ClaimList(claims)])
+def _claims_section(claims: list[Claim]) -> Section:
+    text = ("Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three time steps and five values of α, and found (a) that single "
+            "peaks depend on both without trend, (b) that the distribution does not depend on the time step once it is small, (c) that α is then "
+            f"marginal, (d) what it costs. On their P(overturn): {TARGET_NOTE}. What follows judges each finding on this study by a rule stated "
+            "beforehand; “supported” says that this study shows the same, “undecided” that it cannot tell.")
+    table = Table("verdicts", (Column("claim", "claim", text=True), Column("paper", "the paper’s finding", text=True),
+                               Column("verdict", "here", lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"), text=True)),
+                  [(claim.key, claim.paper, claim.verdict) for claim in claims], "The paper’s findings and this study’s verdicts.")
+    return Section("The paper’s findings", [Paragraph(text), table, ClaimList(claims)])
 
 
 def _html(sweep: Sweep, sections: list[Section]) -> str:

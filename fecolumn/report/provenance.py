@@ -8,10 +8,9 @@ import platform
 import re
 from pathlib import Path
 
-import numpy as np
 
 from fecolumn.report.document import Column, Paragraph, Section, Table
-from fecolumn.report.notation import axis_name, count, level_text, number
+from fecolumn.report.notation import axis_name, level_text, number
 from fecolumn.report.sweep import Sweep
 from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE

@@ -10,7 +10,7 @@ from fecolumn.report.cost import second_cost
 from fecolumn.report.distributions import axis_columns
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import axis_name, count, number, setting_text
+from fecolumn.report.notation import axis_name, number, setting_text
 from fecolumn.report.sweep import ALPHA, DT, Setting, Sweep
 
 _CURVES, _FOLD = 7, 40

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import math
 import random
 from pathlib import Path
 
-from fecolumn.atomic import write_json
 from fecolumn.study.plan import read_plan
 from fecolumn.study.store import Store
 
@@ -43,7 +43,7 @@ def write_synthetic(folder: Path, axes: dict, motions: int, *, effect=lambda val
                 continue
             result = store.result_folder(analysis.id)
             result.mkdir(parents=True, exist_ok=True)
-            write_json(result / "summary.json", _summary(analysis, effect, scatter, cost))
+            (result / "summary.json").write_text(json.dumps(_summary(analysis, effect, scatter, cost)))
             store.finish(analysis.id, 1.0)
     return folder / "out"
 
