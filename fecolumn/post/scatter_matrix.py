@@ -82,7 +82,7 @@ def _name(axes, a: Variable, count: int) -> None:
 def _measures(axes, a: Variable, b: Variable, limit_m: float) -> None:
     r = correlation(a.u_max_m, a.overturned, b.u_max_m, b.overturned, limit_m)
     flips = int((a.overturned ^ b.overturned).sum())
-    axes.text(0.5, 0.58, rf"$R$ = {r:.2f}".replace("-", "\N{MINUS SIGN}") if np.isfinite(r) else r"$R$ undefined", transform=axes.transAxes, ha="center",
-              va="center", fontsize=9)
+    text = rf"$R$ = {r:.2f}".replace("-", "\N{MINUS SIGN}") if np.isfinite(r) else "$R$ undefined"
+    axes.text(0.5, 0.58, text, transform=axes.transAxes, ha="center", va="center", fontsize=9)
     axes.text(0.5, 0.36, f"{flips} flip{'' if flips == 1 else 's'}", transform=axes.transAxes, ha="center", va="center", fontsize=8,
               color=VERMILION if flips else GREY)

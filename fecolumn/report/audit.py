@@ -26,8 +26,10 @@ def audit(sweep: Sweep, gallery: Gallery) -> Section:
     if failed:
         axes = list(failed[0]["axes"])
         rows = [(*(str(value) for value in row["axes"].values()), row["reason"] or "no reason recorded", row["id"]) for row in failed]
-        columns = (*(Column(axis, axis_name(axis), text=True) for axis in axes), Column("reason", "reason", text=True), Column("id", "analysis", text=True))
-        blocks.append(Table("failures", columns, rows, "Analyses that failed, with the reason recorded; they count neither as standing nor as overturned.",
+        columns = (*(Column(axis, axis_name(axis), text=True) for axis in axes), Column("reason", "reason", text=True),
+                   Column("id", "analysis", text=True))
+        blocks.append(Table("failures", columns, rows, "Analyses that failed, with the reason recorded; they count neither as standing nor "
+                                                       "as overturned.",
                             folded=len(rows) > _FOLD))
     return Section("Audit", blocks)
 
@@ -46,32 +48,36 @@ def _completeness(sweep: Sweep) -> str:
 
 
 def _energy(sweep: Sweep) -> str:
-    runs = [(abs(run["energy_closure_rel"]), setting, run) for setting in sweep.done for run in setting.runs.values() if run.get("energy_closure_rel") is not None]
+    runs = [(abs(run["energy_closure_rel"]), setting, run) for setting in sweep.done for run in setting.runs.values()
+            if run.get("energy_closure_rel") is not None]
     if not runs:
         return "No analysis states how its energy ledger closes."
     worst, setting, run = max(runs, key=lambda one: one[0])
     median, open_ = float(np.median([one[0] for one in runs])), sum(one[0] > _CLOSED for one in runs)
     at = f" ({run['motion']}, {setting_text(setting.values)})" if run.get("motion") else f" ({setting_text(setting.values)})"
-    text = (f"The energy ledger (kinetic, strain and gravity energy against the work of base motion, friction, impact, contact and numerical damping) closes to "
-            f"{number(median)} of the energy moved in the median and {number(worst)} at worst{at if worst else ''}. ")
-    return text + (f"{count(open_, 'analysis')} {'misses' if open_ == 1 else 'miss'} {number(_CLOSED)}: look at them before trusting their peaks." if open_ else
+    text = ("The energy ledger (kinetic, strain and gravity energy against the work of base motion, friction, impact, contact and numerical "
+            f"damping) closes to {number(median)} of the energy moved in the median and {number(worst)} at worst{at if worst else ''}. ")
+    return text + (f"{count(open_, 'analysis')} {'misses' if open_ == 1 else 'miss'} {number(_CLOSED)}: look at them before trusting their "
+                   "peaks." if open_ else
                    f"No analysis misses {number(_CLOSED)}.")
 
 
 def _table(sweep: Sweep) -> Table:
     rows = [(*(setting.values[axis] for axis in sweep.varied), setting.planned, len(setting.runs), setting.failed,
-             *_median_and_worst(setting, "energy_closure_rel"), _largest(setting, "penetration_max_m"), _total(setting, "cuts"), _mean(setting, "impacts"),
-             _share(setting, "algorithmic"), _share(setting, "impact"), _share(setting, "friction"), _first_and_last(setting)[0], _first_and_last(setting)[1])
+             *_median_and_worst(setting, "energy_closure_rel"), _largest(setting, "penetration_max_m"), _total(setting, "cuts"),
+             _mean(setting, "impacts"), *(_share(setting, term) for term in ("algorithmic", "impact", "friction")), *_first_and_last(setting))
             for setting in sweep.settings]
     columns = (*axis_columns(sweep.varied), Column("planned", "planned"), Column("done", "done"), Column("failed", "failed"),
                Column("closure_median", "closure, median", number), Column("closure_worst", "worst", number),
                Column("penetration_max_m", "pene\N{SOFT HYPHEN}tration [mm]", lambda value: number(None if value is None else 1e3 * value)),
                Column("cuts", "step cuts", number), Column("impacts_mean", "impacts a run", number),
-               Column("algorithmic_share", "loss by damping [%]", _hundred), Column("impact_share", "impact [%]", _hundred), Column("friction_share", "friction [%]", _hundred),
+               Column("algorithmic_share", "loss by damping [%]", _hundred), Column("impact_share", "impact [%]", _hundred),
+               Column("friction_share", "friction [%]", _hundred),
                Column("overturn_first_s overturn_last_s", "overturned at [s]", _span))
-    return Table("audit", columns, rows, "Audit of every setting: analyses; relative closure error of the energy ledger; largest penetration; step cuts; impacts; of the energy "
-                 "lost, the parts taken by numerical damping, impact and friction (sums over the motions; negative where energy was gained); "
-                 "first and last overturn.", folded=len(rows) > _FOLD)
+    return Table("audit", columns, rows, "Audit of every setting: analyses; relative closure error of the energy ledger; largest "
+                                         "penetration; step cuts; impacts; of the energy lost, the parts taken by numerical damping, impact "
+                                         "and friction (sums over the motions; negative where energy was gained); first and last overturn.",
+                 folded=len(rows) > _FOLD)
 
 
 def _span(first, last) -> str:
@@ -125,7 +131,8 @@ def _overturn_times(sweep: Sweep, gallery: Gallery):
         times = np.sort([run["overturn_time_s"] for run in runs if run.get("overturned") and run.get("overturn_time_s") is not None])
         if runs:
             share = np.arange(times.size + 1) / len(runs)
-            curves.append(Curve(axis_text(axis, level) if axis else "", np.concatenate([[0.0], times, [end]]), np.append(share, share[-1]), steps=True))
+            curves.append(Curve(axis_text(axis, level) if axis else "", np.concatenate([[0.0], times, [end]]), np.append(share, share[-1]),
+                                steps=True))
     if not any(curve.y[-1] > 0 for curve in curves):
         return None
     panel = CurvePanel("time $t$ [s]", "share overturned by $t$", curves, {"xlim": (0, end), "ylim": (0, None)})

@@ -62,7 +62,8 @@ def cost_claims(sweep: Sweep) -> list[Claim]:
 
 def _step_claim(ratios: list[CostRatio]) -> Claim:
     paper = "A smaller Δt increases the solution time significantly."
-    rule = "supported: at every smaller Δt the cost rises by a factor above 1.5 (95 % interval); not supported: the interval lies below 1.5 at one; else undecided"
+    rule = ("supported: at every smaller Δt the cost rises by a factor above 1.5 (95 % interval); not supported: the interval lies below "
+            "1.5 at one; else undecided")
     if not ratios:
         return Claim("d1", paper, "No motion has been run at two time steps yet.", rule, UNDECIDED)
     parts = [f"From {level_text(DT, one.high)} to {level_text(DT, one.low)}, the cost of a second of motion grows by a factor of "

@@ -7,10 +7,10 @@ from fecolumn.report.notation import count, fixed, level_text, p_clause, percent
 from fecolumn.report.pair import FINE_STEPS, WITH_COARSE_STEP, Pair
 from fecolumn.report.sweep import ALPHA, DT
 
-_SAME = (f"supported: no paired p below 0.05 (Holm over the family) and a distance beyond {MARGIN:.2f} excluded at 95 % in every pair, "
-         "the distance at which a two-sample KS test of two times 115 motions rejects; not supported: a p below 0.05; else undecided")
-_DIFFERENT = (f"supported: a paired p below 0.05 (Holm over the family); not supported: none, and a distance beyond {MARGIN:.2f} excluded "
-              "at 95 % in every pair; else undecided")
+_SAME = (f"supported: no paired p below 0.05 (Holm over the family) and a distance beyond {MARGIN:.2f} excluded at 95 % in every pair, the "
+         "distance at which a two-sample KS test of two times 115 motions rejects; not supported: a p below 0.05; else undecided")
+_DIFFERENT = (f"supported: a paired p below 0.05 (Holm over the family); not supported: none, and a distance beyond {MARGIN:.2f} excluded at "
+              "95 % in every pair; else undecided")
 
 
 def distribution_claims(pairs: list[Pair]) -> list[Claim]:
@@ -45,8 +45,9 @@ def _same(key: str, paper: str, pairs: list[Pair], needed: str) -> Claim:
         parts = [f"Here ours disagrees: {len(clear)} of {count(len(pairs), 'pair')} differ significantly; {_widest(worst)}", _why(worst)]
     else:
         independent = min(pair.comparison.ks_p for pair in pairs)
-        parts = [f"Of {count(len(pairs), 'pair')} not one differs significantly (smallest Holm {p_clause(min(pair.p_holm for pair in pairs))}; as "
-                 f"independent samples, uncorrected, {p_clause(independent)}); {_widest(widest)}", _open(excluded)]
+        parts = [f"Of {count(len(pairs), 'pair')} not one differs significantly (smallest Holm "
+                 f"{p_clause(min(pair.p_holm for pair in pairs))}; as independent samples, uncorrected, {p_clause(independent)}); "
+                 f"{_widest(widest)}", _open(excluded)]
     return Claim(key, paper, " ".join(parts), _SAME, NOT_SUPPORTED if clear else SUPPORTED if excluded <= MARGIN else UNDECIDED)
 
 

@@ -20,8 +20,8 @@ from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
 
 _LINES, _PANELS, _ROWS = 7, 9, 40
 _FOLD = 20
-TARGET_NOTE = (f"{percent(CALIBRATION_TARGET)} is a calibration target, never a result: the specimen's size is not published, and height and cap "
-               "are there to be chosen so that P(overturn) comes near it")
+TARGET_NOTE = (f"{percent(CALIBRATION_TARGET)} is a calibration target, never a result: the specimen's size is not published, and height and "
+               "cap are there to be chosen so that P(overturn) comes near it")
 
 
 def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
@@ -35,15 +35,16 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
         blocks.append(gallery.figure(name, files, f"Distribution of the largest top displacement: {what}"
                       + (f", a panel for each {' and '.join(other)}" if other and axis else "") + _left_out(sweep, axis, panels)
                       + ". Overturned runs are censored: a distribution ends at 1 − P(overturn). Shades: pointwise 95 % bands (Greenwood); "
-                      "in the legend P(overturn) with Wilson's 95 % interval."))
+                        "in the legend P(overturn) with Wilson's 95 % interval."))
     first = blocks[0].name
     blocks.insert(0, Paragraph(_opening(sweep, first)))
     blocks += _overturning(sweep, gallery)
     if pairs:
-        blocks += [Paragraph("[[families]] and, pair by pair, [[comparisons]] compare settings that differ in one parameter alone. The same motions are in both, so the paired "
-                             "permutation p is the one to judge by, and that of independent samples is conservative; p (Holm) is the paired one, "
-                             "corrected for the family of tests that answer one question. The last column is the other side of the test, the "
-                             f"largest distance that the data cannot exclude at 95 %. For scale: two times 115 motions need {fixed(MARGIN)} to reject."),
+        blocks += [Paragraph("[[families]] and, pair by pair, [[comparisons]] compare settings that differ in one parameter alone. The same "
+                             "motions are in both, so the paired permutation p is the one to judge by, and that of independent samples is "
+                             "conservative; p (Holm) is the paired one, corrected for the family of tests that answer one question. The "
+                             "last column is the other side of the test, the largest distance that the data cannot exclude at 95 %. For "
+                             f"scale: two times 115 motions need {fixed(MARGIN)} to reject."),
                    _families(pairs), _comparisons(sweep, pairs)]
     return Section("Distributions", blocks + _convergence(sweep, gallery))
 
@@ -78,10 +79,10 @@ def _left_out(sweep: Sweep, axis: str | None, panels: list[Panel]) -> str:
 def _opening(sweep: Sweep, figure: str) -> str:
     u, over = sweep.reference.peaks()
     low, high = proportion_interval(int(over.sum()), over.size)
-    return (f"[[{figure}]] shows the distribution of the largest top displacement of the column, u_max, in every setting. At {setting_text(sweep.reference.values)} "
-            f"half of the {count(over.size, 'motion')} stay below {millimetres(percentile(u, over, 0.5))}"
-            f"{' mm' if np.isfinite(percentile(u, over, 0.5)) else ' (half or more overturn)'}, and {int(over.sum())} overturn: "
-            f"P(overturn) = {percent(over.mean())}, 95 % interval {interval(low, high, percent)}.")
+    return (f"[[{figure}]] shows the distribution of the largest top displacement of the column, u_max, in every setting. At "
+            f"{setting_text(sweep.reference.values)} half of the {count(over.size, 'motion')} stay below "
+            f"{millimetres(percentile(u, over, 0.5))}{' mm' if np.isfinite(percentile(u, over, 0.5)) else ' (half or more overturn)'}, and "
+            f"{int(over.sum())} overturn: P(overturn) = {percent(over.mean())}, 95 % interval {interval(low, high, percent)}.")
 
 
 def _overturning(sweep: Sweep, gallery: Gallery) -> list:
@@ -100,13 +101,12 @@ def _overturning(sweep: Sweep, gallery: Gallery) -> list:
     table = Table("p_overturn", (*axis_columns(sweep.varied), Column("planned", "planned"), Column("n", "run"),
                                  Column("overturned", "over\N{SOFT HYPHEN}turned", _whole),
                                  Column("p_overturn", "P(overturn) [%]", lambda share: fixed(None if share is None else 100 * share, 1)),
-                                 Column("wilson_low wilson_high", "Wilson [%]", percent_interval), Column("exact_low exact_high", "exact [%]", percent_interval),
+                                 Column("wilson_low wilson_high", "Wilson [%]", percent_interval),
+                                 Column("exact_low exact_high", "exact [%]", percent_interval),
                                  Column("u_max_16_m", "u₁₆ [mm]", millimetres), Column("u_max_50_m", "u₅₀ [mm]", millimetres),
                                  Column("u_max_84_m", "u₈₄ [mm]", millimetres)), rows,
-                  "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and Pearson), and percentiles of u_max; “overturn” where that "
-                  f"share of the runs does not stand. {TARGET_NOTE}." if gallery.paper else
-                  "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and Pearson), and percentiles of u_max; “overturn” where that "
-                  "share of the runs does not stand.", folded=len(rows) > _ROWS)
+                  "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and Pearson), and percentiles of u_max; “overturn” "
+                  "where that share of the runs does not stand." + (f" {TARGET_NOTE}." if gallery.paper else ""), folded=len(rows) > _ROWS)
     if not 2 <= len(estimates) <= _ROWS:
         return [table]
     scale = Scale(r"$P$(overturn) [%], 95 % interval (Wilson)", (0, None),
@@ -157,9 +157,11 @@ def _comparisons(sweep: Sweep, pairs: list[Pair]) -> Table:
                Column("paired_p", "paired p", p_value), Column("p_holm", "p (Holm)", p_value), Column("ad_p", "AD p", p_value),
                Column("cvm_p", "CvM p", p_value), Column("e50", "e₅₀", fixed), Column("correlation", "R", fixed), Column("flips", "flips"),
                Column("mcnemar_p", "McNemar p", p_value), Column("bound_95", "D not excluded", fixed))
-    return Table("comparisons", columns, rows, "Settings compared in pairs: Kolmogorov-Smirnov distance D with p of independent samples and the field's word "
-                 "for the evidence against one distribution; p of paired permutations; Anderson-Darling and Cramér-von Mises as independent samples; error of the "
-                 "median e₅₀ (a against b); correlation R with overturned runs at the limit; motions that overturn in one setting alone (flips) with McNemar's p.",
+    return Table("comparisons", columns, rows, "Settings compared in pairs: Kolmogorov-Smirnov distance D with p of independent samples and "
+                                               "the field's word for the evidence against one distribution; p of paired permutations; "
+                                               "Anderson-Darling and Cramér-von Mises as independent samples; error of the median e₅₀ (a "
+                                               "against b); correlation R with overturned runs at the limit; motions that overturn in one "
+                                               "setting alone (flips) with McNemar's p.",
                  folded=len(rows) > _FOLD)
 
 
@@ -171,11 +173,13 @@ def _families(pairs: list[Pair]) -> Table:
         rows.append((axis, kind or "all", len(own), sum(pair.p_holm < 0.05 for pair in own), max(pair.distance for pair in own),
                      min(pair.comparison.ks_p for pair in own), min(pair.comparison.paired_p for pair in own), min(pair.p_holm for pair in own),
                      max(pair.bound for pair in own)))
-    columns = (Column("axis", "settings that differ in", axis_name, text=True), Column("pairs_of", "pairs", text=True), Column("pairs", "number"), Column("significant", "p (Holm) < 0.05"),
-               Column("ks_max", "largest D", fixed), Column("ks_p_min", "least p, independent", p_value), Column("paired_p_min", "least p, paired", p_value),
+    columns = (Column("axis", "settings that differ in", axis_name, text=True), Column("pairs_of", "pairs", text=True), Column("pairs", "number"),
+               Column("significant", "p (Holm) < 0.05"), Column("ks_max", "largest D", fixed),
+               Column("ks_p_min", "least p, independent", p_value), Column("paired_p_min", "least p, paired", p_value),
                Column("p_holm_min", "least p (Holm)", p_value), Column("bound_95_max", "largest D not excluded", fixed))
-    return Table("families", columns, rows, "Families of pairs: the largest Kolmogorov-Smirnov distance D of two CDFs, the smallest p values, and the largest distance that "
-                 "the data cannot exclude at 95 % in the pair where they say least.")
+    return Table("families", columns, rows, "Families of pairs: the largest Kolmogorov-Smirnov distance D of two CDFs, the smallest p "
+                                            "values, and the largest distance that the data cannot exclude at 95 % in the pair where they "
+                                            "say least.")
 
 
 def _convergence(sweep: Sweep, gallery: Gallery) -> list:
@@ -190,9 +194,10 @@ def _convergence(sweep: Sweep, gallery: Gallery) -> list:
     files = line_figure([CurvePanel("motions $n$", r"largest distance of two CDFs", curves, {"xscale": "log", "ylim": (0, 1)}, prepare=_plain_ticks)],
                         gallery.path("convergence"), gallery.formats)
     last = float(found.dkw_95[-1])
-    return [gallery.figure("convergence", files, f"Distance of the CDF of n motions from that of all {u.size}, at {setting_text(sweep.reference.values)}. It "
-                           f"vanishes at n = {u.size} by construction; the distance to the distribution of all motions there could be stays below the DKW "
-                           f"bound, {fixed(last)} for {u.size} motions, at 95 %.")]
+    return [gallery.figure("convergence", files, f"Distance of the CDF of n motions from that of all {u.size}, at "
+                                                 f"{setting_text(sweep.reference.values)}. It vanishes at n = {u.size} by construction; the "
+                                                 "distance to the distribution of all motions there could be stays below the DKW bound, "
+                                                 f"{fixed(last)} for {u.size} motions, at 95 %.")]
 
 
 def _plain_ticks(axes) -> None:

@@ -24,18 +24,20 @@ def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
     found = spread(sweep.done)
     text = f"One by one, the same motion gives different peaks in different settings: {' and '.join(f'[[{one.name}]]' for one in matrices)}. "
     if found.motions:
-        text += (f"Of the {count(found.motions, 'motion')} run in all {found.settings} settings, {found.flipped} ({percent(found.flipped / found.motions)}) "
-                 f"overturn in some and stand in others" + (f"; of those that always stand, the largest peak is {fixed(float(np.median(found.factor)))} "
-                 f"times the smallest in the median." if found.factor.size else "."))
+        text += (f"Of the {count(found.motions, 'motion')} run in all {found.settings} settings, {found.flipped} "
+                 f"({percent(found.flipped / found.motions)}) overturn in some and stand in others")
+        text += (f"; of those that always stand, the largest peak is {fixed(float(np.median(found.factor)))} times the smallest in the median."
+                 if found.factor.size else ".")
     blocks = [Paragraph(text), *matrices]
     rows = [row for axis in sweep.varied if all(isinstance(level, (int, float)) for level in sweep.axes[axis]) for row in _trends(sweep, axis)]
     if rows:
-        blocks.append(Table("trends", (Column("axis", "along", axis_name, text=True), Column("at", "at", setting_words, text=True), Column("levels", "levels"), Column("n", "n"),
-                                       Column("rising", "rise"), Column("falling", "fall"), Column("tau", "mean τ", fixed), Column("tau_low tau_high", "95 %", interval),
-                                       Column("p", "p", p_value), Column("p_holm", "p (Holm)", p_value)), rows,
-                            "Trend of the peak of one and the same motion along a parameter: motions whose peak rises or falls on the whole, mean Kendall τ "
-                            "with its 95 % interval over the motions, p of no trend (Page; sign test for two levels). Overturned runs rank above all standing ones.",
-                            folded=len(rows) > _FOLD))
+        columns = (Column("axis", "along", axis_name, text=True), Column("at", "at", setting_words, text=True), Column("levels", "levels"),
+                   Column("n", "n"), Column("rising", "rise"), Column("falling", "fall"), Column("tau", "mean τ", fixed),
+                   Column("tau_low tau_high", "95 %", interval), Column("p", "p", p_value), Column("p_holm", "p (Holm)", p_value))
+        blocks.append(Table("trends", columns, rows,
+                            "Trend of the peak of one and the same motion along a parameter: motions whose peak rises or falls on the "
+                            "whole, mean Kendall τ with its 95 % interval over the motions, p of no trend (Page; sign test for two levels). "
+                            "Overturned runs rank above all standing ones.", folded=len(rows) > _FOLD))
     blocks.append(_motions(sweep))
     return Section("One by one", blocks)
 
@@ -54,15 +56,17 @@ def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
     name = f"scatter_by_{axis.split('.')[-1]}"
     files = scatter_matrix(variables, sweep.limit_m, gallery.path(name), gallery.formats)
     at = f" at {setting_text(line.others)}" if line.others else ""
-    return gallery.figure(name, files, f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} values of {axis_name(axis)}{at}, one against the "
-                          f"other. Shaded strip: overturned; open red circles: overturned in one of the two alone. R with overturned runs at "
-                          f"{millimetres(sweep.limit_m)} mm.")
+    return gallery.figure(name, files, f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} values of "
+                                       f"{axis_name(axis)}{at}, one against the other. Shaded strip: overturned; open red circles: "
+                                       f"overturned in one of the two alone. R with overturned runs at {millimetres(sweep.limit_m)} mm.")
 
 
 def _trends(sweep: Sweep, axis: str) -> list[tuple]:
-    return [(axis, {key: value for key, value in one.line.others.items() if key in sweep.varied},
-             one.trend.levels, one.trend.n, one.trend.rising, one.trend.falling, one.trend.tau, one.trend.tau_low, one.trend.tau_high, one.trend.p, one.p_holm)
-            for one in line_trends(sweep, axis)]
+    rows = []
+    for one in line_trends(sweep, axis):
+        it, at = one.trend, {key: value for key, value in one.line.others.items() if key in sweep.varied}
+        rows.append((axis, at, it.levels, it.n, it.rising, it.falling, it.tau, it.tau_low, it.tau_high, it.p, one.p_holm))
+    return rows
 
 
 def _motions(sweep: Sweep) -> Table:

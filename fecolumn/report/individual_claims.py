@@ -82,8 +82,8 @@ def _change(sweep: Sweep) -> Claim:
             f"motions flip; not supported: factor below {_LITTLE_SPREAD} and no flip")
     if not n or found.settings < 2:
         return Claim("a1", paper, "No motion has been run in two settings yet.", rule, UNDECIDED)
-    parts = [f"Over {count(found.settings, 'setting')}, {found.flipped} of {count(n, 'motion')} ({percent(found.flipped / n)}) overturn in some "
-             f"and stand in others; {found.always} overturn in all, {found.never} in none."]
+    parts = [f"Over {count(found.settings, 'setting')}, {found.flipped} of {count(n, 'motion')} ({percent(found.flipped / n)}) overturn in "
+             f"some and stand in others; {found.always} overturn in all, {found.never} in none."]
     median = float(np.median(found.factor)) if found.factor.size else float("nan")
     if found.factor.size:
         parts.append(f"Of those that always stand, the largest peak is {fixed(median)} times the smallest in the median, "
@@ -96,8 +96,8 @@ def _change(sweep: Sweep) -> Claim:
 def _trend(sweep: Sweep, axis: str) -> Claim:
     name, found = axis_name(axis), line_trends(sweep, axis)
     key, paper = f"a2, {name}", f"One by one, no clear trend of the peak with {name} emerges."
-    rule = (f"mean Kendall τ of the peak with {name} over the motions; supported: its 95 % interval lies within ±{_WEAK} on every line; "
-            f"not supported: outside it on one, with p < 0.05 (Page or sign test, Holm over {count(len(found), 'line')}); else undecided")
+    rule = (f"mean Kendall τ of the peak with {name} over the motions; supported: its 95 % interval lies within ±{_WEAK} on every line; not "
+            f"supported: outside it on one, with p < 0.05 (Page or sign test, Holm over all lines); else undecided")
     if not found:
         return Claim(key, paper, f"No motion has been run at two levels of {name} yet.", rule, UNDECIDED)
     clear = [one for one in found if one.p_holm < 0.05]
@@ -121,8 +121,8 @@ def _trend(sweep: Sweep, axis: str) -> Claim:
         widest = max(outside, key=lambda one: one.trend.tau_high - one.trend.tau_low)
         parts.append(f"{count(widest.trend.n, 'motion')} leave τ {interval(widest.trend.tau_low, widest.trend.tau_high)} open {_line(widest)}.")
     if clear and (fine := [one.fine for one in found if one.fine]):
-        parts.append(f"Among time steps of 1 ms and below alone, τ lies between {fixed(min(t.tau for t in fine))} and {fixed(max(t.tau for t in fine))} "
-                     f"(smallest uncorrected {p_clause(min(t.p for t in fine))}): "
+        parts.append(f"Among time steps of 1 ms and below alone, τ lies between {fixed(min(t.tau for t in fine))} and "
+                     f"{fixed(max(t.tau for t in fine))} (smallest uncorrected {p_clause(min(t.p for t in fine))}): "
                      + ("the trend is that of the coarse step." if min(t.p for t in fine) > 0.05 else "it is not the coarse step alone."))
     return Claim(key, paper, " ".join(parts), rule, verdict)
 

@@ -103,5 +103,6 @@ def setting_text(values: dict) -> str:
     """Values of all axes, such as "Δt = 0.001 s, α = −0.2"."""
     if not values:
         return "all analyses"
-    return ", ".join(level_text(key, value) if isinstance(value, dict) else f"{axis_name(key)}\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}{level_text(key, value)}"
+    equals = "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}"
+    return ", ".join(level_text(key, value) if isinstance(value, dict) else f"{axis_name(key)}{equals}{level_text(key, value)}"
                      for key, value in values.items())

@@ -83,10 +83,10 @@ def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
 
 
 def _claims_section(claims: list[Claim]) -> Section:
-    text = ("Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three time steps and five values of α, and found (a) that single "
-            "peaks depend on both without trend, (b) that the distribution does not depend on the time step once it is small, (c) that α is then "
-            f"marginal, (d) what it costs. On their P(overturn): {TARGET_NOTE}. What follows judges each finding on this study by a rule stated "
-            "beforehand; “supported” says that this study shows the same, “undecided” that it cannot tell.")
+    text = ("Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three time steps and five values of α, and found (a) that "
+            "single peaks depend on both without trend, (b) that the distribution does not depend on the time step once it is small, (c) "
+            f"that α is then marginal, (d) what it costs. On their P(overturn): {TARGET_NOTE}. What follows judges each finding on this "
+            "study by a rule stated beforehand; “supported” says that this study shows the same, “undecided” that it cannot tell.")
     table = Table("verdicts", (Column("claim", "claim", text=True), Column("paper", "the paper’s finding", text=True),
                                Column("verdict", "here", lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"), text=True)),
                   [(claim.key, claim.paper, claim.verdict) for claim in claims], "The paper’s findings and this study’s verdicts.")
@@ -95,12 +95,11 @@ def _claims_section(claims: list[Claim]) -> Section:
 
 def _html(sweep: Sweep, sections: list[Section]) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
+    from markupsafe import Markup
 
     pages = Environment(loader=PackageLoader("fecolumn.report", "."), autoescape=True, undefined=StrictUndefined)
     labels = numbered(sections)
     here = Path(__file__).parent
-    from markupsafe import Markup
-
     return pages.get_template("page.html").render(
         title=sweep.title, byline=_byline(sweep), abstract=_abstract(sweep, sections), sections=sections, labels=labels,
         style=Markup((here / "page.css").read_text()), plain=lambda words: referenced(words, labels),
@@ -108,7 +107,8 @@ def _html(sweep: Sweep, sections: list[Section]) -> str:
 
 
 def _byline(sweep: Sweep) -> str:
-    return f"fecolumn, {datetime.date.today():%-d %B %Y}. {count(len(sweep.rows), 'analysis')}: {count(len(sweep.settings), 'setting')} × {count(len(sweep.motions), 'motion')}"
+    return (f"fecolumn, {datetime.date.today():%-d %B %Y}. {count(len(sweep.rows), 'analysis')}: {count(len(sweep.settings), 'setting')} × "
+            f"{count(len(sweep.motions), 'motion')}")
 
 
 def _abstract(sweep: Sweep, sections: list[Section]) -> str:
@@ -123,8 +123,8 @@ def _abstract(sweep: Sweep, sections: list[Section]) -> str:
     u, over = sweep.reference.peaks()
     bounds = proportion_interval(int(over.sum()), over.size)
     if len(sweep.done) > 1:
-        parts.append(f"P(overturn) lies between {percent(low)} and {percent(high)}; at {setting_text(sweep.reference.values)} it is {percent(over.mean())} "
-                     f"(95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
+        parts.append(f"P(overturn) lies between {percent(low)} and {percent(high)}; at {setting_text(sweep.reference.values)} it is "
+                     f"{percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
     else:
         parts.append(f"P(overturn) is {percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
     claims = next((block.claims for section in sections for block in section.blocks if isinstance(block, ClaimList)), [])

@@ -33,8 +33,9 @@ def provenance(sweep: Sweep) -> Section:
     if sweep.case:
         blocks.append(Table("case", (Column("key", "key", text=True), Column("value", "value", text=True)), list(_flat(sweep)),
                             "The case that all analyses share, SI units as the keys say; axes are left out.", folded=True))
-    return Section("Provenance", [Paragraph("Every table of this page is a CSV file in the folder tables, every figure a PNG, PDF and SVG file in the folder figures beside it. "
-                                            "Statistics are seeded: the same study gives the same numbers."), *blocks])
+    return Section("Provenance", [Paragraph("Every table of this page is a CSV file in the folder tables, every figure a PNG, PDF and SVG "
+                                            "file in the folder figures beside it. Statistics are seeded: the same study gives the same "
+                                            "numbers."), *blocks])
 
 
 def _identity(folder: Path) -> str:

@@ -17,30 +17,39 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
         return None
     first = ranks[0]
     above = [axis_name(rank.axis) for rank in ranks if rank.effect.distance > rank.effect.chance]
-    text = (f"[[sensitivity]] and [[ranking]] rank the parameters by the largest distance of the CDF between their extreme levels, averaged over all other "
-            f"settings. {axis_name(first.axis)} comes first with {fixed(first.effect.distance)} {interval(first.effect.distance_low, first.effect.distance_high)}. ")
-    text += f"{'Only ' if len(above) < len(ranks) else ''}{' and '.join(above)} {'goes' if len(above) == 1 else 'go'} beyond what chance alone gives." \
-        if above else "No parameter goes beyond what chance alone gives."
+    text = ("[[sensitivity]] and [[ranking]] rank the parameters by the largest distance of the CDF between their extreme levels, averaged "
+            f"over all other settings. {axis_name(first.axis)} comes first with {fixed(first.effect.distance)} "
+            f"{interval(first.effect.distance_low, first.effect.distance_high)}. ")
+    goes = f"{'Only ' if len(above) < len(ranks) else ''}{' and '.join(above)} {'goes' if len(above) == 1 else 'go'}"
+    text += f"{goes if above else 'No parameter goes'} beyond what chance alone gives."
     names = [f"{axis_name(rank.axis)}: {_level(rank, rank.low)} to {_level(rank, rank.high)}" for rank in ranks]
     files = interval_figure([
-        (Scale("largest distance of the CDF", (0, None)), [Estimate(name, r.effect.distance, r.effect.distance_low, r.effect.distance_high, r.effect.chance)
+        (Scale("largest distance of the CDF", (0, None)),
+         [Estimate(name, r.effect.distance, r.effect.distance_low, r.effect.distance_high, r.effect.chance)
                                                           for name, r in zip(names, ranks)]),
-        (Scale(r"change of $P$(overturn) [%]", level=0.0), [Estimate(name, 100 * r.effect.change, 100 * r.effect.change_low, 100 * r.effect.change_high)
+        (Scale(r"change of $P$(overturn) [%]", level=0.0),
+         [Estimate(name, 100 * r.effect.change, 100 * r.effect.change_low, 100 * r.effect.change_high)
                                                             for name, r in zip(names, ranks)])],
         gallery.path("sensitivity"), gallery.formats)
     rows = [(r.axis, *_ends(r), r.settings, r.effect.n, r.effect.distance, r.effect.distance_low, r.effect.distance_high,
              r.effect.chance, r.effect.change, r.effect.change_low, r.effect.change_high) for r in ranks]
-    columns = (Column("axis from to", "parameter", lambda axis, low, high: f"{axis_name(axis)}: {level_text(axis, low)} to {level_text(axis, high)}", text=True), Column("settings", "settings"),
+    columns = (Column("axis from to", "parameter", _span, text=True), Column("settings", "settings"),
                Column("n", "motions"), Column("distance", "distance", fixed), Column("distance_low distance_high", "95 %", interval),
                Column("chance", "chance", fixed), Column("change_p_overturn", "change of P(overturn) [%]", lambda share: fixed(100 * share, 1)),
                Column("change_low change_high", "95 % [%]", percent_interval))
     return Section("Sensitivity", [
         Paragraph(text),
-        gallery.figure("sensitivity", files, "Effect of each parameter between its extreme levels: largest distance of the CDF, and change of P(overturn), with 95 % "
-                       "intervals (bootstrap over motions). Red: the distance that levels swapped at random within each motion exceed in 5 % of cases; a largest "
-                       "distance is never negative, so only beyond the red line is there evidence of an effect."),
-        Table("ranking", columns, rows, "Parameters ranked by the largest distance of the CDF between their extreme levels (of a sampled parameter: its outer "
-              f"quarters), averaged over the settings of all others; bootstrap over {count(first.effect.n, 'motion')}.")])
+        gallery.figure("sensitivity", files, "Effect of each parameter between its extreme levels: largest distance of the CDF, and change "
+                                             "of P(overturn), with 95 % intervals (bootstrap over motions). Red: the distance that levels "
+                                             "swapped at random within each motion exceed in 5 % of cases; a largest distance is never "
+                                             "negative, so only beyond the red line is there evidence of an effect."),
+        Table("ranking", columns, rows, "Parameters ranked by the largest distance of the CDF between their extreme levels (of a sampled "
+                                        "parameter: its outer quarters), averaged over the settings of all others; bootstrap over "
+                                        f"{count(first.effect.n, 'motion')}.")])
+
+
+def _span(axis: str, low, high) -> str:
+    return f"{axis_name(axis)}: {level_text(axis, low)} to {level_text(axis, high)}"
 
 
 def _ends(rank: Rank) -> tuple:

@@ -58,7 +58,8 @@ def _summary(analysis, effect, scatter, cost) -> dict:
     s_per_step = (cost(values) if cost else 2e-4) * math.exp(own.gauss(0, 0.05))
     return {"case_id": analysis.id, "version": "0.1.0", "engine": "reduced", "kinematics": "corotated", "dofs": 20964, "steps": steps, "dt": dt,
             "alpha_hht": values.get(ALPHA, -0.2), "motion": motion, "duration_s": end, "u_max_m": min(peak, LIMIT_M), "overturned": fallen,
-            "overturn_time_s": end if fallen else None, "residual_slide_m": 0.001, "penetration_max_m": 1e-12, "ranks": 1, "wall_s": s_per_step * steps + 0.2,
+            "overturn_time_s": end if fallen else None, "residual_slide_m": 0.001, "penetration_max_m": 1e-12, "ranks": 1,
+            "wall_s": s_per_step * steps + 0.2,
             "s_per_step": s_per_step, "iterations": 2 * steps, "contact_iterations": 8 * steps, "impacts": 250, "cuts": 3,
             "energy_closure_rel": 1e-12 * math.exp(own.gauss(0, 1)),
             "energy_j": {"kinetic": 0.0, "strain": 0.0, "gravity": 0.0, "base_work": 0.2, "friction": -0.1, "impact": -0.05, "contact": -0.02,
