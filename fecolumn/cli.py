@@ -1,4 +1,4 @@
-"""The command line: fecolumn mesh | run | resume | study | report | verify | motions | doctor."""
+"""The command line: fecolumn mesh | run | resume | study | compare | report | verify | motions | doctor."""
 
 from __future__ import annotations
 
@@ -83,6 +83,11 @@ def _parser() -> argparse.ArgumentParser:
 
     command.add_arguments(study)
     study.set_defaults(command=command.main)
+    compare = commands.add_parser("compare", help="compare two ensembles: settings, studies, computation and experiment")
+    from fecolumn.statistics import command as comparison
+
+    comparison.add_arguments(compare)
+    compare.set_defaults(command=comparison.main)
     report = commands.add_parser("report", help="write the report of a study: one HTML page, figures and tables")
     from fecolumn.report import command as reporting
 

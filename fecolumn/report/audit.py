@@ -25,9 +25,10 @@ def audit(sweep: Sweep, gallery: Gallery) -> Section:
     failed = [row for row in sweep.rows if row["state"] == FAILED]
     if failed:
         axes = list(failed[0]["axes"])
-        rows = [(*(str(value) for value in row["axes"].values()), row["reason"] or "no reason recorded", row["id"]) for row in failed]
+        rows = [(*(str(value) for value in row["axes"].values()), row["reason"] or "no reason recorded", row["id"], row.get("log") or "") for row in failed]
         columns = (*(Column(axis, axis_name(axis), text=True) for axis in axes), Column("reason", "reason", text=True),
-                   Column("id", "analysis", text=True))
+                   Column("id", "analysis", text=True),
+                   Column("log", "log", text=True))
         blocks.append(Table("failures", columns, rows, "Analyses that failed, with the reason recorded; they count neither as standing nor "
                                                        "as overturned.",
                             folded=len(rows) > _FOLD))
@@ -36,7 +37,7 @@ def audit(sweep: Sweep, gallery: Gallery) -> Section:
 
 def _completeness(sweep: Sweep) -> str:
     done, failed = (sum(row["state"] == state for row in sweep.rows) for state in (DONE, FAILED))
-    total = len(sweep.rows)
+    total = sweep.analyses
     if done == total:
         return f"All {count(total, 'analysis')} are done, none failed."
     parts = [f"{done} of {count(total, 'analysis')} are done"]

@@ -50,7 +50,7 @@ def write_report(folder, output=None) -> Path:
     """
     sweep = read_sweep(folder)
     if not sweep.done:
-        raise InputError(folder, "", None, f"none of its {len(sweep.rows)} analyses is done; nothing to report yet")
+        raise InputError(folder, "", None, f"none of its {sweep.analyses} analyses is done; nothing to report yet")
     target = Path(output) if output else Path(folder) / "report"
     for part in ("figures", "tables"):  # of an earlier report, which may have had others
         shutil.rmtree(target / part, ignore_errors=True)
@@ -107,12 +107,12 @@ def _html(sweep: Sweep, sections: list[Section]) -> str:
 
 
 def _byline(sweep: Sweep) -> str:
-    return (f"fecolumn, {datetime.date.today():%-d %B %Y}. {count(len(sweep.rows), 'analysis')}: {count(len(sweep.settings), 'setting')} × "
+    return (f"fecolumn, {datetime.date.today():%-d %B %Y}. {count(sweep.analyses, 'analysis')}: {count(len(sweep.settings), 'setting')} × "
             f"{count(len(sweep.motions), 'motion')}")
 
 
 def _abstract(sweep: Sweep, sections: list[Section]) -> str:
-    done, failed, total = sum(row["state"] == DONE for row in sweep.rows), sum(row["state"] == FAILED for row in sweep.rows), len(sweep.rows)
+    done, failed, total = sum(row["state"] == DONE for row in sweep.rows), sum(row["state"] == FAILED for row in sweep.rows), sweep.analyses
     shares = {id(setting): setting.column("overturned").mean() for setting in sweep.done}
     low, high = min(shares.values()), max(shares.values())
     parts = [f"{count(len(sweep.motions), 'ground motion')} {'was' if len(sweep.motions) == 1 else 'were'} run through a free-standing column"

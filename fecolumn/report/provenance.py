@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import importlib.metadata
 import json
 import platform
@@ -16,7 +17,7 @@ from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE
 
 _PACKAGES = ("numpy", "scipy", "numba", "matplotlib", "jinja2", "h5py", "petsc4py", "fenics-dolfinx", "gmsh")
-_KNOWN = ("id", "axes", "state", "reason", "wall_s", "version", "summary", "place", "traceback", "started")
+_KNOWN = ("id", "axes", "state", "reason", "wall_s", "version", "summary", "started", "log")
 
 
 def provenance(sweep: Sweep) -> Section:
@@ -26,7 +27,7 @@ def provenance(sweep: Sweep) -> Section:
                else f"{len(levels)} values, {level_text(key, levels[0])} to {level_text(key, levels[-1])}") for key, levels in sweep.axes.items()),
             ("Motions", _motions(sweep)), *_engines(sweep), *_recorded(sweep),
             ("Written by fecolumn", ", ".join(sorted({row["version"] for row in sweep.rows if row["version"]})) or "not recorded"),
-            ("Wall time of all analyses", f"{number(sum(row['wall_s'] or 0.0 for row in sweep.rows) / 3600)} h"),
+            *_dates(sweep), ("Wall time of all analyses", f"{number(sum(row['wall_s'] or 0.0 for row in sweep.rows) / 3600)} h"),
             ("Reported by", ", ".join(f"{name} {version}" for name, version in _versions())),
             ("Reported on", f"{platform.system()} {platform.machine()}, Python {platform.python_version()}")]
     blocks = [Table("provenance", (Column("what", "what", text=True), Column("value", "value", text=True)), rows, "Where the figures come from.")]
@@ -82,6 +83,13 @@ def _recorded(sweep: Sweep):
 def _words(key: str) -> str:
     """Name of a column of the ledger as words."""
     return key.replace("_", " ").capitalize()
+
+
+def _dates(sweep: Sweep):
+    started = [row["started"] for row in sweep.rows if row.get("started")]
+    if started:
+        first, last = (datetime.date.fromtimestamp(moment) for moment in (min(started), max(started)))
+        yield "Analyses begun", f"{first:%-d %B %Y}" if first == last else f"{first:%-d %B %Y} to {last:%-d %B %Y}"
 
 
 def _versions():

@@ -74,6 +74,7 @@ class Sweep:
         axes: levels of each axis that is not the motion, numbers rising, others as they stand in the study.
         settings: in the order of the study; those without a finished run included.
         rows: the ledger.
+        analyses: number of all analyses; of a job array at work the ledger has not all of them yet.
         limit_m: displacement at which a column counts as overturned [m].
         case: tables of one case of the study, {} where no result folder has one.
     """
@@ -83,6 +84,7 @@ class Sweep:
     axes: dict[str, list]
     settings: tuple[Setting, ...]
     rows: list[dict]
+    analyses: int
     limit_m: float
     case: dict = field(default_factory=dict)
 
@@ -141,7 +143,7 @@ def read_sweep(folder) -> Sweep:
         for key, value in setting.values.items():
             axes.setdefault(key, {})[repr(value)] = value
     case = next(filter(None, (_case(folder / "analyses" / row["id"]) for row in study.rows if row["state"] == DONE)), {})
-    return Sweep(folder, study.title, {key: _ordered(list(levels.values())) for key, levels in axes.items()}, settings, study.rows,
+    return Sweep(folder, study.title, {key: _ordered(list(levels.values())) for key, levels in axes.items()}, settings, study.rows, study.analyses,
                  float(case.get("overturn", {}).get("displacement_m", 0.25)), case)
 
 

@@ -88,7 +88,7 @@ def cramer_von_mises(a, b, resamples: int = RESAMPLES, seed: int = 0) -> TestRes
     """Two-sample Cramer-von Mises test, T of Anderson (1962, Ann. Math. Stat. 33), averaged over all orders of ties.
 
     In which order overturned runs follow each other nobody knows; T is its mean over all orders, in closed form. Without
-    ties it is that of `scipy.stats.cramervonmises_2samp`, whose midranks give many ties several times the weight they have.
+    ties it is that of `scipy.stats.cramervonmises_2samp`, whose midranks do not give this mean where there are many.
     """
     return _permuted(_cramer_von_mises, a, b, resamples, seed)
 
@@ -165,7 +165,7 @@ def _cramer_von_mises(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
     # sum over s = 1..size of (before + jump s / size)^2, then the variance of the number of a among the first s of the block
     line = size * before**2 + before * jump * (size + 1) + jump**2 * (size + 1) * (2 * size + 1) / (6 * size)
     share = np.diff(a, axis=1, prepend=0) / size
-    scatter = share * (1 - share) * size * (size + 1) / 6 * (1 / n + 1 / m)**2 * (size > 1)
+    scatter = share * (1 - share) * size * (size + 1) / 6 * (1 / n + 1 / m)**2
     return n * m / total**2 * (line + scatter).sum(axis=1)
 
 
