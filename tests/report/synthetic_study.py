@@ -7,6 +7,7 @@ import math
 import random
 from pathlib import Path
 
+from fecolumn.study.outcome import FAILED, Outcome, finished
 from fecolumn.study.plan import read_plan
 from fecolumn.study.store import Store
 
@@ -37,14 +38,13 @@ def write_synthetic(folder: Path, axes: dict, motions: int, *, effect=lambda val
         for place, analysis in enumerate(plan.analyses):
             if place in unfinished:
                 continue
-            store.start(analysis.id)
             if place in fails:
-                store.fail(analysis.id, "StepFailed: <no convergence> at t = 1.2 s", 1.0)
+                store.end(Outcome(analysis.id, FAILED, "StepFailed: <no convergence> at t = 1.2 s", 1.0))
                 continue
             result = store.result_folder(analysis.id)
             result.mkdir(parents=True, exist_ok=True)
             (result / "summary.json").write_text(json.dumps(_summary(analysis, effect, scatter, cost)))
-            store.finish(analysis.id, 1.0)
+            store.end(finished(analysis.id, result))
     return folder / "out"
 
 
