@@ -12,14 +12,14 @@ from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.claim import CALIBRATION_TARGET, MARGIN
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, p_value, percent, percent_interval, setting_text)
+from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, p_value, percent, percent_interval, plain_level, setting_text)
 from fecolumn.report.pair import Pair
 from fecolumn.report.sweep import Setting, Sweep
 from fecolumn.statistics.convergence import cdf_convergence
 from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
 
 _LINES, _PANELS, _ROWS = 7, 9, 40
-_FOLD = 20
+_FOLD, _LONGEST = 20, 60
 TARGET_NOTE = (f"{percent(CALIBRATION_TARGET)} is a calibration target, never a result: the specimen's size is not published, and height and "
                "cap are there to be chosen so that P(overturn) comes near it")
 
@@ -31,7 +31,8 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
         panels = _panels(sweep, axis)
         files = cdf_figure(panels, sweep.limit_m, gallery.path(name), gallery.formats)
         other = [axis_name(one) for one in sweep.varied if one != axis]
-        what = f"a line for each {axis_name(axis)}" if axis else "settings of the study"
+        what = f"a line for each {axis_name(axis)}" if axis else \
+            "settings of the study" if len(sweep.done) <= _LINES else "the settings of least, middle and largest P(overturn)"
         blocks.append(gallery.figure(name, files, f"Distribution of the largest top displacement: {what}"
                       + (f", a panel for each {' and '.join(other)}" if other and axis else "") + _left_out(sweep, axis, panels)
                       + ". Overturned runs are censored: a distribution ends at 1 − P(overturn). Shades: pointwise 95 % bands (Greenwood); "
@@ -57,14 +58,30 @@ def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
 
 def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
     if axis is None:
-        chosen = sweep.done if len(sweep.done) <= _LINES else [sweep.done[k] for k in np.linspace(0, len(sweep.done) - 1, _LINES).astype(int)]
-        return [Panel("", tuple((_in_figure(one.values) or "all analyses", ecdf(*one.peaks())) for one in chosen))]
+        chosen = sweep.done
+        if len(chosen) > _LINES:  # of many unordered ones the least, the middle and the most dangerous
+            ranked = sorted(chosen, key=lambda one: (one.column("overturned").mean(), one.column("u_max_m").mean()))
+            chosen = [ranked[0], ranked[len(ranked) // 2], ranked[-1]]
+        labels = _labels(sweep)
+        return [Panel("", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen))]
     groups: dict[str, list[Setting]] = {}
     for setting in sorted(sweep.done, key=lambda one: [sweep.axes[key].index(value) for key, value in one.values.items()]):
         title = _in_figure({key: value for key, value in setting.values.items() if key != axis and key in sweep.varied})
         groups.setdefault(title, []).append(setting)
     panels = [Panel(title, tuple((axis_text(axis, one.values[axis]), ecdf(*one.peaks())) for one in group)) for title, group in groups.items()]
     return panels[:_PANELS]
+
+
+def _labels(sweep: Sweep) -> dict[int, str]:
+    """What every setting is called in figures, by its identity: its values, or its number where these would be too long."""
+    texts = [_in_figure({axis: one.values[axis] for axis in sweep.varied}) or "all analyses" for one in sweep.settings]
+    if _long(texts):
+        texts = [f"setting {number}" for number in range(1, len(texts) + 1)]
+    return {id(one): text for one, text in zip(sweep.settings, texts)}
+
+
+def _long(texts: list[str]) -> bool:
+    return max(map(len, texts)) > _LONGEST
 
 
 def _in_figure(values: dict) -> str:
@@ -86,9 +103,9 @@ def _opening(sweep: Sweep, figure: str) -> str:
 
 
 def _overturning(sweep: Sweep, gallery: Gallery) -> list:
-    rows, estimates = [], []
-    for setting in sweep.settings:
-        levels = tuple(setting.values[axis] for axis in sweep.varied)
+    rows, estimates, labels = [], [], _labels(sweep)
+    for number, setting in enumerate(sweep.settings, 1):
+        levels = (number, *(setting.values[axis] for axis in sweep.varied))
         if not setting.runs:
             rows.append((*levels, setting.planned, 0, None, None, None, None, None, None, None, None, None))
             continue
@@ -96,9 +113,8 @@ def _overturning(sweep: Sweep, gallery: Gallery) -> list:
         k, n = int(over.sum()), over.size
         wilson, exact = proportion_interval(k, n), proportion_interval(k, n, method="exact")
         rows.append((*levels, setting.planned, n, k, k / n, *wilson, *exact, *(percentile(u, over, share) for share in (0.16, 0.5, 0.84))))
-        estimates.append(Estimate(_in_figure({axis: setting.values[axis] for axis in sweep.varied}) or "all analyses",
-                                  100 * k / n, 100 * wilson[0], 100 * wilson[1]))
-    table = Table("p_overturn", (*axis_columns(sweep.varied), Column("planned", "planned"), Column("n", "run"),
+        estimates.append(Estimate(labels[id(setting)], 100 * k / n, 100 * wilson[0], 100 * wilson[1]))
+    table = Table("p_overturn", (Column("setting", "setting"), *axis_columns(sweep.varied), Column("planned", "planned"), Column("n", "run"),
                                  Column("overturned", "over\N{SOFT HYPHEN}turned", _whole),
                                  Column("p_overturn", "P(overturn) [%]", lambda share: fixed(None if share is None else 100 * share, 1)),
                                  Column("wilson_low wilson_high", "Wilson [%]", percent_interval),
@@ -118,18 +134,13 @@ def _overturning(sweep: Sweep, gallery: Gallery) -> list:
 
 def axis_columns(axes) -> tuple[Column, ...]:
     """Columns of the levels of axes."""
-    return tuple(Column(axis, axis_name(axis) + (f" [{unit}]" if (unit := _unit(axis)) else ""), _level) for axis in axes)
+    return tuple(Column(axis, axis_name(axis) + (f" [{unit}]" if (unit := _unit(axis)) else ""), plain_level) for axis in axes)
 
 
 def _unit(axis: str) -> str:
     from fecolumn.post.axis_text import axis_unit
 
     return "" if axis_unit(axis) == "-" else axis_unit(axis)
-
-
-def _level(value) -> str:
-    plain = isinstance(value, (int, float)) and not isinstance(value, bool)
-    return f"{value:g}".replace("-", "\N{MINUS SIGN}") if plain else str(value)
 
 
 def _levels(axis: str, low, high) -> str:

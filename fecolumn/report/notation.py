@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import re
 
-from fecolumn.post.axis_text import axis_unit
+from fecolumn.post.axis_text import axis_unit, axis_words, level_number
 
 MINUS, DASH, THIN = "\N{MINUS SIGN}", "\N{EM DASH}", "\N{NARROW NO-BREAK SPACE}"
 _SYMBOLS = {"integration.dt_s": "\N{GREEK CAPITAL LETTER DELTA}t", "integration.alpha_hht": "\N{GREEK SMALL LETTER ALPHA}",
-            "contact.friction_coefficient": "\N{GREEK SMALL LETTER MU}"}
+            "contact.friction_coefficient": "\N{GREEK SMALL LETTER MU}", "material.youngs_modulus_pa": "E"}
 _TYPESET = [(re.compile(pattern), replacement) for pattern, replacement in (
     (r"\bu_max\b", "<i>u</i><sub>max</sub>"), (r"\bu([₀-₉]{2})", r"<i>u</i>\1"), (r"\be([₀-₉]{2})", r"<i>e</i>\1"),
     (r"\bP\(", "<i>P</i>("), (r"Δt\b", "Δ<i>t</i>"), (r"([αμτ])", r"<i>\1</i>"),
@@ -85,18 +85,26 @@ def count(n: int, noun: str) -> str:
 
 def axis_name(key: str) -> str:
     """Symbol of an axis, or the last word of its key."""
-    unit = axis_unit(key)
-    return _SYMBOLS.get(key, key.split(".")[-1].removesuffix(f"_{unit}").replace("_", " "))
+    return _SYMBOLS.get(key) or axis_words(key)
 
 
 def level_text(key: str, value) -> str:
     """Value of an axis with its unit, such as "0.001 s"."""
     if isinstance(value, dict):
         return ", ".join(setting_text({f"{key}.{inner}": item}) for inner, item in value.items())
-    plain = isinstance(value, (int, float)) and not isinstance(value, bool)
-    text = f"{value:g}".replace("-", MINUS) if plain else str(value)
     unit = axis_unit(key)
-    return text + (f"\N{NO-BREAK SPACE}{unit}" if plain and unit != "-" else "")
+    plain = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return plain_level(value) + (f"\N{NO-BREAK SPACE}{unit}" if plain and unit != "-" else "")
+
+
+def plain_level(value) -> str:
+    """Value of an axis without its unit, powers of ten written as such."""
+    text = level_number(value)
+    if not isinstance(value, float) or "e" not in text:
+        return text
+    mantissa, _, exponent = text.partition("e")
+    power = f"10{str(int(exponent.replace(MINUS, '-'))).translate(_SUPERSCRIPTS)}"
+    return power if mantissa == "1" else f"{mantissa}{THIN}×{THIN}{power}"
 
 
 def setting_text(values: dict) -> str:

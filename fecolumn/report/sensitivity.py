@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fecolumn.post.axis_text import axis_text, level_number
 from fecolumn.post.interval_figure import Estimate, Scale, interval_figure
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
@@ -20,9 +21,14 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
     text = ("[[sensitivity]] and [[ranking]] rank the parameters by the largest distance of the CDF between their extreme levels, averaged "
             f"over all other settings. {axis_name(first.axis)} comes first with {fixed(first.effect.distance)} "
             f"{interval(first.effect.distance_low, first.effect.distance_high)}. ")
+    if any(isinstance(rank.low, tuple) for rank in ranks):
+        beside = (" Samples differ in all parameters at once: by the luck of few samples an effect of one shows up under another, too, and "
+                  "neither intervals nor chance, which are over motions, know of it.")
+    else:
+        beside = ""
     goes = f"{'Only ' if len(above) < len(ranks) else ''}{' and '.join(above)} {'goes' if len(above) == 1 else 'go'}"
-    text += f"{goes if above else 'No parameter goes'} beyond what chance alone gives."
-    names = [f"{axis_name(rank.axis)}: {_level(rank, rank.low)} to {_level(rank, rank.high)}" for rank in ranks]
+    text += f"{goes if above else 'No parameter goes'} beyond what chance alone gives.{beside}"
+    names = [f"{axis_text(rank.axis, low)} to {level_number(high)}" for rank in ranks for low, high in [_ends(rank)]]
     files = interval_figure([
         (Scale("largest distance of the CDF", (0, None)),
          [Estimate(name, r.effect.distance, r.effect.distance_low, r.effect.distance_high, r.effect.chance)
@@ -56,9 +62,3 @@ def _ends(rank: Rank) -> tuple:
     """Levels compared; of a sampled parameter the least and the largest value."""
     low, high = rank.low, rank.high
     return low[0] if isinstance(low, tuple) else low, high[1] if isinstance(high, tuple) else high
-
-
-def _level(rank: Rank, value) -> str:
-    if isinstance(value, tuple):
-        return f"{level_text(rank.axis, value[0])}–{level_text(rank.axis, value[1])}"
-    return level_text(rank.axis, value)
