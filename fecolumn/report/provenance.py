@@ -17,6 +17,7 @@ from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE
 
 _PACKAGES = ("numpy", "scipy", "numba", "matplotlib", "jinja2", "h5py", "petsc4py", "fenics-dolfinx", "gmsh")
+_RECORDED = {"motion": "Motions by digest", "machine": "Machine"}
 _KNOWN = ("id", "axes", "state", "reason", "wall_s", "version", "summary", "started", "log")
 
 
@@ -77,7 +78,7 @@ def _recorded(sweep: Sweep):
     for key in (key for key in (done[0] if done else {}) if key not in _KNOWN):
         found = sorted({str(row[key]) for row in done if row.get(key) not in (None, "")})
         if found:
-            yield _words(key), ", ".join(found) if len(found) < 7 else f"{found[0]}, {found[1]} and {len(found) - 2} more"
+            yield _RECORDED.get(key, _words(key)), ", ".join(found) if len(found) < 7 else f"{found[0]}, {found[1]} and {len(found) - 2} more"
 
 
 def _words(key: str) -> str:
