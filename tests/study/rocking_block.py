@@ -1,7 +1,8 @@
 """A second engine for the driver's tests: Housner's rigid block (1963) in the plane, integrated in a few milliseconds.
 
 Motions are named "pulse:<number>": one sine of an amplitude and a period drawn from that number. Other names fail:
-"pulse:full" finds the disk full until there is a file "room" in the study's folder, "pulse:diverges" raises, "pulse:killed" dies as from a lack of memory, once; "pulse:silent" returns without a summary.
+"pulse:diverges" raises, "pulse:killed" dies as from a lack of memory, once; "pulse:silent" returns without a summary;
+"pulse:full" finds the disk full until there is a file "room" in the study's folder.
 """
 
 import json
