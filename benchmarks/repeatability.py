@@ -36,14 +36,19 @@ def main(folder) -> None:
                 continue
             histories = [read_history(file) for file, _ in runs]
             times, paths = aligned([(history["time"], history["u_top"][:, :2]) for history in histories])
-            grown = spread(paths, times, _SHARE)
+            if all(summary["overturned"] for _, summary in runs):  # the last row, at the fall, may come a step earlier or later
+                kept = times < min(history["time"][-1] for history in histories) - 1e-9
+                times, paths = times[kept], paths[:, kept]
+            grown = spread(paths, times, _SHARE, size)
             names.append(motion)
             sizes.append(size)
             horizons.append(horizon(grown.spread, times, grown.peak, _SHARE))
             peaks = sorted(1e3 * summary["u_max_m"] for _, summary in runs if not summary["overturned"])
             extent = f"{peaks[0]:10.3f} {peaks[-1] / peaks[0] - 1:9.1e}" if peaks else f"{'-':>10} {'-':>9}"
             end = f"{horizons[-1]:11.3f}" if math.isfinite(horizons[-1]) else f"{'beyond':>11}"
-            rate = f"{grown.rate:10.2f}  [{grown.interval[0]:.2f}, {grown.interval[1]:.2f}]" if math.isfinite(grown.rate) else f"{'-':>10}"
+            rate = f"{grown.rate:10.2f}" if math.isfinite(grown.rate) else f"{'-':>10}"
+            if math.isfinite(grown.interval[0]):
+                rate += f"  [{grown.interval[0]:.2f}, {grown.interval[1]:.2f}]"
             print(f"{motion:34} {size:12.0e} {len(runs):4} {sum(summary['overturned'] for _, summary in runs):10} {extent} "
                   f"{grown.spread.max() / grown.peak:11.1e} {times[-1]:7.2f} {end} {rate}")
     for motion in dict.fromkeys(names):

@@ -68,7 +68,7 @@ def refuse_degenerate(x: np.ndarray, yes: np.ndarray) -> None:
     """Raise DegenerateData where the likelihood has no finite maximum."""
     k, n = int(yes.sum()), yes.size
     if k in (0, n):
-        raise DegenerateData(f"{'none' if k == 0 else 'all'} of {n} runs overturned: only a bound of P(overturn) can be told, see proportion_interval")
+        raise DegenerateData(f"{'none' if k == 0 else 'all'} of {n} runs overturned: only a bound of P(overturn) can be told: proportion_interval")
     if np.linalg.matrix_rank(x) < x.shape[1]:
         raise DegenerateData("the intensity measures do not vary, or not independently of each other")
     if _separated(x, yes):

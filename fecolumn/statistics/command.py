@@ -96,7 +96,8 @@ def _write(folder: Path, result, a, b, paired: bool, cap_mm: float) -> list[Path
 
     folder.mkdir(parents=True, exist_ok=True)
     files = [folder / "comparison.csv"]
-    write_bytes(files[0], _csv([["quantity", "value"], *([key, "" if value is None else value] for key, value in dataclasses.asdict(result).items())]))
+    values = [[key, "" if value is None else value] for key, value in dataclasses.asdict(result).items()]
+    write_bytes(files[0], _csv([["quantity", "value"], *values]))
     if paired:
         files.append(folder / "pairs.csv")
         u = [["" if fallen else f"{value:.6e}" for value, fallen in zip(sample.u_max, sample.overturned)] for sample in (a, b)]

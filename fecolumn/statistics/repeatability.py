@@ -1,9 +1,10 @@
 """How far ahead a motion can be computed: runs that differ by next to nothing, and how they part.
 
 The perturbed runs are analyses like others: a study whose axes shift contact.friction_coefficient, initial.tilt_rad or
-motion.delay_s by 1e-9 to 1e-3 of themselves (benchmarks/repeatability.toml). A perturbation of size e grows on average like
-e exp(rate t) until it is as large as the motion; beyond that horizon, of order ln(1 / e) / rate, only statistics can be told (Lorenz
-1969, Tellus 21). With contact it grows in leaps, at impacts and at changes of stick and slip, so the rate is an average.
+motion.delay_s by 1e-9 to 1e-3 of themselves (benchmarks/repeatability.toml). Where motion is chaotic a perturbation of size e grows
+on average like e exp(rate t) until it is as large as the motion; beyond that horizon, of order ln(1 / e) / rate, only statistics can be
+told (Lorenz 1969, Tellus 21). With contact it grows in leaps, at impacts and at changes of stick and slip, so the rate is an
+average; and short motions may end before the runs have parted at all: then there is no horizon, and the rate means little.
 """
 
 from __future__ import annotations
@@ -24,11 +25,11 @@ class Spread:
         times: (steps,) [s].
         spread: (steps,) root mean square distance of the runs from their mean [unit of the paths].
         peak: largest distance of the mean run from the origin [unit of the paths].
-        rate: exponential rate of the running maximum of spread, least squares over `window` [1/s]; nan where the spread grows
-            less than tenfold before it has reached the share of the peak.
+        rate: exponential rate of the running maximum of spread, least squares over `window` [1/s]; nan where it grows less than tenfold
+            within `window`.
         interval: 95 % interval of the rate, by leaving out one run after the other (jackknife): what other perturbations of
             this motion would give, not what other motions would.
-        window: times from the first spread to `share` of the peak [s].
+        window: times in which the spread lies between `size` and `share` of the peak [s].
     """
 
     times: np.ndarray
@@ -39,7 +40,7 @@ class Spread:
     window: tuple[float, float]
 
 
-def spread(paths, times, share: float = 0.1) -> Spread:
+def spread(paths, times, share: float = 0.1, size: float = 0.0) -> Spread:
     """Spread of perturbed runs of one motion over time, and its rate of growth.
 
     Perturbations of different sizes belong in different calls: the largest alone would be seen.
@@ -48,6 +49,8 @@ def spread(paths, times, share: float = 0.1) -> Spread:
         paths: (k, steps) or (k, steps, d) with k >= 3 runs, such as the top displacement in x and y [m].
         times: (steps,) rising [s].
         share: of the peak, where the growth counts as ended.
+        size: relative size of the perturbation. A response that follows what it is given differs by about as much; growth counts
+            from where the spread is that share of the peak, so that the first steps' way up from rounding is not taken for chaos.
     """
     paths, times = np.asarray(paths, float), np.asarray(times, float)
     if paths.ndim == 2:
@@ -57,9 +60,9 @@ def spread(paths, times, share: float = 0.1) -> Spread:
     if (np.diff(times) <= 0).any():
         raise ValueError("times must rise")
     distance, peak = _scatter(paths), float(np.linalg.norm(paths.mean(axis=0), axis=1).max())
-    rate, window = _rate(distance, times, share * peak)
+    rate, window = _rate(distance, times, size * peak, share * peak)
     k = len(paths)
-    left_out = np.array([_rate(_scatter(np.delete(paths, run, axis=0)), times, share * peak)[0] for run in range(k)])
+    left_out = np.array([_rate(_scatter(np.delete(paths, run, axis=0)), times, size * peak, share * peak)[0] for run in range(k)])
     return Spread(times, distance, peak, rate, _jackknife(rate, left_out), window)
 
 
@@ -129,10 +132,10 @@ def _scatter(paths: np.ndarray) -> np.ndarray:
     return np.sqrt((deviation**2).sum(axis=(0, 2)) / (len(paths) - 1))
 
 
-def _rate(distance: np.ndarray, times: np.ndarray, limit: float) -> tuple[float, tuple[float, float]]:
-    """Slope of ln(running maximum) from the first positive spread to the limit, and that window."""
+def _rate(distance: np.ndarray, times: np.ndarray, floor: float, limit: float) -> tuple[float, tuple[float, float]]:
+    """Slope of ln(running maximum) between floor and limit, and the window of times where it lies there."""
     grown = np.maximum.accumulate(distance)
-    inside = (grown > 0) & (grown <= limit)
+    inside = (grown > floor) & (grown <= limit)
     if not inside.any():
         return math.nan, (math.nan, math.nan)
     window = float(times[inside][0]), float(times[inside][-1])

@@ -76,6 +76,8 @@ def _of_study(folder: str, choice: dict) -> Sample:
 
     study = read_study(folder)
     rows = study.rows
+    if not rows:
+        raise InputError(folder, "", None, "its ledger holds no analysis, or is of an earlier version; run fecolumn study on this folder again")
     for key, value in choice.items():
         if key not in study.axes:
             raise InputError(folder, key, value, f"is no axis of this study; its axes: {', '.join(study.axes)}")

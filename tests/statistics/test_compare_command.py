@@ -104,3 +104,10 @@ def test_unfinished_study_is_compared_as_far_as_it_is(study, tmp_path, capsys):
     choice = "integration.dt_s=0.02,integration.alpha_hht=0"
     said = compared(capsys, f"{tmp_path / 'part'}@{choice}", f"{study}@{choice}")
     assert "A: 1 analyses of this choice are not done" in said and "59 motions in both" in said and "1 only in B" in said
+
+
+def test_study_without_a_ledger_is_refused_in_words(study, tmp_path):
+    (tmp_path / "bare").mkdir()
+    (tmp_path / "bare" / "study.json").write_bytes((study / "study.json").read_bytes())
+    with pytest.raises(InputError, match="run fecolumn study on this folder again"):
+        read_sample(str(tmp_path / "bare"))

@@ -44,6 +44,16 @@ def test_runs_that_never_part_have_no_rate_and_no_horizon():
     assert math.isnan(spread(np.tile(np.sin(times), (3, 1)), times).rate)
 
 
+def test_response_that_follows_its_perturbation_is_not_taken_for_chaos():
+    """A path that begins at rest and is proportional to the load, the load perturbed: spread rises from 0 to 1e-6 of the peak, no more."""
+    times = np.linspace(0, 5, 501)
+    paths = np.expm1(np.minimum(times, 2))[None] * (1 + 1e-6 * np.arange(4)[:, None])
+    assert spread(paths, times).rate > 0.5
+    assert math.isnan(spread(paths, times, size=1e-6).rate)
+    paths, times = growing(3.0, 1e-9)
+    assert spread(paths, times, size=1e-9).rate == pytest.approx(3.0, rel=0.01)
+
+
 def test_horizon_is_where_the_spread_passes_the_share():
     times = np.linspace(0, 10, 1001)
     assert horizon(1e-6 * np.exp(2 * times), times, peak=0.1, share=0.1) == pytest.approx(math.log(1e4) / 2, abs=0.011)
