@@ -121,9 +121,10 @@ def _trend(sweep: Sweep, axis: str) -> Claim:
         widest = max(outside, key=lambda one: one.trend.tau_high - one.trend.tau_low)
         parts.append(f"{count(widest.trend.n, 'motion')} leave τ {interval(widest.trend.tau_low, widest.trend.tau_high)} open {_line(widest)}.")
     if clear and (fine := [one.fine for one in found if one.fine]):
+        p = float(holm([one.p for one in fine]).min())
         parts.append(f"Among time steps of 1 ms and below alone, τ lies between {fixed(min(t.tau for t in fine))} and "
-                     f"{fixed(max(t.tau for t in fine))} (smallest uncorrected {p_clause(min(t.p for t in fine))}): "
-                     + ("the trend is that of the coarse step." if min(t.p for t in fine) > 0.05 else "it is not the coarse step alone."))
+                     f"{fixed(max(t.tau for t in fine))} (smallest {p_clause(p)}): "
+                     + ("the trend is that of the coarse step." if p > 0.05 else "it is not the coarse step alone."))
     return Claim(key, paper, " ".join(parts), rule, verdict)
 
 

@@ -17,7 +17,8 @@ from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE
 
 _PACKAGES = ("numpy", "scipy", "numba", "matplotlib", "jinja2", "h5py", "petsc4py", "fenics-dolfinx", "gmsh")
-_RECORDED = {"motion": "Motions by digest", "machine": "Machine"}
+_RECORDED = {"motion": "Motion files (SHA-256)", "machine": "Machine"}
+_DIGEST = re.compile("[0-9a-f]{40,}")
 _KNOWN = ("id", "axes", "state", "reason", "wall_s", "version", "summary", "started", "log")
 
 
@@ -76,9 +77,14 @@ def _recorded(sweep: Sweep):
     """What else the ledger records of every analysis that is done: machine, hash of the motion."""
     done = [row for row in sweep.rows if row["state"] == DONE]
     for key in (key for key in (done[0] if done else {}) if key not in _KNOWN):
-        found = sorted({str(row[key]) for row in done if row.get(key) not in (None, "")})
+        found = sorted({_digest(row[key]) if key == "motion" else str(row[key]) for row in done if row.get(key) not in (None, "")})
         if found:
             yield _RECORDED.get(key, _words(key)), ", ".join(found) if len(found) < 7 else f"{found[0]}, {found[1]} and {len(found) - 2} more"
+
+
+def _digest(motion: str) -> str:
+    """The file of a motion by the first twelve digits of its digest, whichever of its motions was taken."""
+    return motion.partition("#")[0][:12] if _DIGEST.match(motion) else motion
 
 
 def _words(key: str) -> str:
