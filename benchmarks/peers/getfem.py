@@ -3,7 +3,8 @@
     /usr/bin/python3 -P getfem.py JOB.npz FOLDER
 
 Settings. Newmark with alpha = -0.05 in gamma = 1/2 - alpha and beta = (1 - alpha)^2 / 4. Contact with friction on a rigid obstacle by
-`add_penalized_contact_with_rigid_obstacle_brick` (Renard 2013), penalty E / brick size, at the corners of the bricks, where the rim is.
+`add_penalized_contact_with_rigid_obstacle_brick` (Renard 2013), penalty E / (10 brick sizes): ten times that takes three times
+the iterations, a tenth of it lets the toe bounce; integrated at the corners of the bricks, where the rim is.
 Without the line search Newton cycles at the impact. Its friction is a penalty on the slip of one step, so a stick has no memory.
 Ties as a reduced finite-element space, which is exact.
 """
@@ -98,7 +99,7 @@ def main(job_file, folder):
     model.add_initialized_data("weight", [0.0, 0.0, -density * float(job["gravity"])])
     model.add_source_term_brick(volume, "u", "weight")
     model.add_initialized_fem_data("gap", level, gap)
-    for name, value in (("stiffness", young / float(job["brick"])), ("friction", friction), ("rate", 1.0)):
+    for name, value in (("stiffness", 0.1 * young / float(job["brick"])), ("friction", friction), ("rate", 1.0)):
         model.add_initialized_data(name, [value])
     model.add_penalized_contact_with_rigid_obstacle_brick(corner, "u", "gap", "stiffness", "friction", FOOT, 1, "", "rate", "before")
 
@@ -129,7 +130,7 @@ def main(job_file, folder):
                 model.set_variable("guess", guess)
                 model.set_variable("before", u)
                 model.set_variable("u", u + dt * v)
-                iterations, ok = model.solve("max_res", 1e-6, "max_iter", 40, "lsearch", "simplest", "alpha max ratio", 1.0, "alpha mult", 0.5, "alpha min", 1e-3, "lsolver", "mumps", *(["noisy"] if step % 40 == 39 else []))
+                iterations, ok = model.solve("max_res", 1e-6, "max_iter", 40, "lsearch", "simplest", "alpha max ratio", 1.0, "alpha mult", 0.5, "alpha min", 1e-3, "lsolver", "mumps")
                 u = model.variable("u")
                 after = (u - guess) / (beta * dt**2)
                 v = v + dt * ((1 - gamma) * a + gamma * after)
