@@ -2,7 +2,7 @@
 
 Settings. Penalty as in GetFEM's run, E / (10 brick sizes), the same for stick, on a floor of one fixed brick; ties as *EQUATION. ccx rejects
 increments of *DYNAMIC with contact whose energy changes by more than a built-in share of the model's: a free block that flies far away
-with 500 J enlarges the reference and takes no part otherwise.
+with 500 J enlarges the reference and takes no part otherwise. DIRECT keeps the increment: without it, impact rules cut it eightfold.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def deck(job) -> str:
         f"*FRICTION\n{float(job['friction']):.16g}, {stiffness:.16g}",
         "*CONTACT PAIR, INTERACTION=RIM, TYPE=SURFACE TO SURFACE\nBELOW, GROUND",
         f"*INITIAL CONDITIONS, TYPE=VELOCITY\nGHOST, 2, {flight:.16g}",
-        "*STEP, NLGEOM, INC=1000000", f"*DYNAMIC, ALPHA={ALPHA}", f"{dt}, {steps * dt}, {dt / 1024}, {dt}",
+        "*STEP, NLGEOM, INC=1000000", f"*DYNAMIC, DIRECT, ALPHA={ALPHA}", f"{dt}, {steps * dt}, {dt / 1024}, {dt}",
         "*DLOAD", f"COLUMN, GRAV, {float(job['gravity']):.16g}, 0., 0., -1.",
         "*NODE PRINT, NSET=WATCHED, FREQUENCY=1\nU", "*END STEP", ""])
 
