@@ -33,17 +33,19 @@ def cpu_of(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def run_child(command: list[str], folder: Path, limit: float, look: Callable[[float], None] = lambda cpu: None) -> Outcome:
+def run_child(command: list[str], folder: Path, limit: float, look: Callable[[float], None] = lambda cpu: None,
+              extra: dict[str, str] | None = None) -> Outcome:
     """Run a program to its end or until it has spent `limit` seconds of CPU time.
 
     Args:
         command, folder: what to run, and where; its output goes to log.txt there.
         look: called with the CPU time so far [s] every LOOK_S.
+        extra: added to the environment.
 
     Raises:
         FileNotFoundError: no such program.
     """
-    environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "VIRTUAL_ENV")} | ONE_THREAD
+    environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "VIRTUAL_ENV")} | ONE_THREAD | (extra or {})
 
     def bounded():
         resource.setrlimit(resource.RLIMIT_CPU, (int(limit), int(limit) + 5))

@@ -20,6 +20,7 @@ from benchmarks.peers.case import Release, release
 from benchmarks.peers.track import write_rows
 from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.gravity import tilted
+from fecolumn.verification import rocking
 from fecolumn.verification.trial import Trial
 
 # CPU seconds that the timing of a compiled engine takes at least
@@ -33,6 +34,7 @@ def toes_of(reference, radius: float) -> list[int]:
 
 def full(given: Release, steps: int):
     """Rows of the track, one a step, of the full-order engine."""
+    rocking.release("corotated", 0.4)  # compiles what a release and an impact call
     trial = Trial(build_system(given.case, MPI.COMM_SELF, given.mesh), lambda system: tilted(system, given.tilt, 0.0))
     reference = trial.system.interface.reference
     toes, standing, cpu, made = toes_of(reference, given.radius), trial.mechanical() - given.rigid.energy(given.tilt), 0.0, 0
