@@ -14,30 +14,28 @@ import time
 
 import getfem as gf
 import numpy as np
-from scipy.sparse import csr_matrix
+from scipy.sparse import csr_matrix, kron
 from scipy.spatial import cKDTree
 
 ALPHA = -0.05
+GAMMA, BETA = 0.5 - ALPHA, (1 - ALPHA) ** 2 / 4
+NEWTON = ("max_res", 1e-6, "max_iter", 40, "lsearch", "simplest", "alpha max ratio", 1.0, "alpha mult", 0.5, "alpha min", 1e-3, "lsolver", "mumps")
 CORNERS = [0, 1, 3, 2, 4, 5, 7, 6]  # VTK to GetFEM's tensor order
 FOOT = 1
+GREEN = "(Grad_u+Grad_u'+Grad_u'*Grad_u)"  # twice Green and Lagrange's strain
 
 
 def spmat(matrix):
-    """GetFEM's sparse matrix of a SciPy one."""
-    matrix = matrix.tocsc()
-    return gf.Spmat("from scipy", matrix) if False else gf.Spmat(
-        "copy", gf.Spmat("empty", *matrix.shape)) if matrix.nnz == 0 else _filled(matrix)
-
-
-def _filled(matrix):
-    coo, result = matrix.tocoo(), gf.Spmat("empty", *matrix.shape)
+    """GetFEM's sparse matrix of a SciPy one, each entry for the three components of a vector field."""
+    coo, result = kron(matrix, np.eye(3), "coo"), gf.Spmat("empty", *(3 * size for size in matrix.shape))
     for i, j, value in zip(coo.row, coo.col, coo.data):
-        result.add(int(i), int(j), np.array([[value]]))
+        if value:
+            result.add(int(i), int(j), np.array([[value]]))
     return result
 
 
 def space(job):
-    """Mesh as released, vector finite-element space without the slaves, and dof (n, 3) of each of the job's points (-1 for slaves)."""
+    """Mesh as released; vector space on it without the slaves; matrix from its nodes to those of the mesh; mesh node of each of the job's points."""
     mesh = gf.Mesh("empty", 3)
     corners = job["start"][job["cells"][:, CORNERS]]
     mesh.add_convex(gf.GeoTrans("GT_QK(3,1)"), np.ascontiguousarray(corners.transpose(2, 1, 0)))
@@ -60,28 +58,16 @@ def space(job):
     extension = csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (len(places), len(kept)))
     identity = csr_matrix((np.ones(len(kept)), (number[kept], kept)), (len(kept), len(places)))
     if len(held):
-        eye = np.eye(3)
-        from scipy.sparse import kron
-        field.set("reduction matrices", spmat(kron(identity, eye)), spmat(kron(extension, eye)))
+        field.set("reduction matrices", spmat(identity), spmat(extension))
     return mesh, field, extension, node
 
 
-def main(job_file, folder):
-    gf.util_trace_level(0)
-    job = np.load(job_file)
-    dt, friction = float(job["dt"]), float(job["friction"])
-    gamma, beta = 0.5 - ALPHA, (1 - ALPHA) ** 2 / 4
-    young, poisson, density = (float(job[key]) for key in ("youngs_modulus", "poissons_ratio", "density"))
-    mesh, field, extension, node = space(job)
-    size = field.nbdof()
-    volume, corner = gf.MeshIm(mesh, gf.Integ("IM_HEXAHEDRON(5)")), gf.MeshIm(mesh, gf.Integ("IM_NC_PARALLELEPIPED(3,1)"))
-    # faces of the foot: those with four corners on it
-    foot = np.zeros(extension.shape[0], bool)
-    foot[node[job["foot"]]] = True
-    points = mesh.pts().T
-    below = cKDTree(points).query(job["start"][job["foot"]])[1]
-    faces = mesh.faces_from_pid(below)
-    mesh.set_region(FOOT, faces)
+def balance(job, mesh, field, volume):
+    """Model of the momentum balance at the end of a step; "guess" is where no acceleration leads to, "before" the displacement before."""
+    dt, young, poisson, density = (float(job[key]) for key in ("dt", "youngs_modulus", "poissons_ratio", "density"))
+    corner = gf.MeshIm(mesh, gf.Integ("IM_NC_PARALLELEPIPED(3,1)"))
+    below = cKDTree(mesh.pts().T).query(job["start"][job["foot"]])[1]
+    mesh.set_region(FOOT, mesh.faces_from_pid(below))
 
     level = gf.MeshFem(mesh, 1)
     level.set_fem(gf.Fem("FEM_QK(3,1)"))
@@ -90,31 +76,35 @@ def main(job_file, folder):
     model = gf.Model("real")
     model.add_fem_variable("u", field)
     for name in ("guess", "before"):
-        model.add_initialized_fem_data(name, field, np.zeros(size))
+        model.add_initialized_fem_data(name, field, np.zeros(field.nbdof()))
     lame = [young * poisson / (1 + poisson) / (1 - 2 * poisson), young / 2 / (1 + poisson)]
     model.add_initialized_data("lame", lame)
     model.add_finite_strain_elasticity_brick(volume, "SaintVenant Kirchhoff", "u", "lame")
-    model.add_initialized_data("inertia", [density / (beta * dt**2)])
+    model.add_initialized_data("inertia", [density / (BETA * dt**2)])
     model.add_linear_term(volume, "inertia*(u-guess).Test_u")
     model.add_initialized_data("weight", [0.0, 0.0, -density * float(job["gravity"])])
     model.add_source_term_brick(volume, "u", "weight")
     model.add_initialized_fem_data("gap", level, gap)
-    for name, value in (("stiffness", 0.1 * young / float(job["brick"])), ("friction", friction), ("rate", 1.0)):
+    for name, value in (("stiffness", 0.1 * young / float(job["brick"])), ("friction", float(job["friction"])), ("rate", 1.0)):
         model.add_initialized_data(name, [value])
     model.add_penalized_contact_with_rigid_obstacle_brick(corner, "u", "gap", "stiffness", "friction", FOOT, 1, "", "rate", "before")
+    return model
 
+
+def main(job_file, folder):
+    gf.util_trace_level(0)
+    job = np.load(job_file)
+    dt, density = float(job["dt"]), float(job["density"])
+    mesh, field, extension, node = space(job)
+    volume, size = gf.MeshIm(mesh, gf.Integ("IM_HEXAHEDRON(5)")), field.nbdof()
+    model = balance(job, mesh, field, volume)
     fall = np.tile([0.0, 0.0, -float(job["gravity"])], size // 3)
     u, v, a = np.zeros(size), np.zeros(size), fall
-    whole = job["start"]
     mass_matrix = gf.asm_mass_matrix(volume, field)
-
-    def displaced():
-        return extension @ u.reshape(-1, 3)
 
     def energy():
         kinetic = density / 2 * v @ mass_matrix.mult(v)
-        strain = gf.asm_generic(volume, 0, "lame(1)/8*sqr(Trace(Grad_u+Grad_u'+Grad_u'*Grad_u))+lame(2)/4*Norm_sqr(Grad_u+Grad_u'+Grad_u'*Grad_u)",
-                                -1, model)
+        strain = gf.asm_generic(volume, 0, f"lame(1)/8*sqr(Trace({GREEN}))+lame(2)/4*Norm_sqr({GREEN})", -1, model)
         lift = -(mass_matrix.mult(u) @ fall) * density
         return kinetic + strain + lift
 
@@ -122,21 +112,21 @@ def main(job_file, folder):
     pivot = np.array([float(job["radius"]), 0.0, 0.0])
     raised = float(job["mass"]) * float(job["gravity"]) * (((centre - pivot) @ job["turn"].T)[2] - centre[2])
     with open(f"{folder}/track.csv", "w", buffering=1) as track:
-        began, cpu, iterations, ok = time.process_time(), 0.0, 0, 1
+        cpu, iterations, ok = 0.0, 0, 1
         for step in range(int(job["steps"]) + 1):
             if step:
                 began = time.process_time()
-                guess = u + dt * v + dt**2 * (0.5 - beta) * a
+                guess = u + dt * v + dt**2 * (0.5 - BETA) * a
                 model.set_variable("guess", guess)
                 model.set_variable("before", u)
                 model.set_variable("u", u + dt * v)
-                iterations, ok = model.solve("max_res", 1e-6, "max_iter", 40, "lsearch", "simplest", "alpha max ratio", 1.0, "alpha mult", 0.5, "alpha min", 1e-3, "lsolver", "mumps")
+                iterations, ok = model.solve(*NEWTON)
                 u = model.variable("u")
-                after = (u - guess) / (beta * dt**2)
-                v = v + dt * ((1 - gamma) * a + gamma * after)
+                after = (u - guess) / (BETA * dt**2)
+                v = v + dt * ((1 - GAMMA) * a + GAMMA * after)
                 a = after
                 cpu += time.process_time() - began
-            now = whole + displaced()[node]
+            now = job["start"] + (extension @ u.reshape(-1, 3))[node]
             axis = now[job["top"]].mean(0) - now[job["foot"]].mean(0)
             toes = now[job["toes"]] - job["points"][job["toes"]]
             row = (step * dt, np.arctan2(axis[0], axis[2]), toes[0, 0], toes[1, 0], energy() + raised, cpu, iterations, int(ok))
