@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -32,29 +33,30 @@ class Peer:
     """A program that rocks the column.
 
     Attributes:
-        name: on the command line. label: in the table. elements: a finite-element program, with `limit` [CPU s] and `steps` unless long.
-        start: function of (peer, release, job file, folder, limit) that runs it, or raises Missing. ours: of this project.
-        step_share: of its own step in the case's. present: command that succeeds, and prints the version, where the peer can run.
+        name: on the command line. label: in the table. start: function of (peer, release, job file, folder, limit [CPU s]) that runs it.
+        version: function that gives the command which prints the version where the peer can run, and fails elsewhere; None for this
+            project's engines. elements: a finite-element program. steps: it makes unless asked for a long run; 0 for all.
+        step_share: of its own step in the case's.
     """
 
     name: str
     label: str
     start: Callable
-    present: tuple[str, ...] = ()
+    version: Callable[[], list[str]] | None = None
     elements: bool = False
-    ours: bool = False
     steps: int = 0
     step_share: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A peer on a case: dofs, what it wrote (None: nothing), how it ended (None: it was not started) and why not."""
+    """A peer on a case: version, dofs, steps asked for, what it wrote (None: nothing), how it ended (None: it was not started) and why not."""
 
     peer: Peer
     given: Release
     dofs: int
     asked: int
+    version: str = ""
     track: Track | None = None
     outcome: Outcome | None = None
     reason: str = ""
@@ -76,47 +78,58 @@ def _engine(peer, given, job, folder, limit):
     return run_child(command, folder, NO_LIMIT_S, extra={"PYTHONPATH": str(ROOT)})
 
 
-def _imports(module):
-    return (SYSTEM_PYTHON, "-I", "-c", f"import {module}")
+def _debian(package, module):
+    says = f"import {module}, subprocess as s; print(s.check_output(['dpkg-query', '-W', '-f', '${{Version}}', '{package}'], text=True))"
+    return lambda: [SYSTEM_PYTHON, "-I", "-c", says]
+
+
+def _mujoco():
+    return [str(mujoco_python()), "-I", "-c", "import mujoco; print(mujoco.__version__)"]
 
 
 PEERS = (
-    Peer("full", "fecolumn, full order, corotated", _engine, ours=True),
-    Peer("reduced", "fecolumn, reduced, 30 modes", _engine, ours=True),
-    Peer("rigid", "fecolumn, rigid", _engine, ours=True),
-    Peer("getfem", "GetFEM", _script("getfem.py", SYSTEM_PYTHON), _imports("getfem"), elements=True, steps=240),
-    Peer("calculix", "CalculiX", _ccx, ("ccx", "-v"), elements=True, steps=50),
-    Peer("mujoco", "MuJoCo, rigid, dt 1e-3", _script("mujoco.py", mujoco_python, "1e-3"), ("mujoco", "-I", "-c", "import mujoco")),
-    Peer("mujoco-fine", "MuJoCo, rigid, dt 1e-4", _script("mujoco.py", mujoco_python, "1e-4"), ("mujoco", "-I", "-c", "import mujoco"),
-         step_share=0.1),
-    Peer("siconos", "Siconos, rigid", _script("siconos.py", SYSTEM_PYTHON), _imports("siconos.kernel")),
+    Peer("full", "fecolumn, full order, corotated", _engine),
+    Peer("reduced", "fecolumn, reduced, 30 modes", _engine),
+    Peer("rigid", "fecolumn, rigid", _engine),
+    Peer("getfem", "GetFEM", _script("getfem.py", SYSTEM_PYTHON), _debian("python3-getfem", "getfem"), elements=True, steps=240),
+    Peer("calculix", "CalculiX", _ccx, lambda: ["ccx", "-v"], elements=True, steps=50),
+    Peer("mujoco", "MuJoCo, rigid, dt 1e-3", _script("mujoco.py", mujoco_python, "1e-3"), _mujoco),
+    Peer("mujoco-fine", "MuJoCo, rigid, dt 1e-4", _script("mujoco.py", mujoco_python, "1e-4"), _mujoco, step_share=0.1),
+    Peer("siconos", "Siconos, rigid", _script("siconos.py", SYSTEM_PYTHON), _debian("python3-siconos", "siconos.kernel")),
 )
 
 
-def require(peer: Peer) -> None:
-    """Raise Missing where a peer cannot be started."""
-    command = [str(mujoco_python()) if word == "mujoco" else word for word in peer.present]
-    if not command:
-        return
+def version(peer: Peer) -> str:
+    """Version of a peer.
+
+    Raises:
+        Missing: it cannot be started.
+    """
+    if peer.version is None:
+        from fecolumn import __version__
+
+        return __version__
+    environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "VIRTUAL_ENV")}
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=120, env={key: value for key, value in os.environ.items()
-                                                                                     if key not in ("PYTHONPATH", "VIRTUAL_ENV")})
+        done = subprocess.run(peer.version(), capture_output=True, text=True, timeout=120, env=environment)
     except (OSError, subprocess.TimeoutExpired) as error:
         raise Missing(f"cannot run: {error}; --install installs it") from None
-    # ccx says its version with code 0 or 201
-    if done.returncode and "Version" not in done.stdout:
+    # code of ccx -v is not 0
+    found = re.search(r"\d+\.\d+(\.\d+)?", done.stdout)
+    if not found:
         words = done.stderr.strip().splitlines() or [f"code {done.returncode}"]
         raise Missing(f"cannot run: {words[-1]}; --install installs it")
+    return found.group()
 
 
 def run_peer(peer: Peer, given: Release, folder: Path, long: bool = False, limit: float = CPU_LIMIT_S) -> Run:
     """Run a peer on a case in a folder of its own below `folder`; a peer that is missing or fails says so in the result."""
     bodies = len(given.mesh.body.points)
-    dofs = 3 * (bodies + len(given.mesh.base.points)) if peer.ours else 3 * bodies if peer.elements else 6
+    dofs = 3 * (bodies + len(given.mesh.base.points)) if peer.version is None else 3 * bodies if peer.elements else 6
     steps = given.steps if long or not peer.steps else min(peer.steps, given.steps)
     run = Run(peer, given, dofs, round(steps / peer.step_share))
     try:
-        require(peer)
+        run = replace(run, version=version(peer))
         work = folder / f"{given.name}-{peer.name}"
         work.mkdir(parents=True, exist_ok=True)
         (work / "track.csv").unlink(missing_ok=True)
@@ -131,7 +144,7 @@ def run_peer(peer: Peer, given: Release, folder: Path, long: bool = False, limit
 def record(run: Run) -> dict:
     """Everything measured in a run, for the JSON file."""
     track, outcome = run.track, run.outcome
-    found = dict(case=run.given.name, peer=run.peer.label, dofs=run.dofs, asked_steps=run.asked, reason=run.reason)
+    found = dict(case=run.given.name, name=run.peer.name, peer=run.peer.label, version=run.version, elements=run.peer.elements, dofs=run.dofs, asked_steps=run.asked, reason=run.reason)
     if outcome:
         found |= dict(code=outcome.code, cpu_s=outcome.cpu, timed_out=outcome.timed_out, last_words=outcome.words)
     if track:

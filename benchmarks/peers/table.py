@@ -26,12 +26,13 @@ def remark(record: dict) -> str:
 
 def row(record: dict) -> tuple[str, ...]:
     """Cells of a record, as HEAD."""
+    who = f"{record['peer']} ({record['version']})" if record["version"] else record["peer"]
     if "steps" not in record:
-        return (record["peer"], str(record["dofs"]), *["-"] * 7, remark(record))
+        return (who, f"{record['dofs']:,}", *["-"] * 7, remark(record))
     passed = min(len(record["impacts_s"]), len(record["theory_s"]))
     off = max((abs(found / exact - 1) for found, exact in zip(record["impacts_s"], record["theory_s"])), default=None)
     kept, creep = record["energy_kept"], record["toe_creep_m"]
-    return (record["peer"], f"{record['dofs']:,}", _cell(record["cpu_s_per_step"], "{:.2g}"), _cell(record["iterations_per_step"], "{:.1f}"),
+    return (who, f"{record['dofs']:,}", _cell(record["cpu_s_per_step"], "{:.2g}"), _cell(record["iterations_per_step"], "{:.1f}"),
             f"{record['steps']:,}", f"{passed}", _cell(off, "{:.2%}"), _cell(creep and 1e6 * creep, "{:.2g}"),
             f"{_cell(kept, '{:.4f}')} / {record['theory_energy_kept']:.4f}", remark(record))
 
@@ -49,11 +50,8 @@ def table(records: list[dict]) -> str:
 
 
 def ratios(records: list[dict]) -> list[str]:
-    """How many times faster a step this project's engines are than the fastest finite-element peer with steps made."""
-    cost = {record["peer"]: record["cpu_s_per_step"] for record in records if record.get("cpu_s_per_step")}
-    elements = {name: cost[name] for name in cost if name in ("GetFEM", "CalculiX")}
-    if not elements:
-        return []
-    fastest = min(elements, key=elements.get)
-    return [f"{name}: {elements[fastest] / cost[name]:,.0f} times the speed of {fastest}" for name in cost
-            if name.startswith("fecolumn, full") or name.startswith("fecolumn, reduced")]
+    """How many times faster a step this project's finite-element engines are than the fastest finite-element peer that made steps."""
+    timed = [record for record in records if record.get("cpu_s_per_step")]
+    fastest = min((record for record in timed if record["elements"]), key=lambda record: record["cpu_s_per_step"], default=None)
+    return [f"{record['peer']}: {fastest['cpu_s_per_step'] / record['cpu_s_per_step']:,.0f} times as fast a step as {fastest['peer']}"
+            for record in timed if fastest and record["name"] in ("full", "reduced")]

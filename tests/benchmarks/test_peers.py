@@ -66,22 +66,22 @@ def test_line_that_was_being_written_is_left_out(tmp_path):
     assert read_track(path).steps == 1
 
 
-def measured(name, cost, **more):
-    return dict(case="pipe", peer=name, dofs=35328, asked_steps=240, reason="", code=0, timed_out=False, last_words="", steps=240, cpu_s_per_step=cost,
+def measured(label, cost, **more):
+    return dict(case="pipe", name=label.lower(), peer=label, version="5.4.2", elements=True, dofs=35328, asked_steps=240, reason="", code=0, timed_out=False, last_words="", steps=240, cpu_s_per_step=cost,
                 iterations_per_step=2.3, converged=True, impacts_s=[0.2225], theory_s=[0.2220, 0.6588], toe_creep_m=8e-4, energy_kept=0.98,
                 theory_energy_kept=0.97, reached_s=0.24) | more
 
 
 def test_table_has_a_row_a_peer_and_says_how_each_ended():
     found = [measured("GetFEM", 1.2), measured("CalculiX", 5.6, steps=53, reached_s=0.053, timed_out=True, impacts_s=[], energy_kept=None),
-             measured("fecolumn, full order, corotated", 0.03)]
+             measured("fecolumn", 0.03, name="full", elements=False)]
     lines = table(found).splitlines()
     assert len(lines) == 2 + len(found) and len({len(line) for line in lines}) == 1
     assert all(line.count("|") == len(HEAD) + 1 for line in lines)
     cells = [cell.strip() for cell in lines[2].split("|")[1:-1]]
-    assert cells == ["GetFEM", "35,328", "1.2", "2.3", "240", "1", "0.23%", "8e+02", "0.9800 / 0.9700", "converged; reached 0.240 s asked for"]
+    assert cells == ["GetFEM (5.4.2)", "35,328", "1.2", "2.3", "240", "1", "0.23%", "8e+02", "0.9800 / 0.9700", "converged; reached 0.240 s asked for"]
     assert "CPU limit; reached 0.053 s" in lines[3] and " - / 0.9700 " in lines[3]
-    assert ratios(found) == ["fecolumn, full order, corotated: 40 times the speed of GetFEM"]
+    assert ratios(found) == ["fecolumn: 40 times as fast a step as GetFEM"]
 
 
 def test_peer_that_is_missing_says_so_in_its_row(tmp_path, monkeypatch):
