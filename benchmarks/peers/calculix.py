@@ -7,11 +7,13 @@ with 500 J enlarges the reference and takes no part otherwise. DIRECT keeps the 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.peers.child import Outcome, run_child
+from benchmarks.peers.track import write_rows
 from fecolumn.mesh.bricks import FACES
 
 ALPHA = -0.05
@@ -90,20 +92,31 @@ def increments(text: str) -> list[int]:
     return [int(row[3]) for row in rows if len(row) == 7 and row[0].isdigit() and row[2].isdigit()]
 
 
+def complaint(text: str) -> str:
+    """Last *ERROR of ccx's output, in one line; empty without."""
+    _, found, rest = text.rpartition("*ERROR")
+    paragraph = rest.split("\n\n")[0]
+    return " ".join((found + paragraph).split())[:120] if found else ""
+
+
 def run(job_file: Path, folder: Path, limit: float) -> Outcome:
     """Run ccx on a job; writes track.csv as all peers do, from what ccx has printed so far if it stops early."""
     job = np.load(job_file)
+    for earlier in folder.glob("column.*"):
+        earlier.unlink()
     (folder / "column.inp").write_text(deck(job))
     status, spent = folder / "column.sta", []
 
     def look(cpu):
-        done = len(increments(status.read_text())) if status.is_file() else 0
+        # the file appears when the input has been read; one entry for that and one for each increment
+        done = 1 + len(increments(status.read_text())) if status.is_file() else 0
         spent.extend([cpu] * (done - len(spent)))
 
     outcome = run_child(["ccx", "column"], folder, limit, look)
     look(outcome.cpu)
-    iterations = increments(status.read_text()) if status.is_file() else []
+    iterations = [0, *increments(status.read_text())] if status.is_file() else []
     printed = displacements((folder / "column.dat").read_text()) if (folder / "column.dat").is_file() else []
+    printed.insert(0, (0.0, {int(node): np.zeros(3) for key in ("toes", "top", "foot") for node in job[key]}))
     rows = []
     for (time, moved), cpu, count in zip(printed, spent, iterations):
         def mean(nodes):
@@ -112,6 +125,5 @@ def run(job_file: Path, folder: Path, limit: float) -> Outcome:
         axis = mean(job["top"]) - mean(job["foot"])
         toes = [job["start"][toe, 0] + moved[toe][0] - job["points"][toe, 0] for toe in job["toes"]]
         rows.append((time, np.arctan2(axis[0], axis[2]), *toes, np.nan, cpu, count, 1))
-    with open(folder / "track.csv", "w") as track:
-        track.writelines(",".join(f"{value:.12g}" for value in row) + "\n" for row in rows)
-    return outcome
+    write_rows(folder / "track.csv", rows)
+    return replace(outcome, words=complaint((folder / "log.txt").read_text(errors="replace")) or outcome.words)
