@@ -10,7 +10,9 @@ A model is a folder named after the content it was made from, so that nothing ha
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+import fcntl
 import hashlib
 import json
 import os
@@ -72,8 +74,10 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
     """
     folder = cache_folder() / f"model-{model_key(case)}"
     if not folder.is_dir():
-        say("making the reduced model of the specimen (once)")
-        _make(case, folder)
+        with _alone(folder):  # of the workers of a study that start at once, one makes it
+            if not folder.is_dir():
+                say("making the reduced model of the specimen (once)")
+                _make(case, folder)
     with np.load(folder / "column.npz") as file:
         values = {name: file[name] if file[name].ndim else file[name].item() for name in file.files}
     with np.load(folder / "base.npz") as file:
@@ -82,6 +86,17 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
     compliance = np.load(folder / "compliance.npy", mmap_mode="c").view(np.ndarray).transpose(0, 2, 1, 3)
     base = KnownBase(points, known, compliance, frequency, dofs, lambda: make_bodies(case)[1])
     return ColumnModel(**values).with_modes(case.n_modes), base, folder
+
+
+@contextlib.contextmanager
+def _alone(folder: Path):
+    """Hold the right to make a model; who comes second waits. It ends with the process that has it."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    file = folder.parent / f".{folder.name}.lock"
+    with open(file, "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+        file.unlink(missing_ok=True)
 
 
 def make_bodies(case: Case):
