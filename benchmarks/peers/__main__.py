@@ -2,7 +2,7 @@
 
     ./containers/run python -m benchmarks.peers [--install] [--long] [--limit S] [-o DIR] [NAME ...]
 
-Names are of peers and of cases; none means all. Half an hour for all on an idle core.
+Names are of peers and of cases; none means all. Finite-element peers end at the limit of CPU time, 300 s a case.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
 
 Settings. Newmark with alpha = -0.05 in gamma = 1/2 - alpha and beta = (1 - alpha)^2 / 4. Contact with friction on a rigid obstacle by
 `add_penalized_contact_with_rigid_obstacle_brick` (Renard 2013), penalty E / (10 brick sizes): ten times that takes three times
-the iterations, a tenth of it lets the toe bounce; integrated at the corners of the bricks, where the rim is.
+the iterations but moves the toe less, a tenth of it lets the toe bounce (16 steps of the specimen each); integrated at the corners of the bricks, where the rim is.
 Without the line search Newton cycles at the impact. Its friction is a penalty on the slip of one step, so a stick has no memory.
 Ties as a reduced finite-element space, which is exact.
 """
