@@ -9,8 +9,10 @@ import numpy as np
 from fecolumn._compiled import njit
 from fecolumn.contact.interior_point import approach
 
-# Newton steps without a better residual after which another way is tried, and points for which that is not an interior point
-STALLED, FEW = 6, 4
+# Newton steps without a better residual after which another way is tried
+STALLED = 6
+# More points than that, and an interior point helps; its iterations, at most, and between two tries of Newton
+FEW, INSIDE, TURN = 4, 42, 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,7 +197,7 @@ def solve_in_place(matrix, right):
 
 
 @njit
-def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=6):
+def iterate(W, q, mu, start, tolerance, max_newton=25, sweeps=800):
     """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and others."""
     n = len(q)
     rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
@@ -204,40 +206,59 @@ def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=6):
         rho[i], rho_t[i] = 3 / (xx + yy + zz), 1 / np.hypot(xx, yy)
         # points that move together are more compliant than one alone: with its own rho each would seem to slip to and fro
         rho_all[i] = 3 / np.abs(W[3 * i:3 * i + 3]).sum()
-    forces = start.copy()
-    best, least = forces, np.inf
-    iterations = others = 0
     if n == 0:
-        return forces, 0.0, 0, 0
-    for round_ in range(rounds):
-        stalled = 0
-        for _ in range(max_newton):
-            residual = natural_residual(W, q, forces, mu, rho).max()
-            stalled += 1
-            if residual < least:
-                best, least, stalled = forces, residual, 0
-            if residual <= tolerance:
-                return best, least, iterations, others
-            if stalled > STALLED:
-                break
-            forces, regular = newton_step(W, q, forces, mu, rho_all if round_ == 0 else rho)
-            if not regular:
-                break
-            iterations += 1
-        if round_ == 0:
-            forces = frictionless(W, q, start)
-        elif round_ == 1 and mu > 0 and n > FEW:
-            forces, made = approach(W, q, mu)
+        return start.copy(), 0.0, 0, 0
+    best, least, iterations = _newtons(W, q, mu, start, tolerance, rho_all, rho, max_newton, STALLED)
+    others = 0
+    if least > tolerance:
+        forces, residual, made = _newtons(W, q, mu, frictionless(W, q, start), tolerance, rho, rho, max_newton, STALLED)
+        iterations += made
+        if residual < least:
+            best, least = forces, residual
+    if least > tolerance and mu > 0 and n > FEW:
+        R, U = np.zeros((n, 3)), np.zeros((n, 3))
+        for _ in range(INSIDE // TURN):
+            inside, made = approach(W, q, mu, R, U, TURN)
             others += made
-        elif round_ == 1:
-            forces = start.copy()
-        else:
-            forces = best.copy()
-            others += gauss_seidel(W, q, forces, mu, rho_t, 50 * 4 ** (round_ - 2), tolerance * rho.min())
+            # from inside Newton needs a step or two when the active set is right, and costs a tenth
+            forces, residual, newtons = _newtons(W, q, mu, inside, tolerance, rho, rho, STALLED, 2)
+            iterations += newtons
+            if residual < least:
+                best, least = forces, residual
+            if least <= tolerance or made < TURN:
+                break
+    count = 50
+    while least > tolerance and count <= sweeps:
+        forces = best.copy()
+        others += gauss_seidel(W, q, forces, mu, rho_t, count, tolerance * rho.min())
+        forces, residual, made = _newtons(W, q, mu, forces, tolerance, rho, rho, max_newton, STALLED)
+        iterations += made
+        if residual < least:
+            best, least = forces, residual
+        count *= 4
     return best, least, iterations, others
 
 
-def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, rounds: int = 6) -> ContactSolution:
+@njit
+def _newtons(W, q, mu, start, tolerance, rho, rho_own, most, patience):
+    """Newton steps until the tolerance is met, or the residual has not fallen for more than `patience`: best forces, residual, steps made."""
+    forces, least, stalled, made = start, np.inf, 0, 0
+    best = start
+    while True:
+        residual = natural_residual(W, q, forces, mu, rho_own).max()
+        stalled += 1
+        if residual < least:
+            best, least, stalled = forces, residual, 0
+        if residual <= tolerance or stalled > patience or made == most:
+            break
+        forces, regular = newton_step(W, q, forces, mu, rho)
+        if not regular:
+            break
+        made += 1
+    return best.copy(), least, made
+
+
+def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, sweeps: int = 800) -> ContactSolution:
     """Solve the frictional contact problem of n points.
 
     Args:
@@ -252,4 +273,4 @@ def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: 
     is the true one: the caller decides what to do with a solution that has not converged.
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
-    return ContactSolution(*iterate(W, q, float(mu), start, tolerance, max_newton, rounds))
+    return ContactSolution(*iterate(W, q, float(mu), start, tolerance, max_newton, sweeps))

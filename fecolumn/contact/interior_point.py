@@ -12,13 +12,17 @@ import numpy as np
 
 from fecolumn._compiled import njit
 
-# Share of the way to the boundary of the cones, and the size of residuals, over the first ones, at which the inside is left for Newton
-BOLD, NEAR_END = 0.95, 1e-8
+# Share of the way to the boundary of the cones in an iteration, and residuals, over the first ones, at which there is no more to gain
+BOLD, END = 0.95, 1e-12
 
 
 @njit
-def approach(W, q, mu, most=40):
-    """Forces (n, 3) near a solution, and the iterations made; arguments as of `friction.solve_contact`, mu > 0."""
+def approach(W, q, mu, R, U, most):
+    """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the middle where they are zero; both change.
+
+    Arguments else as of `friction.solve_contact`, mu > 0.
+    Returns: forces (n, 3), iterations made: fewer where it is at its end.
+    """
     n = len(q)
     unit = np.ones(3 * n)
     unit[2::3] = 1 / mu
@@ -28,8 +32,8 @@ def approach(W, q, mu, most=40):
             A[i, j] = W[i, j] * unit[i] * unit[j]
     length = max(np.abs(Q).max(), 1e-300)
     force = length * 3 * n / np.abs(A).sum()
-    R, U = np.zeros((n, 3)), np.zeros((n, 3))
-    R[:, 2], U[:, 2] = force, length
+    if R[0, 2] == 0.0:
+        R[:, 2], U[:, 2] = force, length
     P, inverse, scaled, matrix = np.empty((n, 3, 3)), np.empty((n, 3, 3)), np.empty((n, 3)), np.empty((3 * n, 3 * n))
     wanted = np.empty((n, 3))
     for iteration in range(most):
@@ -37,7 +41,7 @@ def approach(W, q, mu, most=40):
         for i in range(n):
             infeasible[i, 2] += np.hypot(U[i, 0], U[i, 1])
         gap = np.sum(R * U) / n
-        if iteration and gap <= NEAR_END * length * force and np.abs(infeasible).max() <= NEAR_END * length:
+        if gap <= END * length * force and np.abs(infeasible).max() <= END * length:
             return (R.ravel() * unit).reshape(n, 3), iteration
         matrix[:] = A
         for i in range(n):
@@ -47,11 +51,11 @@ def approach(W, q, mu, most=40):
                 for b in range(3):
                     matrix[3 * i + a, 3 * i + b] += P[i, a, 0] * P[i, 0, b] + P[i, a, 1] * P[i, 1, b] + P[i, a, 2] * P[i, 2, b]
         if not np.isfinite(np.trace(matrix)):
-            break
+            return (R.ravel() * unit).reshape(n, 3), iteration
         try:
             factor = np.linalg.cholesky(matrix)
         except Exception:
-            break
+            return (R.ravel() * unit).reshape(n, 3), iteration
         dR = _solve(factor, -U - infeasible)
         dU = (A @ dR.ravel()).reshape(n, 3) + infeasible
         t = min(1.0, _way(R, dR), _way(U, dU))
