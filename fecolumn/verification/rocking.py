@@ -34,7 +34,7 @@ from fecolumn.dynamics.gravity import tilted
 from fecolumn.dynamics.rotation import tilt_angle
 from fecolumn.verification.models import column_system
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import RigidRocking, Trial
+from fecolumn.verification.trial import RigidRocking, Trial, begin
 
 AMPLITUDES = (0.1, 0.2, 0.4, 0.6, 0.8)
 STEEL = 2e11
@@ -44,7 +44,7 @@ STEPS = (2e-3, 1e-3, 5e-4)
 
 def run(engine: str, long: bool) -> Result:
     """All with the corotated column; the slower one repeats period and loss at one amplitude unless `long`."""
-    whole = long or engine == "corotated"
+    whole = long or engine != "total_lagrangian"
     result, periods = Result(size=(7.2, 2.6)), []
     for amplitude in AMPLITUDES if whole else (0.4,):
         found = free_rocking(engine, amplitude)
@@ -90,7 +90,7 @@ def ramp(trial: Trial, exact: float, until) -> float:
 
 def uplift(engine: str) -> Row:
     """Ground acceleration at which the column turns about its toe, counted from a thousandth of the critical tilt on."""
-    trial = Trial(column_system(engine, contact={"friction_coefficient": 0.8}))
+    trial = begin(engine, column_system(engine, contact={"friction_coefficient": 0.8}))
     slenderness = RigidRocking(trial.system).slenderness
     exact = GRAVITY * np.tan(slenderness)
     found = ramp(trial, exact, lambda trial: tilt_angle(trial.state.rotation) > 1e-3 * slenderness)
@@ -100,7 +100,7 @@ def uplift(engine: str) -> Row:
 def release(engine: str, amplitude: float, azimuth: float = 0.0, **tables) -> tuple[float, float, Trial, RigidRocking]:
     """Quarter period [s] and energy lost at the first impact [J] of a release at `amplitude` of the critical tilt towards +x,
     or a little beside it [rad]."""
-    trial = Trial(column_system(engine, **tables), lambda system: tilted(system, amplitude * RigidRocking(system).slenderness, azimuth))
+    trial = begin(engine, column_system(engine, **tables), lambda system: tilted(system, amplitude * RigidRocking(system).slenderness, azimuth))
     rigid, upright, peak, before = RigidRocking(trial.system), None, 0.0, trial.mechanical()
     while upright is None or tilt_angle(trial.state.rotation) >= peak:
         # past the impact once the column is well up on its other side, still rising
@@ -191,7 +191,7 @@ def overturning(engine: str) -> Row:
     exact = GRAVITY * np.tan(rigid.slenderness) / np.sin(psi)
 
     def overturns(amplitude):
-        trial = Trial(system)
+        trial = begin(engine, system)
         onset = np.arcsin(GRAVITY * np.tan(rigid.slenderness) / amplitude) / frequency  # Shi's pulse starts where it lifts the column
         while True:
             time = trial.state.time + system.hht.dt

@@ -8,6 +8,7 @@ from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.dynamics.system import State
+from fecolumn.verification import REDUCED
 
 
 def afloat(system, displacement, velocity, acceleration, height: float) -> State:
@@ -71,6 +72,15 @@ class Trial:
         """Displacement (3,) [m] of the highest node: any one serves to compare analyses of one mesh."""
         node = np.lexsort(self.system.column.all_X.T)[-1]
         return self.state.x[node] - self.system.column.X[node]
+
+
+def begin(engine: str, system, start=standing, impact: str = "plastic") -> Trial:
+    """A trial of a system in an engine of `verification.ALL_ENGINES`; arguments as of `Trial`."""
+    if engine not in REDUCED:
+        return Trial(system, start, impact)
+    from fecolumn.verification.reduced_trial import N_MODES, ReducedTrial
+
+    return ReducedTrial(system, start, N_MODES if engine == "reduced" else 0)
 
 
 def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:
