@@ -14,34 +14,21 @@ from fecolumn.reduced.points import roll
 
 
 @njit
-def step(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record, rolls=True):
+def step(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record):
     """Carry `start` to `end`, one scheme.dt later, under the ground acceleration (3,); the steps of `Stepper._hht_step`.
-
-    The contact force r acts at the end of the step and is kept out of the accelerations that HHT remembers; the rotation is
-    energy-momentum conserving whatever alpha is, since HHT does not damp rigid motion.
 
     Returns: a way to end, OK or the reason why not; then `start` is unharmed and `ledger` is not to be used.
     """
-    dt, al, be, ga = scheme.dt, scheme.alpha, scheme.beta, scheme.gamma
-    rolled, booked = roll(column, start, dt, rolls, points), ledger.copy()
-    free_center, m = np.empty(3), len(start.modal)
-    free_modal = np.empty(m)
-    for a in range(3):
-        before, now = column.gravity[a] - start.ground[a], column.gravity[a] - ground[a]
-        end.acceleration[a] = (1 + al) * now - al * before
-        free_center[a] = start.center[a] + dt * start.velocity[a] + dt**2 * ((0.5 - be) * start.acceleration[a] + be * end.acceleration[a])
-    for k in range(m):
-        memory = (0.5 - be) * start.modal_acceleration[k] + be * al * column.squares[k] * start.modal[k]
-        free_modal[k] = start.modal[k] + dt * start.modal_rate[k] + dt**2 * memory
-    answer = equilibrate(column, plate, scheme, points, footing, bed, start, free_center, free_modal, dt * start.spin, end, sway, record)
+    dt, booked = scheme.dt, ledger.copy()
+    rolled = roll(column, start, dt, True, points)
+    answer, contact_work = _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record)
+    if answer == OK and rolled and contact_work > CREATED * column.mass * np.sqrt(np.sum(column.gravity**2)) * column.width:
+        # several points of the rim carry while it rolls fast: they stay for this step. No recursion: numba cannot load it from its cache
+        ledger[:] = booked
+        roll(column, start, dt, False, points)
+        answer, contact_work = _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record)
     if answer != OK:
         return answer
-    _finish(column, scheme, points, start, ground, end, sway)
-    contact_work = book(column, scheme, points, start, end, sway, ledger)
-    if rolled and contact_work > CREATED * column.mass * np.sqrt(np.sum(column.gravity**2)) * column.width:
-        # several points of the rim carry while it rolls fast: they stay for this step
-        ledger[:] = booked
-        return step(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record, False)
     n = len(end.forces)
     landing = np.zeros(n, np.bool_)
     for i in range(n):
@@ -56,6 +43,29 @@ def step(column, plate, scheme, points, footing, bed, start, ground, end, sway, 
     if landing.any() or 2 * turning > total > 0:
         return collide(column, plate, scheme, points, footing, start, end, landing, turns, contact_work, ledger, record)
     return OK
+
+
+@njit
+def _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record):
+    """`step` with the points where they are and without impact: a way to end, and the energy that contact created.
+
+    The contact force r acts at the end of the step and is kept out of the accelerations that HHT remembers; the rotation is
+    energy-momentum conserving whatever alpha is, since HHT does not damp rigid motion.
+    """
+    dt, al, be, m = scheme.dt, scheme.alpha, scheme.beta, len(start.modal)
+    free_center, free_modal = np.empty(3), np.empty(m)
+    for a in range(3):
+        before, now = column.gravity[a] - start.ground[a], column.gravity[a] - ground[a]
+        end.acceleration[a] = (1 + al) * now - al * before
+        free_center[a] = start.center[a] + dt * start.velocity[a] + dt**2 * ((0.5 - be) * start.acceleration[a] + be * end.acceleration[a])
+    for k in range(m):
+        memory = (0.5 - be) * start.modal_acceleration[k] + be * al * column.squares[k] * start.modal[k]
+        free_modal[k] = start.modal[k] + dt * start.modal_rate[k] + dt**2 * memory
+    answer = equilibrate(column, plate, scheme, points, footing, bed, start, free_center, free_modal, dt * start.spin, end, sway, record)
+    if answer != OK:
+        return answer, 0.0
+    _finish(column, scheme, points, start, ground, end, sway)
+    return OK, book(column, scheme, points, start, end, sway, ledger)
 
 
 @njit
