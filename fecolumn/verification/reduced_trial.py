@@ -11,15 +11,13 @@ from fecolumn.dynamics.energy import TERMS
 from fecolumn.dynamics.free_body import rigid_fields
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.dynamics.system import State
 from fecolumn.reduced import start as starts
 from fecolumn.reduced.build import column_model
 from fecolumn.reduced.motion import RIM_ANGLE, RIM_LIFT, STATIC, TIME, at_rest, copy, foot_displacement
 from fecolumn.reduced.observe import COLUMNS, view
 from fecolumn.reduced.run import Engine
-from fecolumn.verification.trial import Trial
-
-#: Elastic modes of the engine "reduced": the default of a case; a body with fewer degrees of freedom has fewer.
-N_MODES = 30
+from fecolumn.verification.trial import N_MODES, Trial
 
 # what is known of a body: making it takes seconds, and one body serves many trials
 _REDUCED = WeakKeyDictionary()
@@ -53,7 +51,7 @@ class Reduction:
         motion = at_rest(len(model.arms), len(model.frequencies))
 
         def modal(field):
-            return np.array([body.dot(shape, body.apply(body.mass, field)) for shape in self.shapes])
+            return np.tensordot(self.shapes, body.apply(body.mass, field), axes=2)
 
         motion.center[:] = body.node_mass @ state.x / body.total_mass
         rotation = state.rotation
@@ -83,6 +81,12 @@ class Expanded:
         self.time, self.static = float(motion.scalars[TIME]), float(motion.scalars[STATIC])
         own = self._motion
         self.rotation, self.forces, self.anchors, self.relative, self.ground = own.rotation, own.forces, own.anchors, own.relative, own.ground
+
+    def copy(self) -> State:
+        """A full-order State of these fields, to start another trial from; without internal forces, which a projection does not ask for."""
+        still, scalars = np.zeros_like(self.x), self._motion.scalars
+        return State(self.time, self.x.copy(), self.v.copy(), self.a.copy(), still, still, 0.0, self.rotation.copy(), self.forces.copy(),
+                     self.anchors.copy(), self.relative.copy(), self.static, self.ground.copy(), float(scalars[RIM_ANGLE]), scalars[RIM_LIFT:].copy())
 
     def _modal(self, coordinates) -> np.ndarray:
         return np.tensordot(coordinates, self._reduction.shapes, axes=1)

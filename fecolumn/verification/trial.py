@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.case import Integration
 from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.dynamics.system import State
-from fecolumn.verification import REDUCED
+from fecolumn.verification import FULL
+
+#: Elastic modes with inertia of the engine "reduced": a case's default.
+N_MODES = Integration().n_modes
 
 
 def afloat(system, displacement, velocity, acceleration, height: float) -> State:
@@ -74,13 +78,13 @@ class Trial:
         return self.state.x[node] - self.system.column.X[node]
 
 
-def begin(engine: str, system, start=standing, impact: str = "plastic") -> Trial:
-    """A trial of a system in an engine of `verification.ALL_ENGINES`; arguments as of `Trial`."""
-    if engine not in REDUCED:
+def begin(engine: str, system, start=standing, impact: str = "plastic", n_modes: int = N_MODES) -> Trial:
+    """A trial of a system in an engine of `verification.ALL_ENGINES`; arguments as of `Trial`, n_modes of `ReducedTrial`."""
+    if engine in FULL:
         return Trial(system, start, impact)
-    from fecolumn.verification.reduced_trial import N_MODES, ReducedTrial
+    from fecolumn.verification.reduced_trial import ReducedTrial
 
-    return ReducedTrial(system, start, N_MODES if engine == "reduced" else 0)
+    return ReducedTrial(system, start, n_modes if engine == "reduced" else 0)
 
 
 def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:
