@@ -136,12 +136,16 @@ def slope(engine: str, share: float) -> list[Row]:
             Row(f"friction energy, mu = {share:g} tan b, force x path [J]", -taken * slid, trial.energy()["friction"], 1e-4)]
 
 
+def slipped(trial: Trial, friction: float, slip: float = 1e-6) -> float:
+    """Ground acceleration [m/s2] at which a trial's foot has slipped by `slip` [m], on a slow ramp."""
+    return ramp(trial, friction * GRAVITY, lambda trial: np.linalg.norm((trial.state.anchors - trial.start.anchors).mean(axis=0)) > slip)
+
+
 def threshold(engine: str) -> Row:
     """Ground acceleration of a slow ramp at which the column has slipped by 1e-6 m."""
     friction, slip = 0.05, 1e-6
     trial = begin(engine, column_system(engine, contact={"friction_coefficient": friction}, integration={"dt_s": 4e-3}))
-    found = ramp(trial, friction * GRAVITY,
-                 lambda trial: np.linalg.norm((trial.state.anchors - trial.start.anchors).mean(axis=0)) > slip)
+    found = slipped(trial, friction, slip)
     return Row("ramp that slips the column by 1e-6 m, mu 0.05 [m/s2]", friction * GRAVITY + np.cbrt(6 * slip * 0.1**2), found, 0.01)
 
 
