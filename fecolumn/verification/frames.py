@@ -19,6 +19,8 @@ motion alone is turned; for 30 degrees the body's mesh is turned too. The base's
 otherwise: exact only on a rigid base (E = 1e15 Pa). A round rim does not know where its nodes are: the motion alone may be turned by
 10 degrees, a sector and two thirds.
 
+The reduced engine's compiled steps know no moving base: it is turned, mirrored and put off only.
+
 Source. Newton's laws; the discrete form follows from Hilber, Hughes and Taylor (1977) by adding x_g.
 
 Tolerances. `solver_drift`: unbalanced forces of eps = max(1e-7, rounding) of the weight left in every step give eps g t cosh(p t) in

@@ -43,7 +43,7 @@ STEPS = (2e-3, 1e-3, 5e-4)
 
 
 def run(engine: str, long: bool) -> Result:
-    """All with the corotated column; the slower one repeats period and loss at one amplitude unless `long`."""
+    """All but total Lagrangian, which is slow: it repeats period and loss at one amplitude unless `long`."""
     whole = long or engine != "total_lagrangian"
     result, periods = Result(size=(7.2, 2.6)), []
     for amplitude in AMPLITUDES if whole else (0.4,):

@@ -51,7 +51,7 @@ MARKS = {8e-3: (3, {"color": "#D55E00", "marker": "s", "linestyle": "", "markers
 
 
 def run(engine: str, long: bool) -> Result:
-    """All with the corotated column; the slower one leaves out the column on the ramp unless `long`."""
+    """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless `long`."""
     result = Result(size=(7.2, 2.5))
     result.rows += [creep(engine), *(row for share in (0.5, 0.9) for row in slope(engine, share))]
     if long or engine != "total_lagrangian":

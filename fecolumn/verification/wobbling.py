@@ -56,7 +56,7 @@ STIFF, STEEL = 2e13, 2e11
 
 
 def run(engine: str, long: bool) -> Result:
-    """All with the corotated column; the slower one leaves out the finest rim and the column unless `long`."""
+    """All but total Lagrangian, which is slow: it leaves out the finest rim and the column unless `long`."""
     whole, result = long or engine != "total_lagrangian", Result(size=(7.2, 2.5))
     found = {n: short_cylinder(engine, n) for n in (CORNERS if whole else CORNERS[:2])}
     disks = {n: short_cylinder(engine, n, DISK, RollingRim.centred) for n in found}
