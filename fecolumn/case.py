@@ -109,6 +109,7 @@ class Motion:
     time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", above=0, high=1e3)
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
+    delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3)
     vertical: bool = parameter(False, doc="apply the vertical component where the record has one")
     free_vibration_s: float = parameter(1.0, doc="time analysed after the motion's end", unit="s", low=0, high=1e4)
 
@@ -133,6 +134,7 @@ class Output:
     """What is written and how often."""
 
     fields_every_s: float = parameter(0.0, doc="interval of the ParaView fields; 0 writes none", unit="s", low=0, high=1e5)
+    history_every_s: float = parameter(0.0, doc="interval of the rows of history.h5; 0 writes every step (the summary always sees every step)", unit="s", low=0, high=1e5)
     checkpoint_every_s: float = parameter(60.0, doc="wall time between checkpoints", unit="s", above=0, high=1e6)
 
 
@@ -159,12 +161,7 @@ class Case:
 
         Motions and meshes count by content, so that a study may be moved, and a file that changed makes another case.
         """
-        tables = dataclasses.asdict(self)
-        del tables["title"], tables["output"]
-        for section, keys in _FILES.items():
-            for key in keys if tables[section] else ():
-                tables[section][key] = content(tables[section][key])
-        return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:12]
+        return digest({name: section_text(name, getattr(self, name)) for name in SECTIONS})
 
     @property
     def n_modes(self) -> int:
@@ -182,6 +179,8 @@ class Case:
         return self.column.height_m + (self.cap.thickness_m if self.cap else 0.0)
 
 
+# what tells one case from another: all but title and output
+SECTIONS = tuple(field.name for field in dataclasses.fields(Case) if field.name not in ("title", "output"))
 # keys that may name files
 _FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
 
@@ -201,19 +200,37 @@ def _digest(path: str, size: int, changed: int) -> str:
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
+def section_text(name: str, section) -> str:
+    """JSON of a section of a case, files by content: what it adds to `Case.id`."""
+    table = dataclasses.asdict(section) if section else None
+    for key in _FILES.get(name, ()) if table else ():
+        table[key] = content(table[key])
+    if name == "motion" and table and not table["delay_s"]:  # a key younger than the first studies: their results keep their names
+        del table["delay_s"]
+    return json.dumps(table, sort_keys=True)
+
+
+def digest(texts: dict[str, str]) -> str:
+    """`Case.id` from the `section_text` of every one of SECTIONS."""
+    return hashlib.sha256(f"{{{', '.join(f'{json.dumps(name)}: {texts[name]}' for name in sorted(texts))}}}".encode()).hexdigest()[:12]
+
+
+def located(name: str, section, file):
+    """A section of a case with its relative paths taken from the folder of `file`."""
+    folder = Path(file).resolve().parent
+    found = {}
+    for key in _FILES.get(name, ()) if section else ():
+        source = getattr(section, key)
+        if source and ":" not in source and not Path(source).is_absolute():
+            found[key] = str(folder / source)
+    return dataclasses.replace(section, **found) if found else section
+
+
 def case_from_tables(tables: dict, file) -> Case:
     """Case from TOML tables; relative paths are taken from the folder of `file`."""
     case = build(Case, tables, file)
-    folder = Path(file).resolve().parent
-
-    def located(source: str) -> str:
-        return source if not source or ":" in source or Path(source).is_absolute() else str(folder / source)
-
-    for name, keys in _FILES.items():
-        if section := getattr(case, name):
-            found = dataclasses.replace(section, **{key: located(getattr(section, key)) for key in keys})
-            case = dataclasses.replace(case, **{name: found})
-    _check(case, file)
+    case = dataclasses.replace(case, **{name: located(name, getattr(case, name), file) for name in _FILES})
+    check(case, file)
     return case
 
 
@@ -226,7 +243,7 @@ def read_case(path) -> Case:
     return case_from_tables(read_toml(path), path)
 
 
-def _check(case: Case, file) -> None:
+def check(case: Case, file) -> None:
     """What no single key can know."""
     column, base, mesh = case.column, case.base, case.mesh
 

@@ -1,4 +1,4 @@
-"""The command line: fecolumn mesh | run | resume | study | verify | motions | doctor."""
+"""The command line: fecolumn mesh | run | resume | study | compare | verify | motions | doctor."""
 
 from __future__ import annotations
 
@@ -83,6 +83,11 @@ def _parser() -> argparse.ArgumentParser:
 
     command.add_arguments(study)
     study.set_defaults(command=command.main)
+    compare = commands.add_parser("compare", help="compare two ensembles: settings, studies, computation and experiment")
+    from fecolumn.statistics import command as comparison
+
+    comparison.add_arguments(compare)
+    compare.set_defaults(command=comparison.main)
     verify = commands.add_parser("verify", help="check the engines against exact solutions")
     from fecolumn.verification import command as verification
 

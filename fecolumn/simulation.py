@@ -169,12 +169,14 @@ class Analysis:
         return extra | dict(step=self.step, stepping_s=self.stepping_s, wall_s=self.earlier_s + time.perf_counter() - self.began)
 
     def write_history(self) -> None:
-        """Write history.h5 on rank 0."""
+        """Write history.h5 on rank 0, its rows as far apart as the case says."""
         from fecolumn import __version__
+
+        every = max(1, round(self.case.output.history_every_s / self.case.integration.dt_s))
 
         if self.comm.rank == 0:
             attributes = {"case_id": self.case.id, "version": __version__, "title": self.case.title}
-            self.history.write(self.folder / "history.h5", attributes)
+            self.history.write(self.folder / "history.h5", attributes, every)
 
     def finish(self, overturned: bool, dofs: int, record, factorizations: int) -> dict:
         """Write the last history and the summary, which is returned; the checkpoint goes."""

@@ -1,5 +1,8 @@
 """A case's id names what is computed: content, not place."""
 
+import dataclasses
+import hashlib
+import json
 import shutil
 from pathlib import Path
 
@@ -31,3 +34,14 @@ def test_id_ignores_title_and_output_but_no_number(tmp_path):
     assert read_case(file).id == first
     file.write_text(text + "[contact]\nfriction_coefficient = 0.31\n")
     assert read_case(file).id != first
+
+
+def test_studies_older_than_motion_delay_keep_the_names_of_their_results(tmp_path):
+    file = _folder(tmp_path / "case") / "case.toml"
+    case = read_case(file)
+    tables = dataclasses.asdict(case)
+    del tables["title"], tables["output"], tables["motion"]["delay_s"]
+    tables["motion"]["source"] = hashlib.sha256((tmp_path / "case" / "motion.csv").read_bytes()).hexdigest()
+    assert case.id == hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:12]
+    file.write_text(file.read_text() + "delay_s = 1e-12\n")
+    assert read_case(file).id != case.id

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn._compiled import njit
+from fecolumn.contact.interior_point import approach
 
-# Newton steps without a better residual after which another way is tried
-STALLED = 10
+# Newton steps without a better residual after which another way is tried, and points for which that is not an interior point
+STALLED, FEW = 6, 4
 
 
 @dataclass(frozen=True, slots=True)
 class ContactSolution:
-    """Forces (n, 3) [N], residual of the contact laws [m], Newton iterations and Gauss-Seidel sweeps used."""
+    """Forces (n, 3) [N], residual of the contact laws [m], Newton iterations, and interior point iterations and Gauss-Seidel sweeps used."""
 
     forces: np.ndarray
     residual: float
@@ -67,6 +68,38 @@ def gauss_seidel(W, q, forces, mu, rho, sweeps, tolerance):
         if change <= tolerance:
             return sweep + 1
     return sweeps
+
+
+@njit
+def frictionless(W, q, start, most=20):
+    """Forces (n, 3) without friction by primal-dual active sets, or the last ones before they cycle: a guess of the points that press."""
+    n = len(q)
+    forces, pressed = np.zeros((n, 3)), start[:, 2] > 0
+    for _ in range(most):
+        listed = np.flatnonzero(pressed)
+        k = len(listed)
+        matrix, normal = np.empty((k, k)), np.empty(k)
+        for i in range(k):
+            normal[i] = -q[listed[i], 2]
+            for j in range(k):
+                matrix[i, j] = W[3 * listed[i] + 2, 3 * listed[j] + 2]
+        if k and not solve_in_place(matrix, normal):
+            break
+        forces[:] = 0.0
+        for i in range(k):
+            forces[listed[i], 2] = normal[i]
+        changed = False
+        for i in range(n):
+            gap = q[i, 2]
+            for j in range(k):
+                gap += W[3 * i + 2, 3 * listed[j] + 2] * normal[j]
+            new = forces[i, 2] > 0 if pressed[i] else gap < 0
+            changed |= new != pressed[i]
+            pressed[i] = new
+        if not changed:
+            break
+    forces[:, 2] = np.maximum(forces[:, 2], 0.0)
+    return forces
 
 
 @njit
@@ -162,8 +195,8 @@ def solve_in_place(matrix, right):
 
 
 @njit
-def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=7):
-    """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and sweeps."""
+def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=6):
+    """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and others."""
     n = len(q)
     rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
@@ -173,7 +206,7 @@ def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=7):
         rho_all[i] = 3 / np.abs(W[3 * i:3 * i + 3]).sum()
     forces = start.copy()
     best, least = forces, np.inf
-    iterations = sweeps = 0
+    iterations = others = 0
     if n == 0:
         return forces, 0.0, 0, 0
     for round_ in range(rounds):
@@ -184,22 +217,27 @@ def iterate(W, q, mu, start, tolerance, max_newton=25, rounds=7):
             if residual < least:
                 best, least, stalled = forces, residual, 0
             if residual <= tolerance:
-                return best, least, iterations, sweeps
+                return best, least, iterations, others
             if stalled > STALLED:
                 break
-            forces, regular = newton_step(W, q, forces, mu, rho_all if round_ % 2 == 0 else rho)
+            forces, regular = newton_step(W, q, forces, mu, rho_all if round_ == 0 else rho)
             if not regular:
                 break
             iterations += 1
         if round_ == 0:
+            forces = frictionless(W, q, start)
+        elif round_ == 1 and mu > 0 and n > FEW:
+            forces, made = approach(W, q, mu)
+            others += made
+        elif round_ == 1:
             forces = start.copy()
-            continue
-        forces = best.copy()
-        sweeps += gauss_seidel(W, q, forces, mu, rho_t, 50 * 2 ** (round_ - 1), tolerance * rho.min())
-    return best, least, iterations, sweeps
+        else:
+            forces = best.copy()
+            others += gauss_seidel(W, q, forces, mu, rho_t, 50 * 4 ** (round_ - 2), tolerance * rho.min())
+    return best, least, iterations, others
 
 
-def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, rounds: int = 7) -> ContactSolution:
+def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, rounds: int = 6) -> ContactSolution:
     """Solve the frictional contact problem of n points.
 
     Args:
@@ -209,7 +247,8 @@ def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: 
         start: (n, 3) [N] first guess.
         tolerance: residual at convergence [m].
 
-    Semismooth Newton, stick and slip judged by the stiffness of all points together, or of each alone; where its active set cycles, Gauss-Seidel sweeps give it a better start. The residual returned
+    Semismooth Newton, stick and slip judged by the stiffness of all points together; where its active set cycles, the frictionless
+    forces, an interior point and, should they fail, Gauss-Seidel sweeps give it a better start. The residual returned
     is the true one: the caller decides what to do with a solution that has not converged.
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))

@@ -42,11 +42,13 @@ class History:
         """Columns by name, first axis time."""
         return {name: np.asarray(values) for name, values in self._columns.items()}
 
-    def write(self, path: Path, attributes: dict) -> None:
-        """Write all rows; a reader sees the old file or the new one, never a part."""
+    def write(self, path: Path, attributes: dict, every: int = 1) -> None:
+        """Write one row in `every`, and the last; a reader sees the old file or the new one, never a part."""
         def fill(file):
             file.attrs.update(attributes)
             for name, values in self.arrays().items():
+                rows = np.unique(np.append(np.arange(0, len(values), every), len(values) - 1)) if every > 1 else slice(None)
+                values = values[rows]
                 dataset = file.create_dataset(name, data=values, compression="gzip" if values.size > 1000 else None)
                 dataset.attrs["unit"] = UNITS.get(name, "J")
                 if name in MEANING:

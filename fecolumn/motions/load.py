@@ -12,7 +12,7 @@ from fecolumn.motions.columns import read_columns
 from fecolumn.motions.ensemble_file import file_and_number, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
 from fecolumn.motions.fema_p695 import PREFIX, read_fema_p695
-from fecolumn.motions.processing import resample, rotate, scale, scale_time, strong_part, without_vertical
+from fecolumn.motions.processing import delay, resample, rotate, scale, scale_time, strong_part, without_vertical
 from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording, UnusableRecord
 from fecolumn.motions.text import read_text
 from fecolumn.schema import InputError
@@ -23,7 +23,7 @@ _LENGTH_TOLERANCE = 0.01
 
 
 def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
-    """Ground motion of a case: read, in m/s2, rotated, scaled, compressed, trimmed, resampled, in this order.
+    """Ground motion of a case: read, in m/s2, rotated, scaled, compressed, trimmed, resampled, delayed, in this order.
 
     Args:
         motion: the case's [motion] table.
@@ -43,7 +43,7 @@ def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
     ground = strong_part(ground, motion.strong_part)
     if dt > ground.duration:
         raise InputError(file, "integration.dt_s", dt, f"must be at most the motion's length, {ground.duration:g} s")
-    return resample(ground, dt)
+    return delay(resample(ground, dt), motion.delay_s)
 
 
 def read_motion(motion: Motion, file) -> GroundMotion:

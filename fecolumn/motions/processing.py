@@ -220,6 +220,33 @@ def resample(motion: GroundMotion, dt: float) -> GroundMotion:
     return dataclasses.replace(motion, acceleration=resampled[:(n_steps - 1) * up // down + 1], dt=dt)
 
 
+def delay(motion: GroundMotion, seconds: float) -> GroundMotion:
+    """Motion that begins later, by any fraction of its step, after rest.
+
+    Whole steps are zeros put before. The fraction is a turn of phases in the frequency domain, band-limited as `resample` is,
+    and like there the straight line between the end values is set aside before and put back, moved, after.
+
+    Args:
+        motion: returned as it is without a delay.
+        seconds: at least 0.
+    """
+    if not (math.isfinite(seconds) and seconds >= 0):
+        raise ValueError(f"seconds = {seconds}: must be at least 0")
+    if seconds == 0:
+        return motion
+    whole, fraction = divmod(seconds / motion.dt, 1.0)
+    acceleration, n_steps = motion.acceleration, len(motion.acceleration)
+    if fraction:
+        slope = (acceleration[-1] - acceleration[0]) / (n_steps - 1)
+        line = acceleration[0] + slope * np.arange(n_steps)[:, None]
+        length = 2 * n_steps  # zeros, so that the end does not come round to the start
+        turn = np.exp(-2j * math.pi * np.fft.rfftfreq(length) * fraction)[:, None]
+        moved = np.fft.irfft(np.fft.rfft(acceleration - line, length, axis=0) * turn, length, axis=0)[:n_steps + 1]
+        moved[1:n_steps] += line[1:] - fraction * slope  # rest before the first sample and after the last
+        acceleration = moved
+    return dataclasses.replace(motion, acceleration=np.pad(acceleration, ((int(whole), 0), (0, 0))))
+
+
 def _ratio(ratio: float, n_steps: int) -> Fraction:
     """Simplest fraction for old over new step, off by less than half a thousandth of the new step at the last sample."""
     size = 1

@@ -2,15 +2,16 @@
 
 A model is a folder named after the content it was made from, so that nothing has to be invalidated:
 
-    column.npz      ColumnModel    base.npz    top of the base, which of its nodes are known
-    compliance.npy  (k, 3, k, 3) of these nodes, read through the operating system's page cache, which all workers share
-    fields.npy      (m, n_nodes, 3) mode shapes of the whole column, for pictures
-
+    column.npz        ColumnModel    base.npz    top of the base    fields.npy    (m, n_nodes, 3) mode shapes of the whole column
+    known-R.npy       (k,) nodes of the base's top within reach R of the foot
+    compliance-R.npy  (k, 3, k, 3) of these nodes, read through the operating system's page cache, which all workers share
 """
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+import fcntl
 import hashlib
 import json
 import os
@@ -26,33 +27,65 @@ from fecolumn.contact.base_top import BaseTop
 from fecolumn.reduced.model import ColumnModel
 
 # A new number makes all models afresh
-FORMAT = 1
+FORMAT = 2
 # Elastic modes that a model keeps at least, so that analyses with fewer share it
 KEPT_MODES = 40
+# Least reach of the first compliance of the base around the foot, over the foot's width
+LEAST_REACH = 0.1
 
 
 class KnownBase:
-    """The base plate as far as its compliance is known; more of it is found by the finite-element model when asked for.
+    """The base plate as far as its compliance is known: under the foot and the slide allowance, twice as far around, four times ...
+
+    How far it is known depends on where the column went, its numbers do not: each reach is found once as a whole, and kept on disk.
 
     Attributes as of `contact.base_plate.BasePlate`: grid, slot, compliance (blocks), frequency. dofs: of its mesh.
     """
 
-    def __init__(self, points, known, compliance, frequency: float, dofs: int, make):
-        self.grid, self.compliance, self.frequency, self.dofs = BaseTop(points), compliance, float(frequency), int(dofs)
-        self.known, self._make = known, make
-        self.slot = np.full(len(points), -1, np.int64)
-        self.slot[known] = np.arange(len(known))
+    def __init__(self, folder: Path, make):
+        self._folder, self._make, self._reach = folder, make, 0
+        with np.load(folder / "base.npz") as file:
+            self.grid, self.frequency, self.dofs = BaseTop(file["points"]), float(file["frequency"]), int(file["dofs"])
+            self._foot, self._allowance = file["foot"], float(file["allowance"])
+        self._open()
 
     def need(self, wanted: np.ndarray) -> None:
-        """Make sure that the compliance holds the top nodes `wanted`; beyond the slide allowance this takes seconds."""
-        if (self.slot[wanted] >= 0).all():
-            return
+        """Make sure that the compliance holds the top nodes `wanted`; a reach that no analysis needed before takes seconds."""
+        while (self.slot[wanted] < 0).any():
+            self._reach += 1
+            if not self._file("known").is_file():
+                with alone(self._folder):
+                    if not self._file("known").is_file():
+                        self._extend()
+            self._open()
+
+    def _file(self, name: str) -> Path:
+        return self._folder / f"{name}-{self._reach}.npy"
+
+    def _open(self) -> None:
+        known = np.load(self._file("known"))
+        # copy on write: compiled code wants arrays that may be written to
+        self.compliance = np.load(self._file("compliance"), mmap_mode="c").view(np.ndarray).transpose(0, 2, 1, 3)
+        self.slot = np.full(len(self.grid.points), -1, np.int64)
+        self.slot[known] = np.arange(len(known))
+        self._known = known
+
+    def _extend(self) -> None:
         plate = self._make()
         if not np.allclose(plate.grid.points, self.grid.points):
-            raise RuntimeError("the cached base has other nodes than the mesh made now: delete the model cache")
-        plate.adopt(self.known, self.compliance)
-        plate.need(wanted)
-        self.known, self.compliance, self.slot = plate.known, plate.compliance, plate.slot
+            raise RuntimeError(f"{self._folder}: the base has other nodes than the mesh made now; delete this folder")
+        plate.adopt(self._known, self.compliance)
+        plate.need(_under(self.grid.points, self._foot, self._allowance * 2**self._reach))
+        _keep_base(plate, self._file)
+
+
+def _keep_base(plate, file) -> None:
+    """Write what is known of a plate; `known` comes last and says that all is there."""
+    for name, values in (("compliance", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3))), ("known", plate.known)):
+        with tempfile.NamedTemporaryFile(dir=file(name).parent, delete=False) as partial:
+            np.save(partial, values)
+        os.chmod(partial.name, 0o644)
+        os.replace(partial.name, file(name))
 
 
 def model_key(case: Case) -> str:
@@ -72,16 +105,24 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
     """
     folder = cache_folder() / f"model-{model_key(case)}"
     if not folder.is_dir():
-        say("making the reduced model of the specimen (once)")
-        _make(case, folder)
+        with alone(folder):  # of the workers of a study that start at once, one makes it
+            if not folder.is_dir():
+                say("making the reduced model of the specimen (once)")
+                _make(case, folder)
     with np.load(folder / "column.npz") as file:
         values = {name: file[name] if file[name].ndim else file[name].item() for name in file.files}
-    with np.load(folder / "base.npz") as file:
-        points, known, frequency, dofs = (file[name] for name in ("points", "known", "frequency", "dofs"))
-    # copy on write: compiled code wants arrays that may be written to
-    compliance = np.load(folder / "compliance.npy", mmap_mode="c").view(np.ndarray).transpose(0, 2, 1, 3)
-    base = KnownBase(points, known, compliance, frequency, dofs, lambda: make_bodies(case)[1])
-    return ColumnModel(**values).with_modes(case.n_modes), base, folder
+    return ColumnModel(**values).with_modes(case.n_modes), KnownBase(folder, lambda: make_bodies(case)[1]), folder
+
+
+@contextlib.contextmanager
+def alone(folder: Path):
+    """Hold the right to make a model; who comes second waits. It ends with the process that has it."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    file = folder.parent / f".{folder.name}.lock"
+    with open(file, "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+        file.unlink(missing_ok=True)
 
 
 def make_bodies(case: Case):
@@ -104,16 +145,17 @@ def _make(case: Case, folder: Path) -> None:
     body, plate, specimen = make_bodies(case)
     foot, areas = foot_of(case, specimen, body)
     model, fields = column_model(body, foot, areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES))
-    plate.need(_under(plate.grid.points, model.reference, case.base.slide_allowance_m))
+    allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
+    plate.need(_under(plate.grid.points, model.reference, allowance))
     folder.parent.mkdir(parents=True, exist_ok=True)
     partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     partial.chmod(0o755)
     try:
-        for name, values in (("column", {field.name: getattr(model, field.name) for field in dataclasses.fields(model)}),
-                             ("base", dict(points=plate.grid.points, known=plate.known, frequency=plate.frequency, dofs=3 * plate.body.n_nodes))):
+        base = dict(points=plate.grid.points, frequency=plate.frequency, dofs=3 * plate.body.n_nodes, foot=model.reference, allowance=allowance)
+        for name, values in (("column", {field.name: getattr(model, field.name) for field in dataclasses.fields(model)}), ("base", base)):
             with open(partial / f"{name}.npz", "wb") as file:
                 np.savez(file, **values)
-        np.save(partial / "compliance.npy", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3)))
+        _keep_base(plate, lambda name: partial / f"{name}-0.npy")
         np.save(partial / "fields.npy", fields)
         os.replace(partial, folder)
     except OSError:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from statistics import NormalDist
 
 import numpy as np
+
+from fecolumn.statistics.bands import greenwood, normal_quantile
+
+__all__ = ["Ecdf", "censored", "ecdf", "normal_quantile", "percentile", "proportion_interval"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +50,7 @@ def ecdf(u_max, overturned, confidence: float = 0.95) -> Ecdf:
     standing, n = _standing(u_max, overturned)
     x, counts = np.unique(standing, return_counts=True)
     cdf = np.cumsum(counts) / n
-    reach = normal_quantile(confidence) * np.sqrt(cdf * (1 - cdf) / n)
-    return Ecdf(x, cdf, np.maximum(cdf - reach, 0.0), np.minimum(cdf + reach, 1.0), n, n - standing.size)
+    return Ecdf(x, cdf, *greenwood(cdf, n, confidence), n, n - standing.size)
 
 
 def percentile(u_max, overturned, fraction: float) -> float:
@@ -80,9 +82,16 @@ def proportion_interval(k: int, n: int, confidence: float = 0.95, method: str = 
     return float(interval.low), float(interval.high)
 
 
-def normal_quantile(confidence: float) -> float:
-    """Half-width of the two-sided interval of a standard normal variable: 1.96 for 0.95."""
-    return NormalDist().inv_cdf((1 + confidence) / 2)
+def censored(u_max, overturned) -> np.ndarray:
+    """The sample for rank statistics, (n,): u_max, and inf where the run overturned.
+
+    All overturned runs are ties beyond every run that stood.
+
+    Raises:
+        ValueError: as of `ecdf`.
+    """
+    _standing(u_max, overturned)
+    return np.where(np.asarray(overturned, bool), math.inf, np.asarray(u_max, float))
 
 
 def _standing(u_max, overturned) -> tuple[np.ndarray, int]:

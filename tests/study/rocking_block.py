@@ -1,7 +1,8 @@
 """A second engine for the driver's tests: Housner's rigid block (1963) in the plane, integrated in a few milliseconds.
 
 Motions are named "pulse:<number>": one sine of an amplitude and a period drawn from that number. Other names fail:
-"pulse:diverges" raises, "pulse:killed" dies as from a lack of memory, once; "pulse:silent" returns without a summary.
+"pulse:diverges" raises, "pulse:killed" dies as from a lack of memory, once; "pulse:silent" returns without a summary;
+"pulse:full" finds the disk full until there is a file "room" in the study's folder.
 """
 
 import json
@@ -27,6 +28,9 @@ def run(case, folder, *, comm, file, quiet):
     if name == "killed" and not (folder / "killed").exists():
         (folder / "killed").touch()
         os.kill(os.getpid(), signal.SIGKILL)
+    if name == "full" and not (folder.parents[1] / "room").exists():
+        with open("/dev/full", "w") as file:
+            file.write("x")
     if name == "silent":
         return {}
     print("rocking", name)

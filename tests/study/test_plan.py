@@ -3,6 +3,7 @@ from study_files import SPECIMEN, write_study
 
 from fecolumn.schema import InputError
 from fecolumn.study.plan import read_plan
+from fecolumn.study.run import check_motions
 
 
 def _study(tmp_path, text):
@@ -87,3 +88,13 @@ def test_study_id_depends_on_the_analyses_only(tmp_path):
 def test_quick_study_is_valid():
     plan = read_plan(SPECIMEN.parents[1] / "benchmarks" / "quick_study.toml")
     assert len(plan.analyses) == 30 and all(a.case.motion.time_scale == 0.5 for a in plan.analyses)
+
+
+def test_longer_motions_are_longer_analyses_whatever_their_scale(tmp_path):
+    for name, samples in (("short", 100), ("long", 300)):
+        rows = "".join(f"{0.01 * k:.2f},{0.1 * (-1) ** (k // 10):.3f}\n" for k in range(samples))
+        (tmp_path / f"{name}.csv").write_text("time [s],ax [g]\n" + rows)
+    plan = read_plan(_study(tmp_path, f'[case]\nextends = "{SPECIMEN}"\nintegration.duration_s = 0\n[axes]\n"motion.source" = ["short.csv", "long.csv"]\n'
+                                '"motion.scale" = [0.5, 2]'))
+    check_motions(plan)
+    assert [round(a.duration_s, 1) for a in plan.analyses] == [2.0, 2.0, 4.0, 4.0]  # a second of free vibration included

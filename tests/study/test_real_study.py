@@ -1,14 +1,16 @@
-"""A study with the finite-element engine in worker processes: its table, its figure, and what it does a second time."""
+"""A study with both engines in worker processes: its table, its figure, and what it does a second time."""
 
 import csv
 import json
 
+import numpy as np
 import pytest
 
 from fecolumn.cli import main
+from fecolumn.dynamics.history import read_history
 
 STUDY = """
-title = "Two motions, two alphas"
+title = "Two motions, two engines"
 [case]
 extends = "{specimen}"
 [case.column]
@@ -24,7 +26,7 @@ duration_s = 0.15
 [case.motion]
 source = "strong.csv"
 [axes]
-"integration.alpha_hht" = [0, -0.2]
+"integration.engine" = ["full", "reduced"]
 "motion.source" = ["strong.csv", "weak.csv"]
 """
 
@@ -53,6 +55,15 @@ def test_each_analysis_has_its_result_and_the_strong_motion_moves_the_top_more(s
     assert len(summaries) == 4 and all(one["energy_closure_rel"] < 1e-4 for one in summaries)
     by_motion = {name: [one["u_max_m"] for one in summaries if one["motion"].startswith(name)] for name in ("strong", "weak")}
     assert min(by_motion["strong"]) > max(by_motion["weak"]) > 0
+    assert sorted(one["engine"] for one in summaries) == ["full", "full", "reduced", "reduced"]
+
+
+def test_histories_of_a_study_have_a_row_in_five_milliseconds_but_the_peak_of_every_step(study):
+    _, out = study
+    for path in out.glob("analyses/*/summary.json"):
+        history, summary = read_history(path.with_name("history.h5")), json.loads(path.read_text())
+        assert len(history["time"]) == 31 and history["time"][-1] == pytest.approx(0.15)
+        assert np.hypot(*history["u_top"][:, :2].T).max() <= summary["u_max_m"]
 
 
 def test_a_second_time_nothing_is_left_to_do(study):

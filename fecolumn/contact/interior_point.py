@@ -1,0 +1,139 @@
+"""Frictional contact of many points by an interior point: slow but hardly ever lost, where the active set of Newton cycles.
+
+With R = (r_t, mu r_n) and U = (s_t, s_n / mu + |s_t|), s = W r + q, the laws of Coulomb and Signorini are a complementarity in the
+cone of Lorentz, K = {|x_t| <= x_n}: R in K, U in K, R.U = 0 (De Saxce and Feng 1998). A primal-dual method in the scaling of Nesterov
+and Todd, with Mehrotra's corrector, follows R o U = sigma e; the term |s_t| is taken from the last iterate (Acary, Armand, Nguyen and
+Shpakovych 2023).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn._compiled import njit
+
+# Share of the way to the boundary of the cones, and the size of residuals, over the first ones, at which the inside is left for Newton
+BOLD, NEAR_END = 0.95, 1e-8
+
+
+@njit
+def approach(W, q, mu, most=40):
+    """Forces (n, 3) near a solution, and the iterations made; arguments as of `friction.solve_contact`, mu > 0."""
+    n = len(q)
+    unit = np.ones(3 * n)
+    unit[2::3] = 1 / mu
+    A, Q = np.empty((3 * n, 3 * n)), (q.ravel() * unit).reshape(n, 3)
+    for i in range(3 * n):
+        for j in range(3 * n):
+            A[i, j] = W[i, j] * unit[i] * unit[j]
+    length = max(np.abs(Q).max(), 1e-300)
+    force = length * 3 * n / np.abs(A).sum()
+    R, U = np.zeros((n, 3)), np.zeros((n, 3))
+    R[:, 2], U[:, 2] = force, length
+    P, inverse, scaled, matrix = np.empty((n, 3, 3)), np.empty((n, 3, 3)), np.empty((n, 3)), np.empty((3 * n, 3 * n))
+    wanted = np.empty((n, 3))
+    for iteration in range(most):
+        infeasible = (A @ R.ravel()).reshape(n, 3) + Q - U
+        for i in range(n):
+            infeasible[i, 2] += np.hypot(U[i, 0], U[i, 1])
+        gap = np.sum(R * U) / n
+        if iteration and gap <= NEAR_END * length * force and np.abs(infeasible).max() <= NEAR_END * length:
+            return (R.ravel() * unit).reshape(n, 3), iteration
+        matrix[:] = A
+        for i in range(n):
+            _scaling(R[i], U[i], P[i], inverse[i])
+            for a in range(3):
+                scaled[i, a] = P[i, a, 0] * R[i, 0] + P[i, a, 1] * R[i, 1] + P[i, a, 2] * R[i, 2]
+                for b in range(3):
+                    matrix[3 * i + a, 3 * i + b] += P[i, a, 0] * P[i, 0, b] + P[i, a, 1] * P[i, 1, b] + P[i, a, 2] * P[i, 2, b]
+        if not np.isfinite(np.trace(matrix)):
+            break
+        try:
+            factor = np.linalg.cholesky(matrix)
+        except Exception:
+            break
+        dR = _solve(factor, -U - infeasible)
+        dU = (A @ dR.ravel()).reshape(n, 3) + infeasible
+        t = min(1.0, _way(R, dR), _way(U, dU))
+        after = max(np.sum((R + t * dR) * (U + t * dU)) / n, 0.0)
+        centring = min(max((after / gap) ** 3, 1e-4), 1.0)
+        for i in range(n):
+            _corrected(P[i], inverse[i], scaled[i], dR[i], dU[i], centring * gap, wanted[i])
+        dR = _solve(factor, wanted - infeasible)
+        dU = (A @ dR.ravel()).reshape(n, 3) + infeasible
+        t = min(1.0, BOLD * min(_way(R, dR), _way(U, dU)))
+        R += t * dR
+        U += t * dU
+    return (R.ravel() * unit).reshape(n, 3), most
+
+
+@njit
+def _scaling(r, u, P, inverse):
+    """Nesterov and Todd's symmetric P (3, 3) with P r = P^-1 u, and its inverse."""
+    tangential, across = np.hypot(r[0], r[1]), np.hypot(u[0], u[1])
+    size_r = np.sqrt(max((r[2] - tangential) * (r[2] + tangential), 1e-300))
+    size_u = np.sqrt(max((u[2] - across) * (u[2] + across), 1e-300))
+    half = np.sqrt((1 + (r[0] * u[0] + r[1] * u[1] + r[2] * u[2]) / (size_r * size_u)) / 2)
+    w0, w1 = (u[0] / size_u - r[0] / size_r) / (2 * half), (u[1] / size_u - r[1] / size_r) / (2 * half)
+    w2, eta = (u[2] / size_u + r[2] / size_r) / (2 * half), np.sqrt(size_u / size_r)
+    P[0, 0], P[1, 1], P[0, 1] = 1 + w0 * w0 / (1 + w2), 1 + w1 * w1 / (1 + w2), w0 * w1 / (1 + w2)
+    P[0, 2], P[1, 2], P[2, 2] = w0, w1, w2
+    P[1, 0], P[2, 0], P[2, 1] = P[0, 1], P[0, 2], P[1, 2]
+    inverse[:] = P / eta
+    inverse[0, 2], inverse[1, 2] = -inverse[0, 2], -inverse[1, 2]
+    inverse[2, 0], inverse[2, 1] = -inverse[2, 0], -inverse[2, 1]
+    P *= eta
+
+
+@njit
+def _corrected(P, inverse, scaled, dr, du, target, wanted):
+    """wanted (3,) = P x with scaled o x = target e - scaled o scaled - (P dr) o (P^-1 du)."""
+    l0, l1, l2 = scaled[0], scaled[1], scaled[2]
+    a0 = P[0, 0] * dr[0] + P[0, 1] * dr[1] + P[0, 2] * dr[2]
+    a1 = P[1, 0] * dr[0] + P[1, 1] * dr[1] + P[1, 2] * dr[2]
+    a2 = P[2, 0] * dr[0] + P[2, 1] * dr[1] + P[2, 2] * dr[2]
+    b0 = inverse[0, 0] * du[0] + inverse[0, 1] * du[1] + inverse[0, 2] * du[2]
+    b1 = inverse[1, 0] * du[0] + inverse[1, 1] * du[1] + inverse[1, 2] * du[2]
+    b2 = inverse[2, 0] * du[0] + inverse[2, 1] * du[1] + inverse[2, 2] * du[2]
+    c0, c1 = -2 * l2 * l0 - a2 * b0 - b2 * a0, -2 * l2 * l1 - a2 * b1 - b2 * a1
+    c2 = target - l0 * l0 - l1 * l1 - l2 * l2 - a0 * b0 - a1 * b1 - a2 * b2
+    x2 = (l2 * c2 - l0 * c0 - l1 * c1) / (l2 * l2 - l0 * l0 - l1 * l1)
+    x0, x1 = (c0 - x2 * l0) / l2, (c1 - x2 * l1) / l2
+    for a in range(3):
+        wanted[a] = P[a, 0] * x0 + P[a, 1] * x1 + P[a, 2] * x2
+
+
+@njit
+def _way(x, d):
+    """Largest t for which x + t d (n, 3) lies in the cones."""
+    least = np.inf
+    for i in range(len(x)):
+        a = d[i, 2] * d[i, 2] - d[i, 0] * d[i, 0] - d[i, 1] * d[i, 1]
+        b = x[i, 2] * d[i, 2] - x[i, 0] * d[i, 0] - x[i, 1] * d[i, 1]
+        c = x[i, 2] * x[i, 2] - x[i, 0] * x[i, 0] - x[i, 1] * x[i, 1]
+        square = b * b - a * c
+        if square >= 0:
+            if b < 0:
+                least = min(least, c / (np.sqrt(square) - b))
+            elif a < 0:
+                least = min(least, (-b - np.sqrt(square)) / a)
+        if d[i, 2] < 0:
+            least = min(least, -x[i, 2] / d[i, 2])
+    return least
+
+
+@njit
+def _solve(factor, right):
+    """Solve factor factor^T x = right (n, 3)."""
+    x, m = right.copy().ravel(), right.size
+    for i in range(m):
+        value = x[i]
+        for j in range(i):
+            value -= factor[i, j] * x[j]
+        x[i] = value / factor[i, i]
+    for i in range(m - 1, -1, -1):
+        x[i] /= factor[i, i]
+        value = x[i]
+        for j in range(i):
+            x[j] -= factor[i, j] * value
+    return x.reshape(right.shape)

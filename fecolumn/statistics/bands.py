@@ -1,0 +1,128 @@
+"""Confidence bands of distributions and of probabilities: pointwise, simultaneous, and by resampling.
+
+A pointwise band holds the true F with the stated confidence at one u chosen beforehand, a simultaneous one at all u
+together. A curve of another ensemble may leave a pointwise band somewhere although both ensembles have one distribution.
+"""
+
+from __future__ import annotations
+
+import math
+from statistics import NormalDist
+
+import numpy as np
+
+
+def greenwood(cdf, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+    """Pointwise band F +- z sqrt(F (1 - F) / n), clipped to [0, 1] (Greenwood 1926; what MATLAB's `ecdf` draws).
+
+    Greenwood's variance is the binomial one here, as all censored runs lie beyond all others. Too narrow where n F or
+    n (1 - F) is below about 5, and of no width where F is 0 or 1: `wilson` is not.
+
+    Args:
+        cdf: (m,) F.
+        n: size of the sample, overturned runs included.
+        confidence: level, in (0, 1).
+
+    Returns:
+        lower, upper: (m,) each.
+    """
+    cdf = np.asarray(cdf, float)
+    reach = normal_quantile(confidence) * np.sqrt(cdf * (1 - cdf) / n)
+    return np.maximum(cdf - reach, 0.0), np.minimum(cdf + reach, 1.0)
+
+
+def wilson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+    """Score interval of a probability after k of n runs (Wilson 1927, J. Am. Stat. Assoc. 22); close to its level on average.
+
+    Args:
+        k: (m,) counts in [0, n]: runs that overturned, or n F for a pointwise band of F.
+        n: all runs, at least 1.
+        confidence: level, in (0, 1).
+
+    Returns:
+        lower, upper: (m,) each.
+    """
+    k = _counts(k, n)
+    z2, p = normal_quantile(confidence) ** 2, k / n
+    centre, reach = p + z2 / (2 * n), np.sqrt(z2 * (p * (1 - p) + z2 / (4 * n)) / n)
+    lower, upper = (centre - reach) / (1 + z2 / n), (centre + reach) / (1 + z2 / n)
+    return np.where(k == 0, 0.0, lower), np.where(k == n, 1.0, upper)
+
+
+def clopper_pearson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+    """Exact interval of a probability after k of n runs, never below its level, wider than Wilson's.
+
+    Quantiles of beta distributions (Clopper & Pearson 1934, Biometrika 26). Arguments and result as of `wilson`.
+    """
+    from scipy.stats import beta
+
+    k, tail = _counts(k, n), (1 - confidence) / 2
+    lower = np.where(k == 0, 0.0, beta.ppf(tail, np.maximum(k, 1), n - k + 1))
+    upper = np.where(k == n, 1.0, beta.ppf(1 - tail, k + 1, np.maximum(n - k, 1)))
+    return lower, upper
+
+
+def dkw(ecdf, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+    """Simultaneous band F +- `dkw_distance`, clipped to [0, 1].
+
+    Args:
+        ecdf: an `Ecdf`.
+        confidence: level, in (0, 1).
+
+    Returns:
+        lower, upper: at ecdf.x, (m,) each.
+    """
+    reach = dkw_distance(ecdf.n, confidence)
+    return np.maximum(ecdf.cdf - reach, 0.0), np.minimum(ecdf.cdf + reach, 1.0)
+
+
+def dkw_distance(n, confidence: float = 0.95):
+    """Largest distance sup |F_n - F| at a confidence: sqrt(ln(2 / (1 - confidence)) / (2 n)).
+
+    Dvoretzky, Kiefer & Wolfowitz (1956) with the constant of Massart (1990, Ann. Probab. 18); holds for any F and n.
+    """
+    if not 0 < confidence < 1:
+        raise ValueError(f"confidence = {confidence}: must lie in (0, 1)")
+    return np.sqrt(math.log(2 / (1 - confidence)) / (2 * np.asarray(n, float)))[()]
+
+
+def bootstrap_band(u_max, overturned, grid, confidence: float = 0.95, resamples: int = 2000,
+                   seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    """Pointwise percentile band of F by drawing runs anew with replacement (Efron 1979, Ann. Stat. 7).
+
+    Close to Greenwood's band and, like it, of no width beyond the extreme runs.
+
+    Args:
+        u_max: (n,) [m]; ignored where the run overturned.
+        overturned: (n,) True where the column overturned.
+        grid: (m,) rising displacements at which F is wanted [m].
+        confidence: level, in (0, 1).
+        resamples: number of samples drawn.
+        seed: of the generator.
+
+    Returns:
+        lower, upper: (m,) each.
+    """
+    from fecolumn.statistics.ecdf import censored
+
+    u, grid = censored(u_max, overturned), np.asarray(grid, float)
+    if grid.ndim != 1 or (np.diff(grid) < 0).any():
+        raise ValueError("grid must be a rising list of displacements")
+    shares = np.bincount(np.searchsorted(grid, u), minlength=grid.size + 1) / u.size
+    drawn = np.random.default_rng(seed).multinomial(u.size, shares, size=resamples)
+    cdfs = np.cumsum(drawn[:, :-1], axis=1) / u.size
+    tail = (1 - confidence) / 2
+    lower, upper = np.quantile(cdfs, (tail, 1 - tail), axis=0)
+    return lower, upper
+
+
+def normal_quantile(confidence: float) -> float:
+    """Half-width of the two-sided interval of a standard normal variable: 1.96 for 0.95."""
+    return NormalDist().inv_cdf((1 + confidence) / 2)
+
+
+def _counts(k, n: int) -> np.ndarray:
+    k = np.asarray(k, float)
+    if n < 1 or (k < 0).any() or (k > n).any():
+        raise ValueError(f"k = {k}, n = {n}: counts must lie in [0, n], n at least 1")
+    return k

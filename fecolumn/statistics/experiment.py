@@ -1,0 +1,94 @@
+"""Maxima of an experiment, or of any other source, from a CSV file."""
+
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.schema import InputError
+
+_TO_METRES = {"u_max_m": 1.0, "u_max_mm": 1e-3, "u_max_cm": 1e-2}
+_WORDS = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
+
+
+@dataclass(frozen=True, slots=True)
+class Maxima:
+    """Peak displacements of an ensemble.
+
+    Attributes:
+        motions: (n,) names, all different.
+        u_max: (n,) [m], nan where it overturned.
+        overturned: (n,) bool.
+    """
+
+    motions: tuple[str, ...]
+    u_max: np.ndarray
+    overturned: np.ndarray
+
+
+def read_maxima(path) -> Maxima:
+    """Maxima of a CSV file with a header: motion, u_max_mm (or u_max_cm, u_max_m), overturned; other columns are ignored.
+
+    overturned is 1 or 0 (true or false, yes or no); u_max may be blank where it is 1, and is not used there. Lines that
+    begin with # are comments.
+
+    Raises:
+        InputError: no such file, a column missing or given twice, a value that cannot be used, a motion given twice.
+    """
+    path = Path(path)
+    try:
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            lines = [(number, line) for number, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
+    except FileNotFoundError:
+        raise InputError(path, "", None, "no such file") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(path, "", None, f"cannot be read as text in UTF-8 ({error})") from None
+    table = list(csv.reader([line for _, line in lines], skipinitialspace=True))
+    if len(table) < 2:
+        raise InputError(path, "", None, "holds no line below its header; needed are the columns motion, u_max_mm and overturned")
+    columns, factor = _columns(path, [name.strip() for name in table[0]])
+    motions, maxima, overturned = [], [], []
+    for (number, _), row in zip(lines[1:], table[1:]):
+        if len(row) != len(table[0]):
+            raise InputError(path, f"line {number}", None, f"has {len(row)} columns where the header has {len(table[0])}")
+        motion, u_text, word = (row[column].strip() for column in columns)
+        if not motion or motion in motions:
+            raise InputError(path, f"line {number}, motion", motion, "must be a name" if not motion else "stands twice in the file")
+        motions.append(motion)
+        overturned.append(_overturned(path, number, word))
+        maxima.append(math.nan if overturned[-1] else factor * _number(path, number, table[0][columns[1]].strip(), u_text))
+    return Maxima(tuple(motions), np.array(maxima), np.array(overturned))
+
+
+def _columns(path: Path, header: list[str]) -> tuple[tuple[int, int, int], float]:
+    """Places of motion, u_max and overturned, and the factor to metres."""
+    maxima = [name for name in header if name in _TO_METRES]
+    if len(maxima) != 1:
+        raise InputError(path, "header", ", ".join(header), f"must have one of the columns {', '.join(_TO_METRES)}: the unit is part of the name"
+                         + ("; columns are separated by commas" if len(header) == 1 else ""))
+    for name in ("motion", "overturned"):
+        if header.count(name) != 1:
+            raise InputError(path, "header", ", ".join(header), f"must have one column {name}")
+    return (header.index("motion"), header.index(maxima[0]), header.index("overturned")), _TO_METRES[maxima[0]]
+
+
+def _overturned(path: Path, number: int, word: str) -> bool:
+    if word.lower() not in _WORDS:
+        raise InputError(path, f"line {number}, overturned", word, f"must be one of {', '.join(_WORDS)}")
+    return _WORDS[word.lower()]
+
+
+def _number(path: Path, number: int, column: str, text: str) -> float:
+    """The displacement of a run that stood, at least 0."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value >= 0):
+        raise InputError(path, f"line {number}, {column}", text,
+                         f"must be a number of at least 0 [{column.rpartition('_')[2]}]; it may be blank only where overturned is 1")
+    return value

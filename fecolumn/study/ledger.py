@@ -1,0 +1,169 @@
+"""The ledger of a study: one SQLite row an analysis."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import time
+from pathlib import Path
+
+from fecolumn.study.outcome import DONE, FAILED, Outcome
+
+PLANNED, RUNNING = "planned", "running"
+
+# Changes are written together, so that cheap analyses do not wait for the ledger; what a crash loses of it the results tell again
+_COMMIT_S = 0.5
+
+_SCHEMA = """
+CREATE TABLE IF NOT EXISTS analysis (
+    id      TEXT PRIMARY KEY,   -- case id, the name of the result folder
+    place   INTEGER NOT NULL,   -- order in the study file
+    axes    TEXT NOT NULL,      -- JSON: value of each axis
+    motion  TEXT,               -- digest of the motion's files, or its name where it is no file
+    state   TEXT NOT NULL CHECK (state IN ('planned', 'running', 'done', 'failed')),
+    reason  TEXT,               -- why it failed
+    log     TEXT,               -- file with the traceback of a failure, relative to the study's folder
+    wall_s  REAL,               -- wall time of the worker
+    started REAL,               -- seconds since the epoch
+    machine TEXT,               -- name and processor of the machine it was done on
+    version TEXT,               -- version of fecolumn that wrote the summary
+    summary TEXT                -- JSON: summary.json of an analysis that is done
+)"""
+_TOLD = ("state", "reason", "log", "wall_s", "started", "machine", "version", "summary")
+_ROW = ("id", "axes", "state", "reason", "wall_s", "version", "summary", "motion", "machine", "started", "log")
+_ORDER = {DONE: 0, RUNNING: 1, FAILED: 2, PLANNED: 3}
+
+
+class Ledger:
+    """A ledger open for its one writer.
+
+    Args:
+        file: made if it is not there; one that an earlier version wrote is made anew.
+        many_readers: whether others may read while it is written (WAL); not over network file systems.
+    """
+
+    def __init__(self, file: Path, many_readers: bool):
+        self.is_new, self._committed, self._many_readers = not file.exists(), time.monotonic(), many_readers
+        self._connection = sqlite3.connect(file, timeout=30.0)
+        run = self._connection.execute
+        run(f"PRAGMA journal_mode = {'WAL' if many_readers else 'TRUNCATE'}")
+        run("PRAGMA synchronous = NORMAL")
+        columns = {row[1] for row in run("PRAGMA table_info(analysis)")}
+        if columns and columns != {"place", *_ROW}:
+            run("DROP TABLE analysis")
+            self.is_new = True
+        run(_SCHEMA)
+
+    def plan(self, rows) -> None:
+        """Add analyses (id, place, axes as JSON, motion) that are not there yet; what ran when the last writer ended is planned again."""
+        self._connection.executemany("INSERT OR IGNORE INTO analysis (id, place, axes, motion, state) VALUES (?, ?, ?, ?, 'planned')", rows)
+        self._connection.execute("UPDATE analysis SET state = 'planned' WHERE state = 'running'")
+
+    def adopt(self, other: Path, recover: bool) -> None:
+        """Take over what another ledger knows of the end of analyses that are only planned here.
+
+        Args:
+            recover: whether nobody else can have it open, so that what a killed writer left half done may be undone.
+        """
+        try:
+            found = sqlite3.connect(other) if recover else open_to_read(other)
+        except sqlite3.Error:
+            found = None
+        if found is None:
+            return  # damaged, of an earlier version or empty: the results tell
+        names = ", ".join(_TOLD)
+        try:
+            self._connection.executemany(
+                f"UPDATE analysis SET {', '.join(f'{name} = ?' for name in _TOLD)} WHERE id = ? AND state = 'planned'",
+                found.execute(f"SELECT {names}, id FROM analysis WHERE state IN ('done', 'failed')"))
+        except sqlite3.Error:
+            return
+        finally:
+            found.close()
+
+    def states(self) -> dict[str, str]:
+        """State of every analysis by its id, in the order of the study file."""
+        return dict(self._connection.execute("SELECT id, state FROM analysis ORDER BY place"))
+
+    def counts(self) -> dict[str, int]:
+        """Number of analyses by state, and of those "overturned"."""
+        counts = dict(self._connection.execute("SELECT state, count(*) FROM analysis GROUP BY state"))
+        counts["overturned"], = self._connection.execute(
+            "SELECT count(*) FROM analysis WHERE state = 'done' AND json_extract(summary, '$.overturned')").fetchone()
+        return counts
+
+    def rows(self) -> list[dict]:
+        """As `Study.rows`."""
+        return read_rows(self._connection)
+
+    def begin(self, case_ids) -> None:
+        """Record that analyses were handed out."""
+        now = time.time()
+        self._connection.executemany("UPDATE analysis SET state = 'running', started = ? WHERE id = ?", [(now, name) for name in case_ids])
+
+    def plan_again(self, *, case_id: str | None = None, state: str | None = None) -> None:
+        """Put one analysis, or all of a state, back among the planned."""
+        key, value = ("id", case_id) if case_id else ("state", state)
+        self._connection.execute(
+            f"UPDATE analysis SET state = 'planned', reason = NULL, log = NULL, summary = NULL, version = NULL WHERE {key} = ?", (value,))
+
+    def end(self, outcome: Outcome, log: str | None = None) -> None:
+        """Record the end of an analysis, DONE or FAILED."""
+        failed = outcome.word == FAILED
+        self._connection.execute(
+            "UPDATE analysis SET state = ?, reason = ?, log = ?, wall_s = coalesce(?, wall_s), started = coalesce(?, started), "
+            "machine = coalesce(?, machine), version = ?, summary = ? WHERE id = ?",
+            (outcome.word, outcome.reason if failed else None, log if failed else None, outcome.wall_s, outcome.started, outcome.machine,
+             outcome.version, outcome.summary, outcome.id))
+        if failed:
+            self.commit()  # no result tells of a failure
+
+    def commit(self, at_most_every_s: float = 0.0) -> None:
+        """Write what was recorded, unless that was done a moment ago."""
+        now = time.monotonic()
+        if now - self._committed >= at_most_every_s:
+            self._connection.commit()
+            self._committed = now
+
+    def commit_now_and_then(self) -> None:
+        """Write what was recorded, twice a second at most."""
+        self.commit(_COMMIT_S)
+
+    def close(self) -> None:
+        """Write all and leave a single plain file, which can be read from a folder that may not be written."""
+        try:
+            self._connection.commit()
+            if self._many_readers:
+                self._connection.execute("PRAGMA journal_mode = DELETE")
+        except sqlite3.OperationalError:
+            pass  # a reader is in it, or the disk is full: the next writer tidies up
+        self._connection.close()
+
+
+def open_to_read(file: Path) -> sqlite3.Connection | None:
+    """A ledger, read only, None where it is just being made; where the folder may not be written, readers cannot be counted, and need not be."""
+    for option in ("mode=ro", "mode=ro&immutable=1"):
+        ledger = sqlite3.connect(f"{file.resolve().as_uri()}?{option}", uri=True, timeout=30.0)
+        try:
+            ledger.execute(f"SELECT {', '.join(_ROW)} FROM analysis LIMIT 1")
+            return ledger
+        except sqlite3.OperationalError as error:
+            ledger.close()
+            if "no such table" in str(error):
+                return None
+            if "immutable" in option:
+                raise
+
+
+def read_rows(*ledgers: sqlite3.Connection) -> list[dict]:
+    """Every analysis in the order of the study file, its axes and summary as dicts; of several ledgers, the one that got farthest counts."""
+    best: dict[str, tuple] = {}
+    for ledger in ledgers:
+        for place, *row in ledger.execute(f"SELECT place, {', '.join(_ROW)} FROM analysis"):
+            known = best.get(row[0])
+            if known is None or _ORDER[row[2]] < _ORDER[known[1][2]]:
+                best[row[0]] = place, row
+    rows = [dict(zip(_ROW, row)) for _, row in sorted(best.values(), key=lambda found: found[0])]
+    for row in rows:
+        row["axes"], row["summary"] = json.loads(row["axes"]), json.loads(row["summary"] or "null")
+    return rows

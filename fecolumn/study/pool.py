@@ -1,0 +1,206 @@
+"""Workers on this machine: processes of their own, spawned and watched by the driver."""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import queue
+import signal
+import threading
+import time
+from collections import deque
+from multiprocessing import resource_tracker
+from multiprocessing.connection import wait
+
+from fecolumn.study.outcome import DONE, FAILED, RETURNED, Outcome, Task, finished
+from fecolumn.study.team import StudyError
+from fecolumn.study.worker import ONE_THREAD, analysis_function, die_with_parent, in_words, work_off
+
+READY, BROKEN = "ready", "broken"
+
+# Successes are told together, failures at once
+_TELL_S = 0.1
+# Workers in a row that may be killed before they are ready
+_STILLBORN = 3
+
+
+class LocalPool:
+    """A `Team` of processes, started when there is something for them to do.
+
+    Args:
+        size: number of workers.
+        entry: "module:function" of the analysis.
+        file: study file, for messages.
+    """
+
+    def __init__(self, size: int, entry: str, file):
+        self.size, self._entry, self._file = size, entry, str(file)
+        self._workers: list[_Worker] = []
+        self._stillborn = 0
+
+    @property
+    def at_work(self) -> bool:
+        return any(worker.tasks for worker in self._workers)
+
+    def wants(self, depth: int) -> bool:
+        return len(self._workers) < self.size or any(len(worker.batches) < depth for worker in self._workers)
+
+    def give(self, batch: list[Task]) -> None:
+        if len(self._workers) < self.size:
+            self._workers.append(_Worker(self._entry, self._file))
+            worker = self._workers[-1]
+        else:
+            worker = min(self._workers, key=lambda one: len(one.batches))
+        worker.give(batch)
+
+    def collect(self, timeout_s: float) -> list[Outcome]:
+        outcomes = []
+        answered = wait([worker.connection for worker in self._workers], timeout=timeout_s)
+        for worker in [worker for worker in self._workers if worker.connection in answered]:
+            try:
+                outcomes += self._answer(worker, worker.connection.recv())
+            except (EOFError, OSError):
+                self._workers.remove(worker)
+                outcomes += self._bury(worker)
+        return outcomes
+
+    def _answer(self, worker: _Worker, word) -> list[Outcome]:
+        if word == READY:
+            worker.ready, self._stillborn = True, 0
+            return []
+        if isinstance(word, tuple):
+            raise StudyError(f"a worker could not start: {word[1]}")
+        for outcome in word:
+            worker.ended(outcome.id)
+        return word
+
+    def _bury(self, worker: _Worker) -> list[Outcome]:
+        """Outcomes of what a dead worker had in hand: done where the result says so; the next in turn has killed it."""
+        reason = worker.epitaph()
+        worker.connection.close()
+        if not worker.ready:
+            self._stillborn += 1
+            if self._stillborn == _STILLBORN or not reason.startswith("worker killed"):
+                raise StudyError(f"a worker could not start: {reason}")
+        outcomes, blamed = [], not worker.ready
+        for task in worker.tasks.values():
+            if done := finished(task.id, task.folder):
+                outcomes.append(done)
+            else:
+                outcomes.append(Outcome(task.id, RETURNED if blamed else FAILED, reason))
+                blamed = True
+        return outcomes
+
+    def stop(self) -> None:
+        for worker in self._workers:
+            worker.stop()
+        self._workers = []
+
+
+class _Worker:
+    """Handle of a worker process.
+
+    Attributes:
+        tasks: what it has in hand by id, in order. batches: how many tasks of each batch are left.
+        ready: whether it has found its analysis function.
+    """
+
+    def __init__(self, entry: str, file: str):
+        context = multiprocessing.get_context("spawn")  # a fork would copy the driver's MPI and threads
+        self.connection, far_end = context.Pipe()
+        self.process = context.Process(target=_serve, args=(far_end, entry, file), daemon=True)
+        self.tasks: dict[str, Task] = {}
+        self.batches: deque[int] = deque()
+        self.ready = False
+        with _environment(ONE_THREAD), _interrupts_held():
+            self.process.start()
+        far_end.close()  # so that the end of the process is the end of the connection
+
+    def give(self, batch: list[Task]) -> None:
+        self.tasks |= {task.id: task for task in batch}
+        self.batches.append(len(batch))
+        try:
+            self.connection.send(batch)
+        except OSError:
+            pass  # it is dead; its connection is at its end, and the next wait says so
+
+    def ended(self, case_id: str) -> None:
+        del self.tasks[case_id]
+        self.batches[0] -= 1
+        if not self.batches[0]:
+            self.batches.popleft()
+
+    def epitaph(self) -> str:
+        """How the process ended, in words."""
+        self.process.join()
+        code = self.process.exitcode
+        if code >= 0:
+            return f"worker ended with exit code {code}"
+        name = signal.Signals(-code).name
+        return f"worker killed by {name}" + (" (out of memory?)" if name == "SIGKILL" else "")
+
+    def stop(self) -> None:
+        """End the process: an idle one is let go, so that MPI can tidy up; one at work is killed, which costs no result."""
+        self.connection.close()
+        if self.ready and not self.tasks:
+            self.process.join(timeout=5.0)
+        self.process.kill()
+        self.process.join()
+
+
+def _serve(connection, entry: str, file: str) -> None:
+    die_with_parent()
+    if multiprocessing.parent_process().pid != os.getppid():
+        os._exit(1)  # gone already
+    try:
+        import mpi4py.MPI  # noqa: F401  what an analysis needs in any case
+
+        run = analysis_function(entry)
+    except BaseException as error:
+        connection.send((BROKEN, f"{entry} cannot be used: {in_words(error)}"))
+        return
+    connection.send(READY)
+    batches = queue.SimpleQueue()
+    threading.Thread(target=_listen, args=(connection, batches), daemon=True).start()
+    while (batch := batches.get()) is not None:
+        told, unsaid = time.monotonic(), []
+        for outcome in work_off(batch, run, file):
+            unsaid.append(outcome)
+            if outcome.word != DONE or time.monotonic() - told > _TELL_S:
+                connection.send(unsaid)
+                told, unsaid = time.monotonic(), []
+        if unsaid:
+            connection.send(unsaid)
+
+
+def _listen(connection, batches) -> None:
+    """Take batches at once: a driver that had to wait with one could not take outcomes meanwhile."""
+    try:
+        while True:
+            batches.put(connection.recv())
+    except (EOFError, OSError):
+        batches.put(None)
+
+
+@contextlib.contextmanager
+def _environment(values: dict):
+    """Environment a child inherits; set before it imports anything."""
+    before = {name: os.environ.get(name) for name in values}
+    os.environ.update(values)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            os.environ.pop(name) if value is None else os.environ.update({name: value})
+
+
+@contextlib.contextmanager
+def _interrupts_held():
+    """Children inherit a blocked Ctrl-C: the driver alone answers it, and stops them."""
+    resource_tracker.ensure_running()  # multiprocessing starts it with the first process and unblocks Ctrl-C afterwards
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -1,0 +1,191 @@
+"""Fragility curves give back the parameters their data were drawn with, within the errors they state."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+from scipy.special import expit
+from scipy.stats import norm
+
+from fecolumn.statistics.displacement_fragility import displacement
+from fecolumn.statistics.fragility import DegenerateData, bootstrap, logit, lognormal
+
+MEDIAN, BETA = 1.3, 0.4
+
+
+def stripes(rng, n=40):
+    """Overturned or not of n runs at each of eight intensities."""
+    im = np.repeat(np.linspace(0.4, 2.6, 8), n)
+    return im, rng.normal(size=im.size) < np.log(im / MEDIAN) / BETA
+
+
+def test_lognormal_is_the_maximum_of_the_likelihood():
+    im, overturned = stripes(np.random.default_rng(1))
+
+    def minus_loglik(q):
+        eta = np.log(im / q[0]) / q[1]
+        return -norm.logcdf(np.where(overturned, eta, -eta)).sum()
+
+    found, other = lognormal(im, overturned), minimize(minus_loglik, [1.0, 0.5], method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-10})
+    assert (found.median, found.beta) == pytest.approx(other.x, rel=1e-5) and found.loglik == pytest.approx(-other.fun, abs=1e-8)
+
+
+def minus_hessian(function, x, step=1e-4):
+    """By central differences."""
+    e = step * np.eye(len(x))
+    return -np.array([[(function(x + u + v) - function(x + u - v) - function(x - u + v) + function(x - u - v)) / (4 * step**2)
+                       for u in e] for v in e])
+
+
+def test_covariance_is_the_inverse_of_the_observed_information():
+    im, overturned = stripes(np.random.default_rng(1), 10)
+
+    def loglik(q):
+        eta = (np.log(im) - q[0]) / q[1]
+        return norm.logcdf(np.where(overturned, eta, -eta)).sum()
+
+    fit = lognormal(im, overturned)
+    information = minus_hessian(loglik, np.array([math.log(fit.median), fit.beta]))
+    np.testing.assert_allclose(np.linalg.inv(fit.covariance), information, rtol=1e-4)
+
+
+def test_covariance_with_censored_displacements_is_the_inverse_of_the_observed_information():
+    im, u, overturned = draw(np.random.default_rng(12), 60)
+
+    def loglik(q):
+        mean = q[0] + q[1] * np.log(im)
+        return np.where(overturned, norm.logsf(math.log(0.25), mean, q[2]), norm.logpdf(np.log(u), mean, q[2])).sum()
+
+    fit = displacement(im, u, overturned)
+    best = np.append(fit.coefficients, fit.sigma)
+    assert fit.loglik == pytest.approx(loglik(best), abs=1e-9) and overturned.sum() > 10
+    np.testing.assert_allclose(np.linalg.inv(fit.covariance), minus_hessian(loglik, best), rtol=1e-4, atol=1e-3)
+
+
+def test_lognormal_parameters_lie_within_their_intervals_in_95_of_100_ensembles():
+    rng, median, beta, curve = np.random.default_rng(2), [], [], []
+    for _ in range(800):
+        fit = lognormal(*stripes(rng))
+        low, high = fit.median_interval()
+        median.append(low < MEDIAN < high)
+        low, high = fit.beta_interval()
+        beta.append(low < BETA < high)
+        band = fit.probability([0.8, 1.3])
+        truth = norm.cdf(np.log(np.array([0.8, 1.3]) / MEDIAN) / BETA)
+        curve.append((band.lower < truth) & (truth < band.upper))
+    error = 3 * math.sqrt(0.05 * 0.95 / 800)
+    for covered in (np.mean(median), np.mean(beta), *np.mean(curve, axis=0)):
+        assert covered == pytest.approx(0.95, abs=error)
+
+
+def test_logit_of_two_measures_recovers_both_and_tells_the_useless_one():
+    rng, truth, inside, useless = np.random.default_rng(3), np.array([-1.0, 2.5, 1.5]), [], []
+    for _ in range(400):
+        im = rng.lognormal(0, 0.6, (300, 2))
+        overturned = rng.random(300) < expit(truth[0] + np.log(im) @ truth[1:])
+        fit = logit(im, overturned)
+        inside.append(np.abs(fit.coefficients - truth) < 1.96 * np.sqrt(np.diag(fit.covariance)))
+        useless.append(2 * (fit.loglik - logit(im[:, 0], overturned).loglik))
+    np.testing.assert_allclose(np.mean(inside, axis=0), 0.95, atol=3 * math.sqrt(0.05 * 0.95 / 400))
+    assert np.mean(np.array(useless) > 3.84) > 0.99  # chi-square, one degree of freedom, 95 %
+
+
+def test_bootstrap_agrees_with_the_hessian_for_independent_runs():
+    im, overturned = stripes(np.random.default_rng(4), 80)
+    fit, drawn = lognormal(im, overturned), bootstrap(im, overturned, resamples=400, seed=1)
+    assert drawn.refused == 0
+    np.testing.assert_allclose(drawn.upper - drawn.lower, [np.subtract(*fit.median_interval()[::-1]), np.subtract(*fit.beta_interval()[::-1])], rtol=0.2)
+    one, other = (bootstrap(im, overturned, logit, resamples=20, seed=5).parameters for _ in "ab")
+    np.testing.assert_array_equal(one, other)
+
+
+def test_runs_of_one_motion_at_several_scales_know_less_than_their_number_says():
+    """40 motions, each with a capacity of its own, at eight scales: 320 runs, 40 pieces of knowledge."""
+    rng = np.random.default_rng(5)
+    capacity = MEDIAN * np.exp(BETA * rng.normal(size=40))
+    im = np.tile(np.linspace(0.4, 2.6, 8), 40)
+    motion = np.repeat(np.arange(40), 8)
+    overturned = im > capacity[motion]
+    runs, motions = (bootstrap(im, overturned, groups=groups, resamples=300, seed=1) for groups in (None, motion))
+    # mean of 40 capacities: ln median to +- 1.96 * 0.4 / sqrt(40) = 0.124
+    assert np.log(motions.upper[0] / motions.lower[0]) / 2 == pytest.approx(0.124, rel=0.35)
+    assert np.log(runs.upper[0] / runs.lower[0]) < 0.7 * np.log(motions.upper[0] / motions.lower[0])
+
+
+@pytest.mark.parametrize("im, overturned, reason", [
+    ([1, 2, 3], [0, 0, 0], "none of 3"), ([1, 2, 3], [1, 1, 1], "all of 3"), ([1, 2, 3, 4], [0, 0, 1, 1], "parts all runs"),
+    ([1, 2, 2, 3], [0, 0, 1, 1], "parts all runs"), ([2, 2, 2], [0, 1, 0], "do not vary")])
+def test_data_without_a_maximum_are_refused_in_words(im, overturned, reason):
+    for fit in (lognormal, logit):
+        with pytest.raises(DegenerateData, match=reason):
+            fit(im, overturned)
+
+
+def test_plane_that_parts_two_measures_is_found():
+    rng = np.random.default_rng(6)
+    im = rng.lognormal(0, 1, (60, 2))
+    with pytest.raises(DegenerateData, match="parts all runs"):
+        logit(im, np.log(im).sum(axis=1) > 0.1)
+    with pytest.raises(DegenerateData, match="independently"):
+        logit(np.column_stack([im[:, 0], im[:, 0] ** 2]), rng.random(60) < 0.5)
+
+
+def test_overturning_that_gets_rarer_has_no_lognormal_fragility_but_a_trend():
+    im, overturned = stripes(np.random.default_rng(7))
+    with pytest.raises(DegenerateData, match="rarer"):
+        lognormal(im, ~overturned)
+    assert logit(im, ~overturned).coefficients[1] < 0
+
+
+def test_intensities_must_be_positive():
+    with pytest.raises(ValueError, match="positive"):
+        lognormal([0.0, 1, 2], [0, 1, 0])
+    with pytest.raises(ValueError, match="one length"):
+        lognormal([1.0, 2], [0, 1, 0])
+
+
+def draw(rng, n=150):
+    """ln u = -2.5 + 1.5 ln im + 0.5 e, overturned beyond 0.25 m: about a third."""
+    im = rng.lognormal(0.4, 0.6, n)
+    u = np.exp(-2.5 + 1.5 * np.log(im) + 0.5 * rng.normal(size=n))
+    return im, u, u > 0.25
+
+
+def test_displacements_with_overturned_runs_censored_are_unbiased():
+    rng, found, inside = np.random.default_rng(8), [], []
+    truth = np.array([-2.5, 1.5, 0.5])
+    for _ in range(400):
+        fit = displacement(*draw(rng))
+        estimate = np.append(fit.coefficients, fit.sigma)
+        found.append(estimate)
+        inside.append(np.abs(estimate - truth) < 1.96 * np.sqrt(np.diag(fit.covariance)))
+    np.testing.assert_allclose(np.mean(found, axis=0), truth, atol=0.02)
+    np.testing.assert_allclose(np.mean(inside, axis=0), 0.95, atol=3 * math.sqrt(0.05 * 0.95 / 400) + 0.01)
+    im, u, overturned = draw(rng, 5000)
+    assert np.polyfit(np.log(im[~overturned]), np.log(u[~overturned]), 1)[0] < 1.3  # without the censored runs: biased
+
+
+def test_displacements_without_overturns_are_least_squares():
+    im, u, _ = draw(np.random.default_rng(9))
+    fit = displacement(im, u, np.zeros(u.size, bool), cap_m=10)
+    slope, constant = np.polyfit(np.log(im), np.log(u), 1)
+    assert fit.coefficients == pytest.approx([constant, slope], rel=1e-6)
+    assert fit.sigma == pytest.approx(np.std(np.log(u) - constant - slope * np.log(im)), rel=1e-6)
+    assert fit.median_m([2.0]) == pytest.approx([math.exp(constant) * 2**slope], rel=1e-6)
+
+
+def test_exceedance_at_the_cap_is_the_share_that_overturns():
+    im, u, overturned = draw(np.random.default_rng(10), 20000)
+    near = np.abs(np.log(im / 2)) < 0.05
+    band = displacement(im, u, overturned).exceedance(0.25, [2.0])
+    assert band.p[0] == pytest.approx(overturned[near].mean(), abs=0.04) and band.lower[0] < band.p[0] < band.upper[0]
+    with pytest.raises(ValueError, match="censored there"):
+        displacement(im, u, overturned).exceedance(0.3, [2.0])
+
+
+def test_displacements_that_cannot_be_fitted_are_refused():
+    with pytest.raises(DegenerateData, match="too few"):
+        displacement([1.0, 2, 3], [0.1, 9, 9], [0, 1, 1])
+    with pytest.raises(DegenerateData, match="without scatter"):
+        displacement([1.0, 2, 4, 8], [0.01, 0.02, 0.04, 0.08], [0, 0, 0, 0])

@@ -1,0 +1,66 @@
+"""A study folder is read without its study file."""
+
+import os
+import platform
+
+import pytest
+from rocking_block import ENTRY
+from study_files import write_study
+
+from fecolumn.schema import InputError
+from fecolumn.study.plan import read_plan
+from fecolumn.study.run import run_study
+from fecolumn.study.store import Store, read_study
+
+
+def test_a_finished_study_is_read_back_from_its_folder_alone(tmp_path):
+    study = write_study(tmp_path / "files", extra="")
+    rows = run_study(read_plan(study), tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w"))
+    study.unlink()
+    found = read_study(tmp_path / "out")
+    assert found.title == "study" and found.rows == rows
+    assert found.axes == {"integration.dt_s": [0.02, 1e-3], "integration.alpha_hht": [0, -0.2],
+                          "motion.source": [f"pulse:{k}" for k in range(4)]}
+
+
+def test_a_study_at_work_is_read_without_disturbing_it(tmp_path):
+    with Store(tmp_path / "out", read_plan(write_study(tmp_path)), ENTRY):
+        assert {row["state"] for row in read_study(tmp_path / "out").rows} == {"planned"}
+
+
+def test_a_damaged_ledger_is_told_and_without_it_the_results_tell_what_is_done(tmp_path):
+    plan = read_plan(write_study(tmp_path))
+    before = run_study(plan, tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w"))
+    ledger = tmp_path / "out" / "study.sqlite"
+    ledger.write_bytes(b"no database at all, but long enough" * 100)
+    with pytest.raises(InputError, match="damaged.*delete it"):
+        Store(tmp_path / "out", plan, ENTRY)
+    with pytest.raises(InputError, match="cannot be read"):
+        read_study(tmp_path / "out")
+    ledger.unlink()
+    with Store(tmp_path / "out", plan, ENTRY) as store:
+        assert [row["summary"] for row in store.rows()] == [row["summary"] for row in before]
+
+
+def test_a_ledger_just_being_made_has_no_rows_yet(tmp_path):
+    run_study(plan := read_plan(write_study(tmp_path)), tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w"))
+    (tmp_path / "out" / "study.sqlite").unlink()
+    (tmp_path / "out" / "study.sqlite").touch()
+    found = read_study(tmp_path / "out")
+    assert found.rows == [] and found.analyses == len(plan.analyses)
+
+
+def test_ledger_tells_where_each_analysis_was_done(tmp_path):
+    for row in run_study(read_plan(write_study(tmp_path, pulses=[1, "diverges"])), tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w")):
+        assert row["machine"].startswith(platform.node()) and row["started"] > 1e9 and row["wall_s"] > 0
+        assert row["motion"] == row["axes"]["motion.source"]  # no file: its name
+        if row["state"] == "failed":
+            assert "after 4 cuts" in (tmp_path / "out" / row["log"]).read_text()
+
+
+@pytest.mark.parametrize("content, message", [(None, "holds no study"), ("{", "is damaged"), ("[]", "is damaged")])
+def test_what_is_no_study_is_refused(tmp_path, content, message):
+    if content:
+        (tmp_path / "study.json").write_text(content)
+    with pytest.raises(InputError, match=message):
+        read_study(tmp_path)
