@@ -38,9 +38,8 @@ def convergence():
     # nodes land in one step or in the next: what a disturbance changes is what no number of modes can improve on
     scatter = np.max([abs(found("reduced", MODES[-1], d) / values[MODES[-1]] - 1) for d in DISTURBANCES], axis=0)
     for k, (name, unit) in enumerate(((f"restitution of the first impact from {AMPLITUDE:g} alpha", "-"), (f"u_max in {SHAKEN:g} s of shaking", "m"))):
-        last = np.inf
         for modes in MODES:
             off = abs(values[modes][k] / full[k] - 1)
-            yield f"n_modes {modes}: {name} [{unit}]", full[k], values[modes][k], off <= max(last, scatter[k])
-            last = off
+            # few modes may come close by luck: only the many are judged
+            yield f"n_modes {modes}: {name} [{unit}]", full[k], values[modes][k], off <= scatter[k] if modes == MODES[-1] else None
         yield f"{name}: changed by 1 to 3 um/s at the start [-]", 0.0, scatter[k], None
