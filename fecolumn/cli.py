@@ -1,4 +1,4 @@
-"""The command line: fecolumn mesh | run | resume | study | compare | verify | motions | doctor."""
+"""The command line: fecolumn mesh | run | resume | study | compare | report | verify | motions | doctor."""
 
 from __future__ import annotations
 
@@ -88,6 +88,11 @@ def _parser() -> argparse.ArgumentParser:
 
     comparison.add_arguments(compare)
     compare.set_defaults(command=comparison.main)
+    report = commands.add_parser("report", help="write the report of a study: one HTML page, figures and tables")
+    from fecolumn.report import command as reporting
+
+    reporting.add_arguments(report)
+    report.set_defaults(command=reporting.main)
     verify = commands.add_parser("verify", help="check the engines against exact solutions")
     from fecolumn.verification import command as verification
 

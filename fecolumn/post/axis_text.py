@@ -7,21 +7,36 @@ import typing
 
 from fecolumn.case import Case
 
-_SYMBOLS = {"integration.dt_s": r"$\Delta t$", "integration.alpha_hht": r"$\alpha$", "contact.friction_coefficient": r"$\mu$"}
+_SYMBOLS = {"integration.dt_s": r"$\Delta t$", "integration.alpha_hht": r"$\alpha$", "contact.friction_coefficient": r"$\mu$",
+            "material.youngs_modulus_pa": "$E$"}
+_NAMED = ("base", "cap")  # parts whose keys other parts have, too
 
 
 def axis_text(key: str, value) -> str:
     """Text such as "$\\Delta t$ = 0.001 s" for the dotted key `integration.dt_s`."""
     if isinstance(value, dict):
         return ", ".join(axis_text(f"{key}.{inner}", item) for inner, item in value.items())
-    number = f"{value:g}".replace("-", "\N{MINUS SIGN}") if isinstance(value, (int, float)) and not isinstance(value, bool) else str(value)
-    unit = _unit(key)
-    name = _SYMBOLS.get(key, key.split(".")[-1].removesuffix(f"_{unit}").replace("_", " "))
-    return f"{name} = {number}" + (f" {unit}" if unit != "-" else "")
+    unit = axis_unit(key)
+    return f"{_SYMBOLS.get(key) or axis_words(key)} = {level_number(value)}" + (f" {unit}" if unit != "-" else "")
 
 
-def _unit(key: str) -> str:
-    """Unit of a key, from the case's own declaration."""
+def axis_words(key: str) -> str:
+    """Last word of a key without its unit, after the part it belongs to where others have it, too."""
+    section, _, last = key.rpartition(".")
+    name = last.removesuffix(f"_{axis_unit(key).lower()}").replace("_", " ")
+    return f"{section} {name}" if section in _NAMED else name
+
+
+def level_number(value) -> str:
+    """Value of an axis: numbers to six digits at most, sampled ones of more to three."""
+    if not isinstance(value, (int, float)) or isinstance(value, bool):
+        return str(value)
+    text = f"{value:g}"
+    return (text if len(text.lstrip("-")) <= 6 else f"{value:.3g}").replace("-", "\N{MINUS SIGN}").replace("e+", "e")
+
+
+def axis_unit(key: str) -> str:
+    """Unit of a key, from the case's own declaration; "-" where it has none."""
     section, _, name = key.partition(".")
     kind = typing.get_type_hints(Case)[section]
     owner = next((k for k in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(k)), Case)

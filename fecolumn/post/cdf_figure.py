@@ -22,8 +22,8 @@ class Panel:
     lines: tuple[tuple[str, Ecdf], ...]
 
 
-def cdf_figure(panels: list[Panel], limit_m: float, path) -> list[Path]:
-    """Write the figure as PNG and PDF.
+def cdf_figure(panels: list[Panel], limit_m: float, path, formats=("png", "pdf")) -> list[Path]:
+    """Write the figure, as PNG and PDF unless told otherwise.
 
     Each distribution ends at 1 - P(overturn) and runs on as a level to the overturn displacement; its shade is the
     pointwise 95 % band of Greenwood; the legend gives P(overturn) with Wilson's 95 % interval.
@@ -32,6 +32,7 @@ def cdf_figure(panels: list[Panel], limit_m: float, path) -> list[Path]:
         panels: at least one.
         limit_m: overturn displacement [m], where the axis ends.
         path: file name without suffix.
+        formats: of the files.
     """
     columns = 2 if len(panels) == 4 else min(len(panels), _PANELS_A_ROW)
     rows = math.ceil(len(panels) / columns)
@@ -57,7 +58,7 @@ def cdf_figure(panels: list[Panel], limit_m: float, path) -> list[Path]:
                 axes.tick_params(labelleft=False)
             strip.legend(*axes.get_legend_handles_labels(), loc="upper center", framealpha=0, borderaxespad=0,
                          title=r"$P$(overturn) [95 % interval]", title_fontsize=7.5)
-        return save(figure, path)
+        return save(figure, path, formats)
 
 
 def _draw(axes, panel: Panel, looks: dict, limit_mm: float) -> None:

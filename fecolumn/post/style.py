@@ -26,7 +26,7 @@ STYLE = {
     "axes.grid": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.4, "axes.axisbelow": True,
     "legend.frameon": True, "legend.framealpha": 0.85, "legend.edgecolor": "none", "legend.borderpad": 0.3,
     "legend.handlelength": 2.2, "legend.labelspacing": 0.3,
-    "figure.constrained_layout.use": True, "savefig.dpi": 200, "pdf.fonttype": 42,
+    "figure.constrained_layout.use": True, "savefig.dpi": 200, "pdf.fonttype": 42, "svg.hashsalt": "fecolumn",
 }
 
 
@@ -40,11 +40,11 @@ def new_figure(width_in: float, height_in: float) -> Figure:
     return Figure(figsize=(width_in, height_in))
 
 
-def save(figure: Figure, path) -> list[Path]:
-    """Write PNG (200 dpi) and PDF beside each other; the same data gives the same bytes."""
+def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
+    """Write PNG (200 dpi) and PDF, or what `formats` says, beside each other; the same data gives the same bytes."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    files = [path.with_name(path.name + suffix) for suffix in (".png", ".pdf")]
+    files = [path.with_name(f"{path.name}.{suffix}") for suffix in formats]
     for file in files:
-        figure.savefig(file, metadata={"CreationDate": None} if file.suffix == ".pdf" else None)
+        figure.savefig(file, metadata={".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(file.suffix))
     return files

@@ -1,0 +1,218 @@
+"""Section: distributions of the peak, P(overturn) of every setting, pairs of settings compared."""
+
+from __future__ import annotations
+
+
+import numpy as np
+
+from fecolumn.post.axis_text import axis_text
+from fecolumn.post.cdf_figure import Panel, cdf_figure
+from fecolumn.post.interval_figure import Estimate, Scale, interval_figure
+from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
+from fecolumn.report.claim import CALIBRATION_TARGET, MARGIN
+from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.gallery import Gallery
+from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, p_value, percent, percent_interval, plain_level, setting_text)
+from fecolumn.report.pair import Pair
+from fecolumn.report.sweep import Setting, Sweep
+from fecolumn.statistics.convergence import cdf_convergence
+from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
+
+_LINES, _PANELS, _ROWS = 7, 9, 40
+_FOLD, _LONGEST = 20, 60
+TARGET_NOTE = (f"{percent(CALIBRATION_TARGET)} is a calibration target, never a result: the specimen's size is not published, and height and "
+               "cap are there to be chosen so that P(overturn) comes near it")
+
+
+def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
+    """The section; figures go to the gallery's folder."""
+    blocks: list = []
+    for name, axis in _views(sweep):
+        panels = _panels(sweep, axis)
+        files = cdf_figure(panels, sweep.limit_m, gallery.path(name), gallery.formats)
+        other = [axis_name(one) for one in sweep.varied if one != axis]
+        what = f"a line for each {axis_name(axis)}" if axis else \
+            "settings of the study" if len(sweep.done) <= _LINES else "the settings of least, middle and largest P(overturn)"
+        blocks.append(gallery.figure(name, files, f"Distribution of the largest top displacement: {what}"
+                      + (f", a panel for each {' and '.join(other)}" if other and axis else "") + _left_out(sweep, axis, panels)
+                      + ". Overturned runs are censored: a distribution ends at 1 − P(overturn). Shades: pointwise 95 % bands (Greenwood); "
+                        "in the legend P(overturn) with Wilson's 95 % interval."))
+    first = blocks[0].name
+    blocks.insert(0, Paragraph(_opening(sweep, first)))
+    blocks += _overturning(sweep, gallery)
+    if pairs:
+        blocks += [Paragraph("[[families]] and, pair by pair, [[comparisons]] compare settings that differ in one parameter alone. The same "
+                             "motions are in both, so the paired permutation p is the one to judge by, and that of independent samples is "
+                             "conservative; p (Holm) is the paired one, corrected for the family of tests that answer one question. The "
+                             "last column is the other side of the test, the largest distance that the data cannot exclude at 95 %. For "
+                             f"scale: two times 115 motions need {fixed(MARGIN)} to reject."),
+                   _families(pairs), _comparisons(sweep, pairs)]
+    return Section("Distributions", blocks + _convergence(sweep, gallery))
+
+
+def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
+    """Axes that are drawn as lines: up to three with few levels, most levels first."""
+    axes = sorted((axis for axis in sweep.varied if len(sweep.axes[axis]) <= _LINES and sweep.lines(axis)), key=lambda axis: -len(sweep.axes[axis]))
+    return [(f"cdf_by_{axis.split('.')[-1]}", axis) for axis in axes[:3]] or [("cdf", None)]
+
+
+def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
+    if axis is None:
+        chosen = sweep.done
+        if len(chosen) > _LINES:  # of many unordered ones the least, the middle and the most dangerous
+            ranked = sorted(chosen, key=lambda one: (one.column("overturned").mean(), one.column("u_max_m").mean()))
+            chosen = [ranked[0], ranked[len(ranked) // 2], ranked[-1]]
+        labels = _labels(sweep)
+        return [Panel("", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen))]
+    groups: dict[str, list[Setting]] = {}
+    for setting in sorted(sweep.done, key=lambda one: [sweep.axes[key].index(value) for key, value in one.values.items()]):
+        title = _in_figure({key: value for key, value in setting.values.items() if key != axis and key in sweep.varied})
+        groups.setdefault(title, []).append(setting)
+    panels = [Panel(title, tuple((axis_text(axis, one.values[axis]), ecdf(*one.peaks())) for one in group)) for title, group in groups.items()]
+    return panels[:_PANELS]
+
+
+def _labels(sweep: Sweep) -> dict[int, str]:
+    """What every setting is called in figures, by its identity: its values, or its number where these would be too long."""
+    texts = [_in_figure({axis: one.values[axis] for axis in sweep.varied}) or "all analyses" for one in sweep.settings]
+    if _long(texts):
+        texts = [f"setting {number}" for number in range(1, len(texts) + 1)]
+    return {id(one): text for one, text in zip(sweep.settings, texts)}
+
+
+def _long(texts: list[str]) -> bool:
+    return max(map(len, texts)) > _LONGEST
+
+
+def _in_figure(values: dict) -> str:
+    return ", ".join(axis_text(key, value) for key, value in values.items())
+
+
+def _left_out(sweep: Sweep, axis: str | None, panels: list[Panel]) -> str:
+    drawn, there = sum(len(panel.lines) for panel in panels), len(sweep.done)
+    return f" ({drawn} of {there} settings)" if drawn < there else ""
+
+
+def _opening(sweep: Sweep, figure: str) -> str:
+    u, over = sweep.reference.peaks()
+    low, high = proportion_interval(int(over.sum()), over.size)
+    return (f"[[{figure}]] shows the distribution of the largest top displacement of the column, u_max, in every setting. At "
+            f"{setting_text(sweep.reference.values)} half of the {count(over.size, 'motion')} stay below "
+            f"{millimetres(percentile(u, over, 0.5))}{' mm' if np.isfinite(percentile(u, over, 0.5)) else ' (half or more overturn)'}, and "
+            f"{int(over.sum())} overturn: P(overturn) = {percent(over.mean())}, 95 % interval {interval(low, high, percent)}.")
+
+
+def _overturning(sweep: Sweep, gallery: Gallery) -> list:
+    rows, estimates, labels = [], [], _labels(sweep)
+    for number, setting in enumerate(sweep.settings, 1):
+        levels = (number, *(setting.values[axis] for axis in sweep.varied))
+        if not setting.runs:
+            rows.append((*levels, setting.planned, 0, None, None, None, None, None, None, None, None, None))
+            continue
+        u, over = setting.peaks()
+        k, n = int(over.sum()), over.size
+        wilson, exact = proportion_interval(k, n), proportion_interval(k, n, method="exact")
+        rows.append((*levels, setting.planned, n, k, k / n, *wilson, *exact, *(percentile(u, over, share) for share in (0.16, 0.5, 0.84))))
+        estimates.append(Estimate(labels[id(setting)], 100 * k / n, 100 * wilson[0], 100 * wilson[1]))
+    table = Table("p_overturn", (Column("setting", "setting"), *axis_columns(sweep.varied), Column("planned", "planned"), Column("n", "run"),
+                                 Column("overturned", "over\N{SOFT HYPHEN}turned", _whole),
+                                 Column("p_overturn", "P(overturn) [%]", lambda share: fixed(None if share is None else 100 * share, 1)),
+                                 Column("wilson_low wilson_high", "Wilson [%]", percent_interval),
+                                 Column("exact_low exact_high", "exact [%]", percent_interval),
+                                 Column("u_max_16_m", "u₁₆ [mm]", millimetres), Column("u_max_50_m", "u₅₀ [mm]", millimetres),
+                                 Column("u_max_84_m", "u₈₄ [mm]", millimetres)), rows,
+                  "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and Pearson), and percentiles of u_max; “overturn” "
+                  "where that share of the runs does not stand." + (f" {TARGET_NOTE}." if gallery.paper else ""), folded=len(rows) > _ROWS)
+    if not 2 <= len(estimates) <= _ROWS:
+        return [table]
+    scale = Scale(r"$P$(overturn) [%], 95 % interval (Wilson)", (0, None),
+                  *((100 * CALIBRATION_TARGET, "calibration target 43.5 %") if gallery.paper else ()))
+    files = interval_figure([(scale, estimates)], gallery.path("p_overturn"), gallery.formats)
+    caption = "Probability of overturning in every setting."
+    return [gallery.figure("overturning", files, caption + (f" Dashed: {TARGET_NOTE}." if gallery.paper else "")), table]
+
+
+def axis_columns(axes) -> tuple[Column, ...]:
+    """Columns of the levels of axes."""
+    return tuple(Column(axis, axis_name(axis) + (f" [{unit}]" if (unit := _unit(axis)) else ""), plain_level) for axis in axes)
+
+
+def _unit(axis: str) -> str:
+    from fecolumn.post.axis_text import axis_unit
+
+    return "" if axis_unit(axis) == "-" else axis_unit(axis)
+
+
+def _levels(axis: str, low, high) -> str:
+    return f"{axis_name(axis)}: {level_text(axis, low)}, {level_text(axis, high)}"
+
+
+def setting_words(values: dict) -> str:
+    """Values of the other axes, nothing where there are none."""
+    return setting_text(values) if values else ""
+
+
+def _whole(value) -> str:
+    return "\N{EM DASH}" if value is None else str(value)
+
+
+def _comparisons(sweep: Sweep, pairs: list[Pair]) -> Table:
+    rows = []
+    for pair in pairs:
+        it = pair.comparison
+        rows.append((pair.axis, pair.low, pair.high, {key: value for key, value in pair.others.items() if key in sweep.varied}, it.n_a,
+                     it.ks, it.ks_p, it.ks_evidence, it.paired_p, pair.p_holm, it.ad_p, it.cvm_p, it.e50, it.correlation, it.flips,
+                     it.mcnemar_p, pair.bound))
+    columns = (Column("axis a b", "a against b", _levels, text=True), Column("at", "at", setting_words, text=True),
+               Column("n", "n"), Column("ks", "D", fixed), Column("ks_p", "p", p_value), Column("ks_evidence", "evidence", text=True),
+               Column("paired_p", "paired p", p_value), Column("p_holm", "p (Holm)", p_value), Column("ad_p", "AD p", p_value),
+               Column("cvm_p", "CvM p", p_value), Column("e50", "e₅₀", fixed), Column("correlation", "R", fixed), Column("flips", "flips"),
+               Column("mcnemar_p", "McNemar p", p_value), Column("bound_95", "D not excluded", fixed))
+    return Table("comparisons", columns, rows, "Settings compared in pairs: Kolmogorov-Smirnov distance D with p of independent samples and "
+                                               "the field's word for the evidence against one distribution; p of paired permutations; "
+                                               "Anderson-Darling and Cramér-von Mises as independent samples; error of the median e₅₀ (a "
+                                               "against b); correlation R with overturned runs at the limit; motions that overturn in one "
+                                               "setting alone (flips) with McNemar's p.",
+                 folded=len(rows) > _FOLD)
+
+
+def _families(pairs: list[Pair]) -> Table:
+    rows = []
+    for family in dict.fromkeys(pair.family for pair in pairs):
+        own = [pair for pair in pairs if pair.family == family]
+        axis, _, kind = family.partition(", ")
+        rows.append((axis, kind or "all", len(own), sum(pair.p_holm < 0.05 for pair in own), max(pair.distance for pair in own),
+                     min(pair.comparison.ks_p for pair in own), min(pair.comparison.paired_p for pair in own), min(pair.p_holm for pair in own),
+                     max(pair.bound for pair in own)))
+    columns = (Column("axis", "settings that differ in", axis_name, text=True), Column("pairs_of", "pairs", text=True), Column("pairs", "number"),
+               Column("significant", "p (Holm) < 0.05"), Column("ks_max", "largest D", fixed),
+               Column("ks_p_min", "least p, independent", p_value), Column("paired_p_min", "least p, paired", p_value),
+               Column("p_holm_min", "least p (Holm)", p_value), Column("bound_95_max", "largest D not excluded", fixed))
+    return Table("families", columns, rows, "Families of pairs: the largest Kolmogorov-Smirnov distance D of two CDFs, the smallest p "
+                                            "values, and the largest distance that the data cannot exclude at 95 % in the pair where they "
+                                            "say least.")
+
+
+def _convergence(sweep: Sweep, gallery: Gallery) -> list:
+    """How many motions the reference setting's distribution needs."""
+    u, over = sweep.reference.peaks()
+    if u.size < 10:
+        return []
+    sizes = np.unique(np.round(np.geomspace(3, u.size, 24)).astype(int))
+    found = cdf_convergence(u, over, sizes)
+    curves = [Curve("drawn from the ensemble, median", sizes, found.median), Curve("drawn from the ensemble, 95 %", sizes, found.upper_95),
+              Curve("bound to the true CDF, 95 % (DKW)", sizes, found.dkw_95)]
+    files = line_figure([CurvePanel("motions $n$", r"largest distance of two CDFs", curves, {"xscale": "log", "ylim": (0, 1)}, prepare=_plain_ticks)],
+                        gallery.path("convergence"), gallery.formats)
+    last = float(found.dkw_95[-1])
+    return [gallery.figure("convergence", files, f"Distance of the CDF of n motions from that of all {u.size}, at "
+                                                 f"{setting_text(sweep.reference.values)}. It vanishes at n = {u.size} by construction; the "
+                                                 "distance to the distribution of all motions there could be stays below the DKW bound, "
+                                                 f"{fixed(last)} for {u.size} motions, at 95 %.")]
+
+
+def _plain_ticks(axes) -> None:
+    low, high = axes.get_xlim()
+    ticks = [tick for tick in (3, 5, 10, 20, 50, 100, 200, 500, 1000) if low <= tick <= high]
+    axes.set_xticks(ticks, [str(tick) for tick in ticks])
+    axes.minorticks_off()

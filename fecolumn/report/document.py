@@ -1,0 +1,128 @@
+"""What a report is made of: sections of paragraphs, figures and tables, numbered as they come."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+import itertools
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from fecolumn.atomic import write_bytes
+
+_REFERENCE = re.compile(r"\[\[(\w+)\]\]")
+_WIDE = 11
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """Text; "[[name]]" stands for "Figure 3" or "Table 2"."""
+
+    text: str
+    kind: str = "text"
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A figure already written as name.png, .pdf and .svg; `wide` ones may be scrolled on a narrow screen."""
+
+    name: str
+    svg: Path
+    caption: str
+    kind: str = "figure"
+
+    @property
+    def source(self) -> str:
+        """The drawing as a data URI: an image of its own, whose names cannot clash with those of other figures."""
+        return "data:image/svg+xml;base64," + base64.b64encode(self.svg.read_bytes()).decode()
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of the page's table: its names in the CSV file, its heading with the unit, how its values are written.
+
+    A column may show several values in one cell, such as an interval; `name` then holds their names with blanks between.
+    """
+
+    name: str
+    heading: str
+    form: Callable[..., str] = str
+    text: bool = False
+
+    @property
+    def names(self) -> list[str]:
+        return self.name.split()
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table; rows hold plain values, which the CSV file takes as they are. `folded` ones open on demand."""
+
+    name: str
+    columns: tuple[Column, ...]
+    rows: list[tuple]
+    caption: str
+    folded: bool = False
+    kind: str = "table"
+
+    def cells(self) -> list[list[str]]:
+        """What the page shows."""
+        cells = []
+        for row in self.rows:
+            values = iter(row)
+            cells.append([column.form(*itertools.islice(values, len(column.names))) for column in self.columns])
+        return cells
+
+    @property
+    def wide(self) -> bool:
+        """Whether it may stand out into the margins."""
+        return len(self.columns) > _WIDE
+
+    def write_csv(self, folder: Path) -> Path:
+        """Write name.csv."""
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow([name for column in self.columns for name in column.names])
+        writer.writerows([[_plain(value) for value in row] for row in self.rows])
+        write_bytes(folder / f"{self.name}.csv", text.getvalue().encode())
+        return folder / f"{self.name}.csv"
+
+
+def _plain(value):
+    """A value as the CSV file takes it: nothing for what is missing, key=value for a setting."""
+    if isinstance(value, dict):
+        return " ".join(f"{key}={item}" for key, item in value.items())
+    return "" if value is None or value != value else value
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A numbered section."""
+
+    title: str
+    blocks: list = field(default_factory=list)
+
+    @property
+    def anchor(self) -> str:
+        return re.sub(r"\W+", "-", self.title.lower())
+
+
+def numbered(sections: list[Section]) -> dict[str, str]:
+    """"Figure 1", "Table 1" of every figure and table by name."""
+    labels: dict[str, str] = {}
+    for kind in ("figure", "table"):
+        named = [block for section in sections for block in section.blocks if block.kind == kind]
+        labels |= {block.name: f"{kind.capitalize()}\N{NO-BREAK SPACE}{place}" for place, block in enumerate(named, 1)}
+    return labels
+
+
+def referenced(text: str, labels: dict[str, str]) -> str:
+    """Text with its references resolved.
+
+    Raises:
+        KeyError: a figure or table that is not there.
+    """
+    return _REFERENCE.sub(lambda match: labels[match[1]], text)

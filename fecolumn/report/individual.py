@@ -1,0 +1,84 @@
+"""Section: one motion at a time, scatter matrices and trends."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.post.axis_text import axis_text
+from fecolumn.post.scatter_matrix import Variable, scatter_matrix
+from fecolumn.report.distributions import setting_words
+from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.gallery import Gallery
+from fecolumn.report.individual_claims import line_trends, spread
+from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres, p_value, percent, setting_text
+from fecolumn.report.sweep import Line, Sweep
+
+_VARIABLES, _MATRICES, _FOLD = 6, 4, 20
+
+
+def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
+    """The section; None where no motion was run in two settings."""
+    matrices = [figure for axis in sweep.varied[:_MATRICES] if (figure := _matrix(sweep, axis, gallery))]
+    if not matrices:
+        return None
+    found = spread(sweep.done)
+    text = f"One by one, the same motion gives different peaks in different settings: {' and '.join(f'[[{one.name}]]' for one in matrices)}. "
+    if found.motions:
+        text += (f"Of the {count(found.motions, 'motion')} run in all {found.settings} settings, {found.flipped} "
+                 f"({percent(found.flipped / found.motions)}) overturn in some and stand in others")
+        text += (f"; of those that always stand, the largest peak is {fixed(float(np.median(found.factor)))} times the smallest in the median."
+                 if found.factor.size else ".")
+    blocks = [Paragraph(text), *matrices]
+    rows = [row for axis in sweep.varied if all(isinstance(level, (int, float)) for level in sweep.axes[axis]) for row in _trends(sweep, axis)]
+    if rows:
+        columns = (Column("axis", "along", axis_name, text=True), Column("at", "at", setting_words, text=True), Column("levels", "levels"),
+                   Column("n", "n"), Column("rising", "rise"), Column("falling", "fall"), Column("tau", "mean τ", fixed),
+                   Column("tau_low tau_high", "95 %", interval), Column("p", "p", p_value), Column("p_holm", "p (Holm)", p_value))
+        blocks.append(Table("trends", columns, rows,
+                            "Trend of the peak of one and the same motion along a parameter: motions whose peak rises or falls on the "
+                            "whole, mean Kendall τ with its 95 % interval over the motions, p of no trend (Page; sign test for two levels). "
+                            "Overturned runs rank above all standing ones.", folded=len(rows) > _FOLD))
+    blocks.append(_motions(sweep))
+    return Section("One by one", blocks)
+
+
+def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
+    """Scatter matrix of the levels of an axis, all else as in the reference setting where that line is there."""
+    lines = sweep.lines(axis)
+    if not lines:
+        return None
+    wanted = {key: value for key, value in sweep.reference.values.items() if key != axis}
+    line = next((one for one in lines if one.others == wanted), lines[len(lines) // 2])
+    if len(line.settings) > _VARIABLES:
+        line = Line(axis, line.others, tuple(line.settings[k] for k in np.linspace(0, len(line.settings) - 1, _VARIABLES).astype(int)))
+    u, over = line.peaks()
+    variables = [Variable(axis_text(axis, level), *pair) for level, pair in zip(line.levels, zip(u, over))]
+    name = f"scatter_by_{axis.split('.')[-1]}"
+    files = scatter_matrix(variables, sweep.limit_m, gallery.path(name), gallery.formats)
+    at = f" at {setting_text(line.others)}" if line.others else ""
+    return gallery.figure(name, files, f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} values of "
+                                       f"{axis_name(axis)}{at}, one against the other. Shaded strip: overturned; open red circles: "
+                                       f"overturned in one of the two alone. R with overturned runs at {millimetres(sweep.limit_m)} mm.")
+
+
+def _trends(sweep: Sweep, axis: str) -> list[tuple]:
+    rows = []
+    for one in line_trends(sweep, axis):
+        it, at = one.trend, {key: value for key, value in one.line.others.items() if key in sweep.varied}
+        rows.append((axis, at, it.levels, it.n, it.rising, it.falling, it.tau, it.tau_low, it.tau_high, it.p, one.p_holm))
+    return rows
+
+
+def _motions(sweep: Sweep) -> Table:
+    """A row for each motion: what the settings make of it."""
+    rows = []
+    for motion in sweep.motions:
+        runs = [setting.runs[motion] for setting in sweep.done if motion in setting.runs]
+        peaks = np.array([run["u_max_m"] for run in runs if not run["overturned"]])
+        fallen = sum(bool(run["overturned"]) for run in runs)
+        low, high = (float(peaks.min()), float(peaks.max())) if peaks.size else (None, None)
+        rows.append((runs[0].get("motion") or motion.strip("[]'\""), len(runs), fallen, low, high, high / low if low else None))
+    return Table("motions", (Column("motion", "motion", text=True), Column("n", "settings"), Column("overturned", "overturned"),
+                             Column("u_max_smallest_m", "smallest [mm]", millimetres), Column("u_max_largest_m", "largest [mm]", millimetres),
+                             Column("factor", "factor", fixed)), rows,
+                 "Every motion over all settings: runs that overturned, smallest and largest peak of those that stood, and their ratio.", folded=True)

@@ -1,0 +1,140 @@
+"""The report of a study: its sections put together and written as one HTML page with figures and tables beside it."""
+
+from __future__ import annotations
+
+import datetime
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from fecolumn.atomic import write_bytes
+from fecolumn.report.audit import audit
+from fecolumn.report.claim import SUPPORTED, Claim
+from fecolumn.report.cost import cost_claims
+from fecolumn.report.distribution_claims import distribution_claims
+from fecolumn.report.distributions import TARGET_NOTE, distributions
+from fecolumn.report.document import Column, Paragraph, Section, Table, numbered, referenced
+from fecolumn.report.gallery import Gallery
+from fecolumn.report.individual import individual
+from fecolumn.report.individual_claims import individual_claims
+from fecolumn.report.notation import axis_name, count, percent, setting_text, typeset
+from fecolumn.report.pair import Pair, read_pairs
+from fecolumn.report.provenance import provenance
+from fecolumn.report.sensitivity import sensitivity_section
+from fecolumn.report.sweep import ALPHA, DT, Sweep, read_sweep
+from fecolumn.report.timing import timing
+from fecolumn.schema import InputError
+from fecolumn.statistics.ecdf import proportion_interval
+from fecolumn.study.store import DONE, FAILED
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimList:
+    """The claims as a block of the page."""
+
+    claims: list[Claim]
+    kind: str = "claims"
+
+    def write_csv(self, folder: Path) -> Path:
+        """Write claims.csv, the whole of every claim."""
+        names = ("key", "paper", "verdict", "ours", "rule")
+        rows = [tuple(getattr(claim, name) for name in names) for claim in self.claims]
+        return Table("claims", tuple(Column(name, name) for name in names), rows, "").write_csv(folder)
+
+
+def write_report(folder, output=None) -> Path:
+    """Write index.html, its figures and its tables into `output`, or folder/report; returns the page.
+
+    Raises:
+        InputError: the folder holds no study, or none of its analyses is done.
+    """
+    sweep = read_sweep(folder)
+    if not sweep.done:
+        raise InputError(folder, "", None, f"none of its {sweep.analyses} analyses is done; nothing to report yet")
+    target = Path(output) if output else Path(folder) / "report"
+    for part in ("figures", "tables"):  # of an earlier report, which may have had others
+        shutil.rmtree(target / part, ignore_errors=True)
+        (target / part).mkdir(parents=True)
+    sections = _sections(sweep, Gallery(target / "figures", has_claims(sweep)))
+    for section in sections:
+        for block in section.blocks:
+            if isinstance(block, (Table, ClaimList)):
+                block.write_csv(target / "tables")
+    write_bytes(target / "index.html", _html(sweep, sections).encode())
+    return target / "index.html"
+
+
+def has_claims(sweep: Sweep) -> bool:
+    """Whether the paper's claims can be put to the study: it varies the time step and alpha_HHT."""
+    return DT in sweep.varied and ALPHA in sweep.varied
+
+
+def claims_of(sweep: Sweep, pairs: list[Pair]) -> list[Claim]:
+    """The paper's claims (a) to (d) put to the study."""
+    return [*individual_claims(sweep, (DT, ALPHA)), *distribution_claims(pairs), *cost_claims(sweep)]
+
+
+def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
+    pairs = read_pairs(sweep)
+    claims = claims_of(sweep, pairs) if gallery.paper else []
+    parts = [_claims_section(claims) if claims else None, distributions(sweep, pairs, gallery), individual(sweep, gallery),
+             sensitivity_section(sweep, gallery), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
+    return [part for part in parts if part]
+
+
+def _claims_section(claims: list[Claim]) -> Section:
+    text = ("Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three time steps and five values of α, and found (a) that "
+            "single peaks depend on both without trend, (b) that the distribution does not depend on the time step once it is small, (c) "
+            f"that α is then marginal, (d) what it costs. On their P(overturn): {TARGET_NOTE}. What follows judges each finding on this "
+            "study by a rule stated beforehand; “supported” says that this study shows the same, “undecided” that it cannot tell.")
+    table = Table("verdicts", (Column("claim", "claim", text=True), Column("paper", "the paper’s finding", text=True),
+                               Column("verdict", "here", lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"), text=True)),
+                  [(claim.key, claim.paper, claim.verdict) for claim in claims], "The paper’s findings and this study’s verdicts.")
+    return Section("The paper’s findings", [Paragraph(text), table, ClaimList(claims)])
+
+
+def _html(sweep: Sweep, sections: list[Section]) -> str:
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+    from markupsafe import Markup
+
+    pages = Environment(loader=PackageLoader("fecolumn.report", "."), autoescape=True, undefined=StrictUndefined)
+    labels = numbered(sections)
+    here = Path(__file__).parent
+    return pages.get_template("page.html").render(
+        title=sweep.title, byline=_byline(sweep), abstract=_abstract(sweep, sections), sections=sections, labels=labels,
+        style=Markup((here / "page.css").read_text()), plain=lambda words: referenced(words, labels),
+        text=lambda words: typeset(referenced(words, labels)))
+
+
+def _byline(sweep: Sweep) -> str:
+    return (f"fecolumn, {datetime.date.today():%-d %B %Y}. {count(sweep.analyses, 'analysis')}: {count(len(sweep.settings), 'setting')} × "
+            f"{count(len(sweep.motions), 'motion')}")
+
+
+def _abstract(sweep: Sweep, sections: list[Section]) -> str:
+    done, failed, total = sum(row["state"] == DONE for row in sweep.rows), sum(row["state"] == FAILED for row in sweep.rows), sweep.analyses
+    shares = {id(setting): setting.column("overturned").mean() for setting in sweep.done}
+    low, high = min(shares.values()), max(shares.values())
+    parts = [f"{count(len(sweep.motions), 'ground motion')} {'was' if len(sweep.motions) == 1 else 'were'} run through a free-standing column"
+             + (f", varying {_listed([axis_name(axis) for axis in sweep.varied])} in {count(len(sweep.settings), 'setting')}." if sweep.varied else ".")]
+    if done < total:
+        parts.append(f"{total - done - failed} of {total} analyses not run yet" + (f", {failed} failed." if failed else ".") if total - done - failed
+                     else f"{failed} of {total} analyses failed.")
+    u, over = sweep.reference.peaks()
+    bounds = proportion_interval(int(over.sum()), over.size)
+    if len(sweep.done) > 1:
+        parts.append(f"P(overturn) lies between {percent(low)} and {percent(high)}; at {setting_text(sweep.reference.values)} it is "
+                     f"{percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
+    else:
+        parts.append(f"P(overturn) is {percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
+    claims = next((block.claims for section in sections for block in section.blocks if isinstance(block, ClaimList)), [])
+    if claims:
+        tally = {verdict: [claim.key for claim in claims if claim.verdict == verdict] for verdict in dict.fromkeys(c.verdict for c in claims)}
+        parts.append(f"Of {len(claims)} findings of Katsamakas and Vassiliou put to it, " + _listed([
+            f"{len(keys)} {'is' if len(keys) == 1 else 'are'} {verdict}" + ("" if verdict == SUPPORTED else f" ({'; '.join(keys)})")
+            for verdict, keys in tally.items()]) + ".")
+    return " ".join(parts)
+
+
+def _listed(words: list[str]) -> str:
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

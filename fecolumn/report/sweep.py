@@ -1,0 +1,167 @@
+"""A study as its report sees it: settings (ensembles) crossed with motions."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fecolumn.study.plan import ENSEMBLE_AXES
+from fecolumn.study.store import DONE, FAILED, read_study
+
+DT, ALPHA = "integration.dt_s", "integration.alpha_hht"
+FINE_DT_S = 1e-3 * (1 + 1e-9)  # what the paper calls small enough
+PAPER_CHOICE = {DT: 1e-3, ALPHA: -0.2}
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """One combination of parameters and its runs.
+
+    Attributes:
+        values: value of each axis that is not the motion, by dotted key.
+        planned, failed: analyses.
+        runs: summary of each analysis that is done, by motion.
+    """
+
+    values: dict[str, Any]
+    planned: int
+    failed: int
+    runs: dict[str, dict]
+
+    def column(self, name: str, motions=None) -> np.ndarray:
+        """A number of the summaries, one a motion (nan where it is not stated)."""
+        runs = self.runs if motions is None else {motion: self.runs[motion] for motion in motions}
+        return np.array([np.nan if run.get(name) is None else run[name] for run in runs.values()], float)
+
+    def peaks(self, motions=None) -> tuple[np.ndarray, np.ndarray]:
+        """u_max [m] and whether the column overturned, one a motion."""
+        return self.column("u_max_m", motions), self.column("overturned", motions).astype(bool)
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Settings along one axis, all else equal; `settings` in rising order of the axis' levels, each with runs."""
+
+    axis: str
+    others: dict[str, Any]
+    settings: tuple[Setting, ...]
+
+    def motions(self) -> list[str]:
+        """Motions done in every setting."""
+        return common_motions(self.settings)
+
+    def peaks(self) -> tuple[np.ndarray, np.ndarray]:
+        """u_max [m] and overturned, (levels, n) of the common motions."""
+        pairs = [setting.peaks(self.motions()) for setting in self.settings]
+        return np.array([u for u, _ in pairs]), np.array([over for _, over in pairs])
+
+    @property
+    def levels(self) -> list:
+        return [setting.values[self.axis] for setting in self.settings]
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A study read for its report.
+
+    Attributes:
+        title: of the study.
+        axes: levels of each axis that is not the motion, numbers rising, others as they stand in the study.
+        settings: in the order of the study; those without a finished run included.
+        rows: the ledger.
+        analyses: number of all analyses; of a job array at work the ledger has not all of them yet.
+        limit_m: displacement at which a column counts as overturned [m].
+        case: tables of one case of the study, {} where no result folder has one.
+    """
+
+    folder: Path
+    title: str
+    axes: dict[str, list]
+    settings: tuple[Setting, ...]
+    rows: list[dict]
+    analyses: int
+    limit_m: float
+    case: dict = field(default_factory=dict)
+
+    @cached_property
+    def done(self) -> tuple[Setting, ...]:
+        """Settings with at least one run."""
+        return tuple(setting for setting in self.settings if setting.runs)
+
+    @cached_property
+    def motions(self) -> list[str]:
+        return list(dict.fromkeys(motion for setting in self.settings for motion in setting.runs))
+
+    @property
+    def varied(self) -> list[str]:
+        """Axes with more than one level."""
+        return [axis for axis, levels in self.axes.items() if len(levels) > 1]
+
+    @cached_property
+    def reference(self) -> Setting:
+        """The paper's choice where the study has it, else the setting with most runs, the middle one of equals."""
+        chosen = [s for s in self.done if all(s.values.get(axis) == value for axis, value in PAPER_CHOICE.items())]
+        most = max(len(s.runs) for s in self.done)
+        equals = chosen or [s for s in self.done if len(s.runs) == most]
+        return equals[0] if chosen else equals[len(equals) // 2]
+
+    def lines(self, axis: str) -> list[Line]:
+        """Every line along an axis with at least two levels that have runs of common motions."""
+        groups: dict[str, list[Setting]] = {}
+        for setting in self.done:
+            others = {key: value for key, value in setting.values.items() if key != axis}
+            groups.setdefault(repr(others), []).append(setting)
+        order = {repr(level): place for place, level in enumerate(self.axes[axis])}
+        lines = [Line(axis, {key: value for key, value in group[0].values.items() if key != axis},
+                      tuple(sorted(group, key=lambda s: order[repr(s.values[axis])]))) for group in groups.values()]
+        return [line for line in lines if len(line.settings) > 1 and line.motions()]
+
+
+def common_motions(settings) -> list[str]:
+    """Motions done in all of the settings, in the order of the first."""
+    return [motion for motion in settings[0].runs if all(motion in setting.runs for setting in settings[1:])]
+
+
+def read_sweep(folder) -> Sweep:
+    """The study in a folder, finished or not.
+
+    Raises:
+        InputError: the folder holds no study.
+    """
+    folder, study = Path(folder), read_study(folder)
+    groups: dict[str, list[dict]] = {}
+    for row in study.rows:
+        groups.setdefault(repr([item for item in row["axes"].items() if item[0] not in ENSEMBLE_AXES]), []).append(row)
+    settings = tuple(_setting(rows) for rows in groups.values())
+    axes: dict[str, dict] = {}
+    for setting in settings:
+        for key, value in setting.values.items():
+            axes.setdefault(key, {})[repr(value)] = value
+    case = next(filter(None, (_case(folder / "analyses" / row["id"]) for row in study.rows if row["state"] == DONE)), {})
+    return Sweep(folder, study.title, {key: _ordered(list(levels.values())) for key, levels in axes.items()}, settings, study.rows, study.analyses,
+                 float(case.get("overturn", {}).get("displacement_m", 0.25)), case)
+
+
+def _setting(rows: list[dict]) -> Setting:
+    runs = {repr([value for key, value in row["axes"].items() if key in ENSEMBLE_AXES]): row["summary"]
+            for row in rows if row["state"] == DONE and row["summary"]}
+    values = {key: value for key, value in rows[0]["axes"].items() if key not in ENSEMBLE_AXES}
+    return Setting(values, len(rows), sum(row["state"] == FAILED for row in rows), runs)
+
+
+def _ordered(levels: list) -> list:
+    numbers = all(isinstance(level, (int, float)) and not isinstance(level, bool) for level in levels)
+    return sorted(levels) if numbers else levels
+
+
+def _case(folder: Path) -> dict:
+    """Tables of the case an analysis was run with."""
+    try:
+        return json.loads((folder / "case.json").read_text())["case"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
