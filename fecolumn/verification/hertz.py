@@ -38,11 +38,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fecolumn.case import GRAVITY, Material
-from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import Result, Row
+from fecolumn.verification.trial import begin
 
 LARGEST, CURVATURE = 0.01, 100.0  # a under full load and R [m]
 LENGTH = LARGEST / 8  # of the slice of the cylinder [m]
@@ -143,7 +143,7 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
     for a in radii:
         share = exact.load(a) / exact.load(LARGEST)
         system.gravity, system.weight = np.array([0.0, 0.0, -share * GRAVITY]), share * weight
-        found.append(measured(exact, system, standing(system), a, h))
+        found.append(measured(exact, system, begin(engine, system).start, a, h))
     return found
 
 

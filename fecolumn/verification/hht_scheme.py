@@ -34,7 +34,7 @@ from fecolumn.dynamics.modes import free_modes
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import Trial, afloat
+from fecolumn.verification.trial import afloat, begin
 
 ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
 PER_PERIOD = (16, 32, 64, 128)
@@ -69,7 +69,7 @@ class Mode:
         dt = angle / self.frequency
         system = self.system(dt, alpha)
         scale = AMPLITUDE * np.array([1, 1 / dt, 1 / dt**2])
-        trial = Trial(system, lambda system: afloat(system, *(value * self.shape for value in scale * start), height=1e-3))
+        trial = begin(self.engine, system, lambda system: afloat(system, *(value * self.shape for value in scale * start), height=1e-3))
         rest, measure = trial.state.x - scale[0] * start[0] * self.shape, system.column.apply(system.column.mass, self.shape)
         history, energy = [np.array(start, float)], [trial.mechanical()]
         for _ in range(count):

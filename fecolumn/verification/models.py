@@ -17,6 +17,7 @@ from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_quads
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
 from fecolumn.schema import merge
+from fecolumn.verification import REDUCED
 
 # The reference specimen on the coarsest mesh that keeps every part; meshes/specimen.toml has the sources of the numbers.
 COARSE = {
@@ -35,11 +36,12 @@ TONES = ((1, np.array([30.0, 31.0, 1.0])), (-1, np.array([75.0, 73.0, 1.0])))
 
 def column_case(engine: str, **tables):
     """Case of the coarse specimen; `tables` are merged over it, e.g. contact={"friction_coefficient": 0.8}."""
-    return case_from_tables(merge(merge(COARSE, tables), {"integration": {"kinematics": engine}}), "verification")
+    key = "engine" if engine in REDUCED else "kinematics"
+    return case_from_tables(merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification")
 
 
 def column_system(engine: str, **tables) -> System:
-    """The coarse specimen as a system of its own on this process."""
+    """The coarse specimen as a system of its own on this process; that of a reduced engine is reduced by its trial."""
     return build_system(column_case(engine, **tables), MPI.COMM_SELF)
 
 

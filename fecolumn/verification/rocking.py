@@ -34,7 +34,7 @@ from fecolumn.dynamics.gravity import tilted
 from fecolumn.dynamics.rotation import tilt_angle
 from fecolumn.verification.models import column_system
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import RigidRocking, Trial
+from fecolumn.verification.trial import RigidRocking, Trial, begin
 
 AMPLITUDES = (0.1, 0.2, 0.4, 0.6, 0.8)
 STEEL = 2e11
@@ -43,8 +43,8 @@ STEPS = (2e-3, 1e-3, 5e-4)
 
 
 def run(engine: str, long: bool) -> Result:
-    """All with the corotated column; the slower one repeats period and loss at one amplitude unless `long`."""
-    whole = long or engine == "corotated"
+    """All but total Lagrangian, which is slow: it repeats period and loss at one amplitude unless `long`."""
+    whole = long or engine != "total_lagrangian"
     result, periods = Result(size=(7.2, 2.6)), []
     for amplitude in AMPLITUDES if whole else (0.4,):
         found = free_rocking(engine, amplitude)
@@ -90,18 +90,33 @@ def ramp(trial: Trial, exact: float, until) -> float:
 
 def uplift(engine: str) -> Row:
     """Ground acceleration at which the column turns about its toe, counted from a thousandth of the critical tilt on."""
-    trial = Trial(column_system(engine, contact={"friction_coefficient": 0.8}))
+    trial = begin(engine, column_system(engine, contact={"friction_coefficient": 0.8}))
+    exact, found = lifted(trial)
+    return Row("uplift acceleration, mu 0.8 [m/s2]", exact, found, 0.01)
+
+
+def lifted(trial: Trial) -> tuple[float, float]:
+    """Ground acceleration [m/s2] that lifts a rigid column, and that at which a trial's turns, on a slow ramp."""
     slenderness = RigidRocking(trial.system).slenderness
     exact = GRAVITY * np.tan(slenderness)
-    found = ramp(trial, exact, lambda trial: tilt_angle(trial.state.rotation) > 1e-3 * slenderness)
-    return Row("uplift acceleration, mu 0.8 [m/s2]", exact, found, 0.01)
+    return exact, ramp(trial, exact, lambda trial: tilt_angle(trial.state.rotation) > 1e-3 * slenderness)
 
 
 def release(engine: str, amplitude: float, azimuth: float = 0.0, **tables) -> tuple[float, float, Trial, RigidRocking]:
     """Quarter period [s] and energy lost at the first impact [J] of a release at `amplitude` of the critical tilt towards +x,
     or a little beside it [rad]."""
-    trial = Trial(column_system(engine, **tables), lambda system: tilted(system, amplitude * RigidRocking(system).slenderness, azimuth))
-    rigid, upright, peak, before = RigidRocking(trial.system), None, 0.0, trial.mechanical()
+    trial = begin(engine, column_system(engine, **tables), leaning(amplitude, azimuth))
+    return *rocked(trial, amplitude), trial, RigidRocking(trial.system)
+
+
+def leaning(amplitude: float, azimuth: float = 0.0):
+    """Start of a trial at `amplitude` of the critical tilt, at rest."""
+    return lambda system: tilted(system, amplitude * RigidRocking(system).slenderness, azimuth)
+
+
+def rocked(trial: Trial, amplitude: float) -> tuple[float, float]:
+    """Quarter period [s] and energy lost at the first impact [J] of a trial that begins as `leaning`."""
+    upright, peak, before = None, 0.0, trial.mechanical()
     while upright is None or tilt_angle(trial.state.rotation) >= peak:
         # past the impact once the column is well up on its other side, still rising
         lean = trial.state.rotation[0, 2]
@@ -111,9 +126,9 @@ def release(engine: str, amplitude: float, azimuth: float = 0.0, **tables) -> tu
             upright = trial.state.time - dt * trial.state.rotation[0, 2] / (trial.state.rotation[0, 2] - lean)
         if upright is not None:
             peak = max(peak, tilt_angle(trial.state.rotation))
-            if peak > 0.3 * amplitude * rigid.slenderness:
+            if peak > 0.3 * amplitude * RigidRocking(trial.system).slenderness:
                 break
-    return upright, before - trial.mechanical(), trial, rigid
+    return upright, before - trial.mechanical()
 
 
 def free_rocking(engine: str, amplitude: float) -> list[Row]:
@@ -191,7 +206,7 @@ def overturning(engine: str) -> Row:
     exact = GRAVITY * np.tan(rigid.slenderness) / np.sin(psi)
 
     def overturns(amplitude):
-        trial = Trial(system)
+        trial = begin(engine, system)
         onset = np.arcsin(GRAVITY * np.tan(rigid.slenderness) / amplitude) / frequency  # Shi's pulse starts where it lifts the column
         while True:
             time = trial.state.time + system.hht.dt

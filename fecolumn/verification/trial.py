@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.case import Integration
 from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.dynamics.system import State
+from fecolumn.verification import FULL
+
+#: Elastic modes with inertia of the engine "reduced": a case's default.
+N_MODES = Integration().n_modes
 
 
 def afloat(system, displacement, velocity, acceleration, height: float) -> State:
@@ -71,6 +76,15 @@ class Trial:
         """Displacement (3,) [m] of the highest node: any one serves to compare analyses of one mesh."""
         node = np.lexsort(self.system.column.all_X.T)[-1]
         return self.state.x[node] - self.system.column.X[node]
+
+
+def begin(engine: str, system, start=standing, impact: str = "plastic", n_modes: int = N_MODES) -> Trial:
+    """A trial of a system in an engine of `verification.ALL_ENGINES`; arguments as of `Trial`, n_modes of `ReducedTrial`."""
+    if engine in FULL:
+        return Trial(system, start, impact)
+    from fecolumn.verification.reduced_trial import ReducedTrial
+
+    return ReducedTrial(system, start, n_modes if engine == "reduced" else 0)
 
 
 def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:

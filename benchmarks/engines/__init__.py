@@ -1,0 +1,1 @@
+"""The reduced engine against the full-order one: physics, convergence, standing still, speed. See __main__."""

@@ -1,0 +1,50 @@
+"""The specimen on its own mesh in both engines."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+from mpi4py import MPI
+
+from benchmarks.figures import SPECIMEN
+from fecolumn.case import Case, case_from_tables, read_toml
+from fecolumn.dynamics.assembly import build_system
+from fecolumn.mesh.specimen import specimen_mesh
+from fecolumn.reduced.analysis import engine_of
+from fecolumn.reduced.cache import load_model
+from fecolumn.reduced.observe import COLUMNS
+from fecolumn.reduced.run import Engine
+from fecolumn.schema import merge
+
+# a base wide enough to slide on
+WIDE = {"base": {"length_m": 0.4, "width_m": 0.4}, "integration": {"engine": "reduced"}}
+_PLACES = dict(zip((name for name, _ in COLUMNS), np.cumsum([0, *(width for _, width in COLUMNS)])))
+
+
+def case_of(**tables) -> Case:
+    """Case of the specimen in the reduced engine."""
+    return case_from_tables(merge(merge(read_toml(SPECIMEN), WIDE), tables), SPECIMEN)
+
+
+@functools.cache
+def mesh():
+    """SpecimenMesh of `case_of`."""
+    return specimen_mesh(case_of())
+
+
+def system_of(case: Case):
+    """Full-order system of a case of the specimen."""
+    return build_system(case, MPI.COMM_SELF, mesh())
+
+
+def engine(case: Case) -> Engine:
+    """Reduced engine of a case at its start, from the model on disk."""
+    model, base, _ = load_model(case)
+    return engine_of(case, model, base)
+
+
+def column(rows: np.ndarray, name: str) -> np.ndarray:
+    """A column of the reduced engine's rows by its name in the history file."""
+    place, width = _PLACES[name], dict(COLUMNS)[name]
+    return rows[:, place] if width == 1 else rows[:, place:place + width]

@@ -1,0 +1,107 @@
+"""The reduced engine against the full-order one, step by step on the specimen's own mesh."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+import numpy as np
+
+from benchmarks.engines.motions import seeded
+from benchmarks.engines.pair import case_of, column, engine, mesh, system_of
+from fecolumn.dynamics.observer import top_of
+from fecolumn.motions.processing import resample, strong_part
+from fecolumn.verification.rocking import leaning, lifted, rocked
+from fecolumn.verification.sliding import slipped
+from fecolumn.verification.trial import RigidRocking, Trial, begin
+
+MOTIONS, IMPACTS, MOST = 10, 3, 1000
+# of a motion's Arias intensity, when the column begins to stand
+BEGIN = 0.05
+# of a velocity [m/s], when the column begins to rock: while it stands, friction takes it back
+DISTURBANCE, AFTER = 1e-6, 100
+ENGINES = ("corotated", "reduced")
+
+
+def physics():
+    """Thresholds, quarter period, restitution, then ten motions until the third main impact."""
+    yield from thresholds()
+    yield from rocking()
+    yield from motions()
+
+
+def thresholds():
+    """Slow ramps of the ground acceleration: uplift at mu 0.8, sliding at mu 0.05."""
+    for name, friction, found in (("uplift, mu 0.8", 0.8, lambda trial: lifted(trial)[1]), ("sliding, mu 0.05", 0.05, lambda trial: slipped(trial, 0.05))):
+        system = system_of(case_of(contact={"friction_coefficient": friction}, integration={"dt_s": 4e-3, "alpha_hht": 0.0}))
+        full, reduced = (found(begin(one, system)) for one in ENGINES)
+        yield f"{name}: ground acceleration [m/s2]", full, reduced, abs(reduced / full - 1) <= 0.005
+
+
+def rocking():
+    """Release at 0.4 of the critical tilt."""
+    system = system_of(case_of(contact={"friction_coefficient": 0.8}))
+    initial = RigidRocking(system).energy(0.4 * RigidRocking(system).slenderness)
+    full, reduced = (rocked(begin(one, system, leaning(0.4)), 0.4) for one in ENGINES)
+    rebounds = [np.sqrt(1 - lost / initial) for _, lost in (full, reduced)]
+    yield "free rocking from 0.4 alpha: quarter period [s]", full[0], reduced[0], abs(reduced[0] / full[0] - 1) <= 0.005
+    yield "free rocking from 0.4 alpha: restitution [-]", *rebounds, abs(rebounds[1] / rebounds[0] - 1) <= 0.005
+
+
+def motions(count: int = MOTIONS, most: int = MOST):
+    """Largest difference of u_top, over its peak, from the strong shaking's begin to the third main impact; and what a disturbance of
+    1 um/s changes in the reduced engine alone, which no two programs can be asked to come closer than."""
+    case = case_of()
+    system, offs, scatters, steps, fewest = system_of(case), [], [], 0, IMPACTS
+    for number, ground in enumerate(seeded().motions[:count], 1):
+        shaking = resample(strong_part(ground, (BEGIN, 1.0)), case.integration.dt_s).acceleration[1:most + 1]
+        began = time.perf_counter()
+        path, impacts = full_order(system, shaking)
+        shaking = shaking[:len(path)]
+        reduced = reduced_order(case, shaking)
+        off, peak = difference(path, reduced)
+        scatter = max(difference(reduced, reduced_order(case, shaking, DISTURBANCE * np.array([np.cos(angle), np.sin(angle)])))[0]
+                      for angle in np.arange(8) * np.pi / 4)
+        print(f"motion {number}: {len(path)} steps, main impacts at {impacts}, off {off:.2e} of peak {peak:.4f} m, disturbed {scatter:.2e}, "
+              f"{time.perf_counter() - began:.0f} s", file=sys.stderr, flush=True)
+        offs.append(off), scatters.append(scatter)
+        steps, fewest = steps + len(path), min(fewest, len(impacts))
+    text = f"{count} motions, {fewest} main impacts at least, {steps} steps: u_top off / peak"
+    yield f"{text}, worst [-]", 0.0, max(offs), max(offs) <= 0.01
+    yield f"{text}, median [-]", 0.0, np.median(offs), np.median(offs) <= 0.01
+    yield "the same of the reduced engine disturbed by 1 um/s, worst [-]", 0.0, max(scatters), None
+    yield "the same of the reduced engine disturbed by 1 um/s, median [-]", 0.0, np.median(scatters), None
+
+
+def reduced_order(case, shaking, disturbance=(0.0, 0.0)) -> np.ndarray:
+    """Displacements (n, 2) [m] of the top in the reduced engine, its velocity changed by `disturbance` (2,) [m/s] after AFTER steps."""
+    one = engine(case)
+    rows = one.advance(shaking[:AFTER])[0]
+    one.motion.velocity[:2] += disturbance
+    return column(np.vstack([rows, one.advance(shaking[AFTER:])[0]]), "u_top")[:, :2]
+
+
+def full_order(system, shaking) -> tuple[np.ndarray, list[int]]:
+    """Displacements (n, 2) [m] of the top to the third main impact, and the steps of these.
+
+    A main impact takes more than a five-thousandth of the energy that tips the column over; a tenth of a second belongs to it.
+    """
+    trial, rigid, path, impacts, seen = Trial(system), RigidRocking(system), [], [], 0.0
+    main = 2e-4 * rigid.energy(rigid.slenderness)
+    nodes, weights = top_of(system.column, mesh())
+    for step, ground in enumerate(shaking):
+        state = trial.step(ground)
+        path.append(weights @ (state.x[nodes] - system.column.X[nodes])[:, :2])
+        if seen - trial.ledger.work["impact"] > main:
+            seen = trial.ledger.work["impact"]
+            if not impacts or (step - impacts[-1]) * system.hht.dt > 0.1:
+                impacts.append(step)
+                if len(impacts) == IMPACTS:
+                    break
+    return np.array(path), impacts
+
+
+def difference(path: np.ndarray, other: np.ndarray) -> tuple[float, float]:
+    """Largest horizontal distance over the peak of `path` (n, 2), and this peak [m]."""
+    peak = np.linalg.norm(path, axis=1).max()
+    return float(np.linalg.norm(other[:len(path), :2] - path, axis=1).max() / peak), float(peak)
