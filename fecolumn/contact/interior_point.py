@@ -16,7 +16,7 @@ from fecolumn._compiled import njit
 BOLD, END = 0.95, 1e-12
 
 
-@njit
+@njit(error_model="numpy")
 def approach(W, q, mu, R, U, most):
     """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the middle where they are zero; both change.
 
@@ -50,7 +50,8 @@ def approach(W, q, mu, R, U, most):
                 scaled[i, a] = P[i, a, 0] * R[i, 0] + P[i, a, 1] * R[i, 1] + P[i, a, 2] * R[i, 2]
                 for b in range(3):
                     matrix[3 * i + a, 3 * i + b] += P[i, a, 0] * P[i, 0, b] + P[i, a, 1] * P[i, 1, b] + P[i, a, 2] * P[i, 2, b]
-        if not np.isfinite(np.trace(matrix)):
+        # at the cones' very boundary, where rounding rules, there is no scaling
+        if not np.isfinite(np.sum(matrix)):
             return (R.ravel() * unit).reshape(n, 3), iteration
         try:
             factor = np.linalg.cholesky(matrix)
@@ -65,13 +66,15 @@ def approach(W, q, mu, R, U, most):
             _corrected(P[i], inverse[i], scaled[i], dR[i], dU[i], centring * gap, wanted[i])
         dR = _solve(factor, wanted - infeasible)
         dU = (A @ dR.ravel()).reshape(n, 3) + infeasible
+        if not np.isfinite(np.sum(dR) + np.sum(dU)):
+            return (R.ravel() * unit).reshape(n, 3), iteration
         t = min(1.0, BOLD * min(_way(R, dR), _way(U, dU)))
         R += t * dR
         U += t * dU
     return (R.ravel() * unit).reshape(n, 3), most
 
 
-@njit
+@njit(error_model="numpy")
 def _scaling(r, u, P, inverse):
     """Nesterov and Todd's symmetric P (3, 3) with P r = P^-1 u, and its inverse."""
     tangential, across = np.hypot(r[0], r[1]), np.hypot(u[0], u[1])
@@ -89,7 +92,7 @@ def _scaling(r, u, P, inverse):
     P *= eta
 
 
-@njit
+@njit(error_model="numpy")
 def _corrected(P, inverse, scaled, dr, du, target, wanted):
     """wanted (3,) = P x with scaled o x = target e - scaled o scaled - (P dr) o (P^-1 du)."""
     l0, l1, l2 = scaled[0], scaled[1], scaled[2]
@@ -107,7 +110,7 @@ def _corrected(P, inverse, scaled, dr, du, target, wanted):
         wanted[a] = P[a, 0] * x0 + P[a, 1] * x1 + P[a, 2] * x2
 
 
-@njit
+@njit(error_model="numpy")
 def _way(x, d):
     """Largest t for which x + t d (n, 3) lies in the cones."""
     least = np.inf
@@ -126,7 +129,7 @@ def _way(x, d):
     return least
 
 
-@njit
+@njit(error_model="numpy")
 def _solve(factor, right):
     """Solve factor factor^T x = right (n, 3)."""
     x, m = right.copy().ravel(), right.size

@@ -1,0 +1,56 @@
+"""The solver of frictional contact on problems with many points that press, slip and open at once."""
+
+import numpy as np
+import pytest
+
+from fecolumn.contact.friction import solve_contact
+from fecolumn.contact.interior_point import approach
+
+
+def foot(n, seed, gaps=1e-7, slip=1e-6):
+    """A stiff ring of n points on a rigid body: compliance of rigid motion 1e5 times that of the ring, random slips and gaps."""
+    random = np.random.default_rng(seed)
+    angles = 2 * np.pi * np.arange(n) / n
+    arms = np.stack([0.05 * np.cos(angles), 0.05 * np.sin(angles), np.full(n, -0.5)], axis=1)
+    rigid = np.zeros((3 * n, 6))
+    for i, (x, y, z) in enumerate(arms):
+        rigid[3 * i:3 * i + 3] = np.hstack([np.eye(3), [[0, z, -y], [-z, 0, x], [y, -x, 0]]])
+    elastic = random.standard_normal((3 * n, 3 * n))
+    W = 1e-7 * rigid @ np.diag([1, 1, 1, 4, 4, 40]) @ rigid.T + 1e-12 * (elastic @ elastic.T / (3 * n) + np.eye(3 * n))
+    q = np.stack([np.full(n, slip), np.zeros(n), np.full(n, -2e-6)], axis=1)
+    return W, q + gaps * random.standard_normal((n, 3))
+
+
+def violation(W, q, mu, forces):
+    """Penetration, pull, force on open points, force outside the cone, slip not opposed: largest, in metres."""
+    s = (W @ forces.ravel()).reshape(-1, 3) + q
+    pull, slip = np.hypot(forces[:, 0], forces[:, 1]), np.hypot(s[:, 0], s[:, 1])
+    compliance = np.diag(W).max()
+    slides = pull < mu * forces[:, 2] * (1 - 1e-6)
+    opposed = np.abs(forces[:, :2] * slip[:, None] + mu * forces[:, 2:] * s[:, :2]).max(initial=0) / np.abs(forces).max()
+    return max(-s[:, 2].min(), -forces[:, 2].min() * compliance, np.minimum(np.abs(s[:, 2]), compliance * forces[:, 2]).max(),
+               (pull - mu * forces[:, 2]).max() * compliance, slip[slides].max(initial=0), opposed)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_foot_that_slides_and_lifts_in_part_obeys_the_laws(seed):
+    W, q = foot(20 + 8 * seed, seed, slip=(0, 1e-8, 1e-6)[seed % 3])
+    solution = solve_contact(W, q, 0.3, np.zeros_like(q), tolerance=1e-14)
+    assert solution.residual <= 1e-14
+    assert violation(W, q, 0.3, solution.forces) < 1e-12
+
+
+def test_interior_point_leads_into_the_cone_from_nothing():
+    W, q = foot(60, 3)
+    R, U = np.zeros_like(q), np.zeros_like(q)
+    forces, _ = approach(W, q, 0.3, R, U, 30)
+    exact = solve_contact(W, q, 0.3, np.zeros_like(q), tolerance=1e-14).forces
+    assert np.abs(forces - exact).max() < 1e-3 * np.abs(exact).max()
+
+
+def test_points_on_the_boundary_of_the_cone_end_the_interior_point_in_peace():
+    """R and U that rounding has put on the cones: no division by zero, the forces stay finite."""
+    W, q = foot(8, 1)
+    R, U = np.tile([1.0, 0.0, 1.0], (8, 1)), np.tile([-1e-9, 0.0, 1e-9], (8, 1))
+    forces, made = approach(W, q, 0.3, R, U, 5)
+    assert np.isfinite(forces).all() and made < 5
