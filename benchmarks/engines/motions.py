@@ -20,10 +20,10 @@ def seeded(n: int = N) -> Ensemble:
     return seeded_ensemble(read_model(LICK), n, SEED, time_scale=TIME_SCALE)
 
 
-def seeded_file(n: int = N) -> Path:
+def seeded_file() -> Path:
     """An HDF5 file of them, made if there is none."""
-    path = RESULTS / ("seeded.h5" if n == N else f"seeded-{n}.h5")
+    path = RESULTS / "seeded.h5"
     if not path.is_file():
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_ensemble(seeded(n), path)
+        write_ensemble(seeded(), path)
     return path

@@ -11,14 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.engines.motions import RESULTS, seeded_file
+from benchmarks.engines.motions import RESULTS
 from benchmarks.engines.pair import case_of, engine
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import run_study
 from fecolumn.study.store import DONE
 
 FOLDER = Path(__file__).parent
-MOTIONS = 115
 CORES = 2
 
 
@@ -31,8 +30,7 @@ def speed():
     upright = engine(case_of())
     spent = best(lambda: upright.advance(np.zeros((20, 3))), 100) / 20
     yield "standing on all nodes: microseconds a step", 150.0, 1e6 * spent, spent <= 150e-6
-    seeded_file()
-    case = case_of(motion={"source": f"{seeded_file()}#1"}, integration={"duration_s": 0.0})
+    case = case_of(motion={"source": "lick:1"}, integration={"duration_s": 0.0})
     with tempfile.TemporaryDirectory() as folder, ProcessPoolExecutor(1, mp_context=get_context("spawn")) as worker:
         runs = [worker.submit(analysis, case, Path(folder) / str(k)).result() for k in range(3)]
     steps, fastest, memory = runs[0][0], min(run[1] for run in runs), runs[-1][2]
@@ -70,11 +68,10 @@ def motions115():
 
 def paper():
     """The 1,725 analyses of the study: 115 motions at each of 15 (dt, alpha)."""
-    yield from _study("paper.toml", 3600.0)
+    yield from _study("../paper_study.toml", 3600.0)
 
 
 def _study(name: str, limit: float):
-    seeded_file(MOTIONS)
     plan = read_plan(FOLDER / name)
     RESULTS.mkdir(parents=True, exist_ok=True)
     # a fresh folder each time: what is done already would not be timed

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from fecolumn.case import Motion
+from fecolumn.motions import lick
 from fecolumn.motions.at2 import looks_like_at2, read_at2
 from fecolumn.motions.columns import read_columns
 from fecolumn.motions.ensemble_file import file_and_number, read_member
@@ -81,6 +82,8 @@ def read_motion(motion: Motion, file) -> GroundMotion:
 def _recording(motion: Motion, key: str, file) -> Recording:
     source = getattr(motion, key)
     try:
+        if source.startswith(lick.PREFIX):
+            source = lick.lick_source(source)
         if source.startswith(PREFIX):
             recording = read_fema_p695(source)
         elif file_and_number(source):
@@ -95,7 +98,7 @@ def _recording(motion: Motion, key: str, file) -> Recording:
         if len(recording.values) < 2:
             raise UnusableRecord(f"holds {len(recording.values)} samples; at least 2 are needed")
     except UnusableRecord as error:
-        hint = f"; must be a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER or {PREFIX}SET/INDEX" if str(error) == "no such file" else ""
+        hint = f"; must be a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX" if str(error) == "no such file" else ""
         raise InputError(file, f"motion.{key}", source, f"{error}{hint}") from None
     return recording
 

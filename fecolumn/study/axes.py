@@ -25,6 +25,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.case import Case
+from fecolumn.motions import lick
 from fecolumn.motions.ensemble_file import ALL, file_and_number, members
 from fecolumn.motions.record import UnusableRecord
 from fecolumn.schema import InputError
@@ -159,7 +160,9 @@ def _drawn(share: float, values: list, kind):
 
 
 def _members(source, name: str, path: Path) -> list:
-    """Every motion of ensemble.h5#*; any other value as it is."""
+    """Every motion of ensemble.h5#* or lick:*; any other value as it is."""
+    if source == lick.PREFIX + ALL:
+        return [f"{lick.PREFIX}{number}" for number in range(1, lick.COUNT + 1)]
     found = file_and_number(source) if isinstance(source, str) else None
     if not found or found[1] != ALL:
         return [source]

