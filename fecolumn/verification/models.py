@@ -19,7 +19,7 @@ from fecolumn.mesh.surface import nodal_areas
 from fecolumn.schema import merge
 from fecolumn.verification import REDUCED
 
-# The reference specimen on the coarsest mesh that keeps every part; meshes/specimen.toml has the sources of the numbers.
+# The stout column on the coarsest mesh that keeps every part; meshes/stout.toml has the sources of the numbers.
 COARSE = {
     "title": "Coarse specimen",
     "column": {"outer_diameter_m": 0.1016, "wall_m": 0.005, "height_m": 1.0, "fine_height_m": 0.03},

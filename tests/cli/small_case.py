@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-SPECIMEN = os.path.abspath("meshes/specimen.toml")
+SPECIMEN = os.path.abspath("meshes/stout.toml")
 MESH = """
 [column]
 fine_height_m = 0.01

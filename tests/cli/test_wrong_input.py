@@ -5,7 +5,7 @@ import pytest
 
 from fecolumn.cli import main
 
-SPECIMEN = "meshes/specimen.toml"
+SPECIMEN = "meshes/stout.toml"
 
 
 def _refused(tmp_path, capsys, text, command="run"):

@@ -6,7 +6,7 @@ from fecolumn.case import case_from_tables, read_toml
 from fecolumn.dynamics.assembly import build_system
 from fecolumn.schema import merge
 
-SPECIMEN = "meshes/specimen.toml"
+SPECIMEN = "meshes/stout.toml"
 
 
 def coarse_case(**sections):

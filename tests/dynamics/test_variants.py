@@ -13,7 +13,7 @@ from fecolumn.dynamics.stepper import Stepper
 from fecolumn.mesh.column import column_mesh
 from fecolumn.schema import merge
 
-SPECIMEN = "meshes/specimen.toml"
+SPECIMEN = "meshes/stout.toml"
 
 
 def _without_cap():

@@ -46,7 +46,7 @@ def test_two_ranks_give_the_history_of_one(tmp_path, kinematics):
     rows = [f"{t:.4f},{0.4 * np.sin(25 * t):.6f},{0.3 * np.sin(33 * t):.6f}\n" for t in time]
     (tmp_path / "motion.csv").write_text("time [s],ax [g],ay [g]\n" + "".join(rows))
     case = tmp_path / "case.toml"
-    case.write_text(SHAKEN.format(specimen=os.path.abspath("meshes/specimen.toml"), kinematics=kinematics))
+    case.write_text(SHAKEN.format(specimen=os.path.abspath("meshes/stout.toml"), kinematics=kinematics))
     one, two = (_run(n, case, tmp_path / str(n)) for n in (1, 2))
     assert (one[0]["ranks"], two[0]["ranks"]) == (1, 2)
     np.testing.assert_allclose(two[1], one[1], rtol=0, atol=1e-6 * np.abs(one[1]).max())

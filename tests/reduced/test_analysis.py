@@ -11,7 +11,7 @@ from fecolumn import simulation
 from fecolumn.case import case_from_tables, read_toml
 from fecolumn.schema import InputError, merge
 
-SPECIMEN = "meshes/specimen.toml"
+SPECIMEN = "meshes/stout.toml"
 
 
 @pytest.fixture(autouse=True, scope="module")

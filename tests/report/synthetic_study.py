@@ -11,7 +11,7 @@ from fecolumn.study.outcome import FAILED, Outcome, finished
 from fecolumn.study.plan import read_plan
 from fecolumn.study.store import Store
 
-SPECIMEN = Path(__file__).parents[2] / "meshes" / "specimen.toml"
+SPECIMEN = Path(__file__).parents[2] / "meshes" / "stout.toml"
 DT, ALPHA = "integration.dt_s", "integration.alpha_hht"
 LIMIT_M = 0.25
 

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-SPECIMEN = Path(__file__).parents[2] / "meshes" / "specimen.toml"
+SPECIMEN = Path(__file__).parents[2] / "meshes" / "stout.toml"
 
 
 def write_study(folder: Path, *, dt=(0.02, 1e-3), alpha=(0, -0.2), pulses=range(4), case=None, extra="") -> Path:
