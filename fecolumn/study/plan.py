@@ -66,9 +66,12 @@ class Analysis:
 
     @property
     def effort(self) -> float:
-        """Expected work in steps of the reduced engine; only ratios count."""
+        """Expected work in steps of the reduced engine; only ratios count.
+
+        Landings and slips cost the same whatever the step: a second of them, as much as a thousand steps between them.
+        """
         plan = self.case.integration
-        return self.duration_s / plan.dt_s * _COST[plan.engine]
+        return self.duration_s * (1 / plan.dt_s + 1000) * _COST[plan.engine]
 
 
 @dataclass(frozen=True, slots=True)

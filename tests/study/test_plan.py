@@ -24,7 +24,8 @@ def test_axes_are_multiplied_out_in_the_order_of_the_file(tmp_path):
 
 def test_small_steps_are_the_longest_analyses(tmp_path):
     plan = read_plan(write_study(tmp_path))
-    assert plan.analyses[-1].effort == pytest.approx(20 * plan.analyses[0].effort)
+    coarse, fine = plan.analyses[0].effort, plan.analyses[-1].effort
+    assert coarse < fine < 20 * coarse  # twenty times the steps, but as many landings
 
 
 def test_all_spellings_of_a_dotted_key_mean_the_same(tmp_path):
