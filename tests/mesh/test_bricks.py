@@ -56,7 +56,7 @@ def test_rim_points_lie_on_the_circle():
 
 
 def test_tube_of_the_study_is_one_brick_thick_with_three_fine_bricks_on_a_coarse_one():
-    mesh = column_mesh(read_case(Path(__file__).parents[2] / "meshes/specimen.toml"))
+    mesh = column_mesh(read_case(Path(__file__).parents[2] / "meshes/stout.toml"))
     foot, joint = boundary_quads(mesh, LOWER, 0, 1e-9), boundary_quads(mesh, UPPER, 0.05, 1e-9)
     # Mean circumference 303.5 mm: 20 bricks of 15 mm, 60 of 5 mm.
     assert (len(foot), len(joint)) == (60, 20)
