@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 from mpi4py import MPI
 
+from benchmarks.checks import print_checks
 from benchmarks.profile import shares
 from fecolumn._mpi import launch_environment
 from fecolumn.case import case_from_tables, read_toml
@@ -183,19 +184,7 @@ CHECKS = {check.__name__: check for check in (modes, standing_still, uplift, sli
 
 def main(names) -> int:
     """Print the table of the named checks, of all without names; 1 where one fails."""
-    failed = 0
-    unknown = set(names) - set(CHECKS)
-    if unknown:
-        print(f"figures: {', '.join(sorted(unknown))}: must be of {', '.join(CHECKS)}", file=sys.stderr)
-        return 2
-    print(f"| {'check':<72} | {'reference':>10} | {'computed':>10} | ok  |\n|{'-' * 74}|{'-' * 11}:|{'-' * 11}:|-----|")
-    for name in names or CHECKS:
-        began = time.perf_counter()
-        for label, reference, computed, ok in CHECKS[name]():
-            failed += not ok
-            print(f"| {label:<72} | {reference:>10.4g} | {computed:>10.4g} | {'yes' if ok else 'NO':<3} |", flush=True)
-        print(f"{name}: {time.perf_counter() - began:.0f} s", file=sys.stderr)
-    return int(failed > 0)
+    return print_checks("figures", CHECKS, names or list(CHECKS))
 
 
 if __name__ == "__main__":

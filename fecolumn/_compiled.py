@@ -20,17 +20,22 @@ def cache_folder() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fecolumn"
 
 
+def digest_of(paths) -> str:
+    """Sixteen hexadecimal digits that name the content of files."""
+    digest = hashlib.sha256()
+    for path in paths:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
 @functools.cache
 def _folder() -> str:
     """Folder of the functions compiled from the present sources.
 
     numba asks only whether a function's own file has changed: code compiled with what another file said before would be run.
     """
-    digest, package = hashlib.sha256(), Path(__file__).parent
-    for name in _SOURCES:
-        for path in sorted((package / name).glob("*.py")):
-            digest.update(path.read_bytes())
-    return str(cache_folder() / f"compiled-{digest.hexdigest()[:16]}")
+    package = Path(__file__).parent
+    return str(cache_folder() / f"compiled-{digest_of(path for name in _SOURCES for path in sorted((package / name).glob('*.py')))}")
 
 
 def njit(function=None, **options):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import os
 from pathlib import Path
@@ -28,6 +30,13 @@ def write_bytes(path: Path, content: bytes) -> None:
 def write_json(path: Path, content) -> None:
     """Write JSON with a line for each key."""
     write_bytes(path, (json.dumps(content, indent=1) + "\n").encode())
+
+
+def write_csv(path: Path, rows) -> None:
+    """Write rows of cells as CSV, lines ended as Unix does: the same bytes everywhere."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    write_bytes(path, text.getvalue().encode())
 
 
 def write_hdf5(path: Path, fill) -> None:

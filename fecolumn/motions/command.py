@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from fecolumn.motions import makers
+from fecolumn.motions import lick, makers
 
 _LICK = "lick"
 
@@ -19,11 +19,11 @@ def add_arguments(parser) -> None:
     seeded = make.add_parser("seeded", help="stochastic motions of a fitted model; the Lick ensemble by default")
     seeded.add_argument("model", nargs="?", default=_LICK, metavar="MODEL.toml", help="parameter file of `motions fit`, or lick (default)")
     _add_output(seeded)
-    seeded.add_argument("-n", type=int, default=115, help="number of motions (default: %(default)s)")
-    seeded.add_argument("--seed", type=int, default=810, help="of the random numbers (default: %(default)s)")
+    seeded.add_argument("-n", type=int, default=lick.COUNT, help="number of motions (default: %(default)s)")
+    seeded.add_argument("--seed", type=int, default=lick.SEED, help="of the random numbers (default: %(default)s)")
     seeded.add_argument("--variability", choices=("fixed", "drawn"), default="fixed",
                         help="one set of parameters for all motions, or drawn after Dabaghi and Der Kiureghian (default: %(default)s)")
-    seeded.add_argument("--time-scale", type=float, default=0.5,
+    seeded.add_argument("--time-scale", type=float, default=lick.TIME_SCALE,
                         help="factor on time, accelerations kept; 0.5 fits a specimen of a quarter of the size (default: %(default)s)")
     seeded.set_defaults(command=_make_seeded)
     makers.add_kinds(make, _add_output, store)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import re
 from pathlib import Path
 
 import numpy as np
 
-from fecolumn.atomic import write_bytes, write_hdf5
+from fecolumn.atomic import write_csv, write_hdf5
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.intensity import intensity_measures
 from fecolumn.motions.record import GroundMotion, UnusableRecord
@@ -103,12 +101,8 @@ def summary(ensemble: Ensemble) -> dict[str, np.ndarray]:
 
 def write_summary(ensemble: Ensemble, columns: dict[str, np.ndarray], path) -> None:
     """Write the columns of `summary` and the motions' names as CSV, one motion a row."""
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(["name", *columns])
-    for row, motion in enumerate(ensemble.motions):
-        table.writerow([motion.name, *(f"{values[row]:.6g}" for values in columns.values())])
-    write_bytes(Path(path), text.getvalue().encode())
+    write_csv(Path(path), [["name", *columns], *([motion.name, *(f"{values[row]:.6g}" for values in columns.values())]
+                                                 for row, motion in enumerate(ensemble.motions))])
 
 
 def _open(path):

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-import hashlib
+import functools
 from pathlib import Path
 
 PREFIX, COUNT, SEED, TIME_SCALE = "lick:", 115, 810, 0.5
@@ -17,11 +17,17 @@ def lick_source(source: str) -> str:
     from fecolumn.motions.ensemble_file import write_ensemble
     from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
 
-    digest = hashlib.sha256()
-    for path in (*sorted(Path(__file__).parent.glob("*.py")), Path(LICK)):
-        digest.update(path.read_bytes())
-    file = cache_folder() / f"lick-{digest.hexdigest()[:16]}.h5"
+    file = cache_folder() / f"lick-{_recipe()}.h5"
     if not file.is_file():
         file.parent.mkdir(parents=True, exist_ok=True)
         write_ensemble(seeded_ensemble(read_model(LICK), COUNT, SEED, "fixed", TIME_SCALE), file)
     return f"{file}#{source.removeprefix(PREFIX)}"
+
+
+@functools.cache
+def _recipe() -> str:
+    """Digest of all that makes the motions."""
+    from fecolumn._compiled import digest_of
+    from fecolumn.motions.seeded import LICK
+
+    return digest_of((*sorted(Path(__file__).parent.glob("*.py")), Path(LICK)))

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import base64
-import csv
-import io
 import itertools
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fecolumn.atomic import write_bytes
+from fecolumn.atomic import write_csv
 
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
 _WIDE = 11
@@ -83,12 +81,9 @@ class Table:
 
     def write_csv(self, folder: Path) -> Path:
         """Write name.csv."""
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow([name for column in self.columns for name in column.names])
-        writer.writerows([[_plain(value) for value in row] for row in self.rows])
-        write_bytes(folder / f"{self.name}.csv", text.getvalue().encode())
-        return folder / f"{self.name}.csv"
+        file = folder / f"{self.name}.csv"
+        write_csv(file, [[name for column in self.columns for name in column.names], *([_plain(value) for value in row] for row in self.rows)])
+        return file
 
 
 def _plain(value):

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import dataclasses
-import io
 import math
 from pathlib import Path
 
@@ -91,26 +89,20 @@ def comparison_text(result, a, b, cap_mm: float) -> str:
 
 
 def _write(folder: Path, result, a, b, paired: bool, cap_mm: float) -> list[Path]:
-    from fecolumn.atomic import write_bytes
+    from fecolumn.atomic import write_csv
     from fecolumn.post.compare_figure import compare_figure
 
     folder.mkdir(parents=True, exist_ok=True)
     files = [folder / "comparison.csv"]
     values = [[key, "" if value is None else value] for key, value in dataclasses.asdict(result).items()]
-    write_bytes(files[0], _csv([["quantity", "value"], *values]))
+    write_csv(files[0], [["quantity", "value"], *values])
     if paired:
         files.append(folder / "pairs.csv")
         u = [["" if fallen else f"{value:.6e}" for value, fallen in zip(sample.u_max, sample.overturned)] for sample in (a, b)]
-        write_bytes(files[1], _csv([["motion", "u_max_a_m", "overturned_a", "u_max_b_m", "overturned_b"],
-                                    *zip(a.motions, u[0], a.overturned.astype(int), u[1], b.overturned.astype(int))]))
+        write_csv(files[1], [["motion", "u_max_a_m", "overturned_a", "u_max_b_m", "overturned_b"],
+                             *zip(a.motions, u[0], a.overturned.astype(int), u[1], b.overturned.astype(int))])
     return files + compare_figure((a.u_max, a.overturned), (b.u_max, b.overturned), _labels(a, b), paired=paired, limit_m=1e-3 * cap_mm,
                                   correlation=result.correlation, path=folder / "comparison")
-
-
-def _csv(rows) -> bytes:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue().encode()
 
 
 def _names(a, b) -> tuple[str, str]:

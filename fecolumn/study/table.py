@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from pathlib import Path
 
-from fecolumn.atomic import write_bytes
+from fecolumn.atomic import write_csv
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.cdf_figure import Panel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
@@ -59,9 +57,9 @@ def write_tables(plan: Plan, rows: list[dict], folder) -> None:
         else:
             table.append([*texts, planned, 0] + [""] * (len(_TABLE) - 2))
     axes = list(plan.analyses[0].combination)
-    _write(Path(folder) / "table.csv", [*axes, *_TABLE], table)
-    _write(Path(folder) / "timing.csv", [*axes, "n", "s_per_step", "wall_s"], timing)
-    _write(Path(folder) / "analyses.csv", ["case_id", *plan.axes, "state", *_ANALYSES], [_analysis_row(row) for row in rows])
+    write_csv(Path(folder) / "table.csv", [[*axes, *_TABLE], *table])
+    write_csv(Path(folder) / "timing.csv", [[*axes, "n", "s_per_step", "wall_s"], *timing])
+    write_csv(Path(folder) / "analyses.csv", [["case_id", *plan.axes, "state", *_ANALYSES], *map(_analysis_row, rows)])
 
 
 def _analysis_row(row: dict) -> list:
@@ -103,8 +101,3 @@ def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
     limit = max(analysis.case.overturn.displacement_m for analysis in plan.analyses)
     return cdf_figure([Panel(title or plan.title, tuple(lines)) for title, lines in panels.items()], limit, Path(folder) / "cdf")
 
-
-def _write(path: Path, header: list, rows: list[list]) -> None:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([header, *rows])
-    write_bytes(path, text.getvalue().encode())
