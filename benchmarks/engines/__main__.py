@@ -4,7 +4,7 @@
 
 physics      specimen: thresholds, quarter period, restitution; ten seeded motions to the third main impact (about ten minutes)
 convergence  n_modes 0 to 200 (three minutes)
-ensemble     24 seeded motions on the coarse mesh in both engines (half an hour; goes on where it stopped; ENGINES_JOBS=2 for two processes)
+ensemble     24 motions on a coarse mesh in both engines (an hour; goes on where it stopped; ENGINES_JOBS=2 for two processes)
 standing     a minute at every (dt, alpha) (five minutes)
 speed        a step, a motion, memory: on a machine that does nothing else
 motions115   115 motions on two cores

@@ -1,29 +1,17 @@
-"""Ground motions of these benchmarks: `fecolumn motions make seeded`, made once."""
+"""Where these benchmarks keep what they computed, and the ground motions they share with the study."""
 
 from __future__ import annotations
 
-import functools
 from pathlib import Path
 
-from fecolumn.motions.ensemble import Ensemble
-from fecolumn.motions.ensemble_file import write_ensemble
-from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
+from benchmarks.engines.pair import case_of
+from fecolumn.motions.load import load_motion
+from fecolumn.motions.record import GroundMotion
 
 RESULTS = Path(__file__).parents[2] / "results" / "engines"
-# of the ensemble on the coarse mesh; at test scale, as the specimen is a quarter of its prototype
-N, SEED, TIME_SCALE = 24, 1, 0.5
 
 
-@functools.cache
-def seeded(n: int = N) -> Ensemble:
-    """The first n motions of the Lick ensemble at test scale."""
-    return seeded_ensemble(read_model(LICK), n, SEED, time_scale=TIME_SCALE)
-
-
-def seeded_file() -> Path:
-    """An HDF5 file of them, made if there is none."""
-    path = RESULTS / "seeded.h5"
-    if not path.is_file():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_ensemble(seeded(), path)
-    return path
+def strong_shaking(number: int, begin: float) -> GroundMotion:
+    """A motion of the Lick ensemble from a share of its Arias intensity on, at the specimen's dt."""
+    case = case_of(motion={"source": f"lick:{number}", "strong_part": [begin, 1.0]})
+    return load_motion(case.motion, case.integration.dt_s, "benchmarks.engines")

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import functools
+from pathlib import Path
 
 import numpy as np
 from mpi4py import MPI
 
-from benchmarks.figures import SPECIMEN
 from fecolumn.case import Case, case_from_tables, read_toml
 from fecolumn.dynamics.assembly import build_system
 from fecolumn.mesh.specimen import specimen_mesh
@@ -17,6 +17,7 @@ from fecolumn.reduced.observe import COLUMNS
 from fecolumn.reduced.run import Engine
 from fecolumn.schema import merge
 
+SPECIMEN = Path(__file__).parents[2] / "meshes" / "specimen.toml"
 # a base wide enough to slide on
 WIDE = {"base": {"length_m": 0.4, "width_m": 0.4}, "integration": {"engine": "reduced"}}
 _PLACES = dict(zip((name for name, _ in COLUMNS), np.cumsum([0, *(width for _, width in COLUMNS)])))

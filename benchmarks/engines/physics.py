@@ -7,10 +7,9 @@ import time
 
 import numpy as np
 
-from benchmarks.engines.motions import seeded
+from benchmarks.engines.motions import strong_shaking
 from benchmarks.engines.pair import case_of, column, engine, mesh, system_of
 from fecolumn.dynamics.observer import top_of
-from fecolumn.motions.processing import resample, strong_part
 from fecolumn.verification.rocking import leaning, lifted, rocked
 from fecolumn.verification.sliding import slipped
 from fecolumn.verification.trial import RigidRocking, Trial, begin
@@ -53,8 +52,8 @@ def motions(count: int = MOTIONS, most: int = MOST):
     1 um/s changes in the reduced engine alone, which no two programs can be asked to come closer than."""
     case = case_of()
     system, offs, scatters, steps, fewest = system_of(case), [], [], 0, IMPACTS
-    for number, ground in enumerate(seeded().motions[:count], 1):
-        shaking = resample(strong_part(ground, (BEGIN, 1.0)), case.integration.dt_s).acceleration[1:most + 1]
+    for number in range(1, count + 1):
+        shaking = strong_shaking(number, BEGIN).acceleration[1:most + 1]
         began = time.perf_counter()
         path, impacts = full_order(system, shaking)
         shaking = shaking[:len(path)]
