@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.interior_point import approach
+from fecolumn.contact.interior_point import approach, in_cones
 
-# Newton steps without a better residual after which another way is tried
-STALLED = 6
-# More points than that, and an interior point helps; its iterations, at most, and between two tries of Newton
-FEW, INSIDE, TURN = 4, 42, 3
+# Newton steps from a given guess, at most and without a better residual, after which another way is tried; and from frictionless forces,
+# from where Newton finds its way late rather than never
+STEPS, STALLED, LONG, LATE = 25, 6, 60, 15
+# More points than that, and an interior point helps; its iterations before Newton's first try, between two tries, and at most
+FEW, FIRST, TURN, INSIDE = 4, 6, 3, 30
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,13 +27,29 @@ class ContactSolution:
 
 
 @njit
+def slips_and_gaps(W, q, forces):
+    """W r + q as (n, 3)."""
+    n = len(q)
+    if n > 8:
+        return (W @ forces.ravel()).reshape(n, 3) + q
+    # so small, a call of BLAS costs more than the product
+    result = q.copy()
+    for i in range(n):
+        for a in range(3):
+            line = W[3 * i + a]
+            for j in range(n):
+                result[i, a] += line[3 * j] * forces[j, 0] + line[3 * j + 1] * forces[j, 1] + line[3 * j + 2] * forces[j, 2]
+    return result
+
+
+@njit
 def natural_residual(W, q, forces, mu, rho):
     """Violation of the contact laws at each point [m]: distance of r from its projection, over rho.
 
     Zero exactly when gap >= 0, r_n >= 0, r_n gap = 0, |r_t| <= mu r_n and slip is opposed by r_t.
     """
     n = len(q)
-    relative = (W @ forces.ravel()).reshape(n, 3) + q
+    relative = slips_and_gaps(W, q, forces)
     error = np.zeros(n)
     for i in range(n):
         normal = max(0.0, forces[i, 2] - rho[i] * relative[i, 2])
@@ -112,7 +129,7 @@ def newton_step(W, q, forces, mu, rho):
     slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c = mu r_n / |trial|: two unknowns, three for a sticking point.
     """
     n = len(q)
-    trial = forces - rho.reshape(n, 1) * ((W @ forces.ravel()).reshape(n, 3) + q)
+    trial = forces - rho.reshape(n, 1) * slips_and_gaps(W, q, forces)
     updated = np.zeros_like(forces)
     # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or gap along test[u]
     point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
@@ -197,8 +214,11 @@ def solve_in_place(matrix, right):
 
 
 @njit
-def iterate(W, q, mu, start, tolerance, max_newton=25, sweeps=800):
-    """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and others."""
+def iterate(W, q, mu, start, tolerance, near=True, sweeps=800):
+    """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and others.
+
+    near: whether `start` is a good guess; else only where it presses counts.
+    """
     n = len(q)
     rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
@@ -208,30 +228,34 @@ def iterate(W, q, mu, start, tolerance, max_newton=25, sweeps=800):
         rho_all[i] = 3 / np.abs(W[3 * i:3 * i + 3]).sum()
     if n == 0:
         return start.copy(), 0.0, 0, 0
-    best, least, iterations = _newtons(W, q, mu, start, tolerance, rho_all, rho, max_newton, STALLED)
-    others = 0
+    best, least, iterations, others = start, np.inf, 0, 0
+    if near:
+        best, least, iterations = _newtons(W, q, mu, start, tolerance, rho_all, rho, STEPS, STALLED)
     if least > tolerance:
-        forces, residual, made = _newtons(W, q, mu, frictionless(W, q, start), tolerance, rho, rho, max_newton, STALLED)
+        forces, residual, made = _newtons(W, q, mu, frictionless(W, q, start), tolerance, rho, rho, LONG, LATE)
         iterations += made
         if residual < least:
             best, least = forces, residual
     if least > tolerance and mu > 0 and n > FEW:
-        R, U = np.zeros((n, 3)), np.zeros((n, 3))
-        for _ in range(INSIDE // TURN):
-            inside, made = approach(W, q, mu, R, U, TURN)
-            others += made
+        A, Q = in_cones(W, q, mu)
+        R, U, inside, most = np.zeros((n, 3)), np.zeros((n, 3)), 0, FIRST
+        while inside < INSIDE:
+            forces, made = approach(A, Q, mu, R, U, most)
+            inside += made
             # from inside Newton needs a step or two when the active set is right, and costs a tenth
-            forces, residual, newtons = _newtons(W, q, mu, inside, tolerance, rho, rho, STALLED, 2)
+            forces, residual, newtons = _newtons(W, q, mu, forces, tolerance, rho, rho, STALLED, 2)
             iterations += newtons
             if residual < least:
                 best, least = forces, residual
-            if least <= tolerance or made < TURN:
+            if least <= tolerance or made < most:
                 break
+            most = TURN
+        others += inside
     count = 50
     while least > tolerance and count <= sweeps:
         forces = best.copy()
         others += gauss_seidel(W, q, forces, mu, rho_t, count, tolerance * rho.min())
-        forces, residual, made = _newtons(W, q, mu, forces, tolerance, rho, rho, max_newton, STALLED)
+        forces, residual, made = _newtons(W, q, mu, forces, tolerance, rho, rho, STEPS, STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
@@ -258,7 +282,7 @@ def _newtons(W, q, mu, start, tolerance, rho, rho_own, most, patience):
     return best.copy(), least, made
 
 
-def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: int = 25, sweeps: int = 800) -> ContactSolution:
+def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, sweeps: int = 800) -> ContactSolution:
     """Solve the frictional contact problem of n points.
 
     Args:
@@ -273,4 +297,4 @@ def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, max_newton: 
     is the true one: the caller decides what to do with a solution that has not converged.
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
-    return ContactSolution(*iterate(W, q, float(mu), start, tolerance, max_newton, sweeps))
+    return ContactSolution(*iterate(W, q, float(mu), start, tolerance, True, sweeps))

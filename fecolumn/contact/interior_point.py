@@ -17,19 +17,28 @@ BOLD, END = 0.95, 1e-12
 
 
 @njit(error_model="numpy")
-def approach(W, q, mu, R, U, most):
+def in_cones(W, q, mu):
+    """Compliance (3 n, 3 n) and slip (n, 3) without forces in the units of R and U; arguments as of `friction.solve_contact`, mu > 0."""
+    n = len(q)
+    A, Q = W.copy(), q.copy()
+    for i in range(2, 3 * n, 3):
+        A[i] /= mu
+        for j in range(3 * n):
+            A[j, i] /= mu
+    Q[:, 2] /= mu
+    return A, Q
+
+
+@njit(error_model="numpy")
+def approach(A, Q, mu, R, U, most):
     """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the middle where they are zero; both change.
 
-    Arguments else as of `friction.solve_contact`, mu > 0.
+    A, Q: of `in_cones`.
     Returns: forces (n, 3), iterations made: fewer where it is at its end.
     """
-    n = len(q)
+    n = len(Q)
     unit = np.ones(3 * n)
     unit[2::3] = 1 / mu
-    A, Q = np.empty((3 * n, 3 * n)), (q.ravel() * unit).reshape(n, 3)
-    for i in range(3 * n):
-        for j in range(3 * n):
-            A[i, j] = W[i, j] * unit[i] * unit[j]
     length = max(np.abs(Q).max(), 1e-300)
     force = length * 3 * n / np.abs(A).sum()
     if R[0, 2] == 0.0:
@@ -51,7 +60,7 @@ def approach(W, q, mu, R, U, most):
                 for b in range(3):
                     matrix[3 * i + a, 3 * i + b] += P[i, a, 0] * P[i, 0, b] + P[i, a, 1] * P[i, 1, b] + P[i, a, 2] * P[i, 2, b]
         # at the cones' very boundary, where rounding rules, there is no scaling
-        if not np.isfinite(np.sum(matrix)):
+        if not np.isfinite(np.sum(P)):
             return (R.ravel() * unit).reshape(n, 3), iteration
         try:
             factor = np.linalg.cholesky(matrix)

@@ -15,6 +15,8 @@ def assemble(column, points, arms, active, rotation, rigid, nodal, W):
     """
     k, J = len(active), column.inverse
     lever, block, half = np.empty((k, 3, 3)), np.empty((3, 3)), np.empty((3, 3))
+    W[:] = 0.0
+    add_interpolated(nodal, points.carriers, points.weights, active, 1.0, W)
     for i in range(k):
         x, y, z = arms[active[i], 0], arms[active[i], 1], arms[active[i], 2]
         for a in range(3):
@@ -23,29 +25,60 @@ def assemble(column, points, arms, active, rotation, rigid, nodal, W):
             lever[i, a, 1] = J[a, 2] * x - J[a, 0] * z
             lever[i, a, 2] = J[a, 0] * y - J[a, 1] * x
     for i in range(k):
-        p = active[i]
-        x, y, z = arms[p, 0], arms[p, 1], arms[p, 2]
+        x, y, z = arms[active[i], 0], arms[active[i], 1], arms[active[i], 2]
         for j in range(i, k):
-            q = active[j]
             for b in range(3):
                 # [arm]^T = -[arm]
                 l0, l1, l2 = lever[j, 0, b], lever[j, 1, b], lever[j, 2, b]
-                block[0, b] = rigid * (z * l1 - y * l2)
-                block[1, b] = rigid * (x * l2 - z * l0)
-                block[2, b] = rigid * (y * l0 - x * l1)
+                block[0, b] = W[3 * i, 3 * j + b] + rigid * (z * l1 - y * l2)
+                block[1, b] = W[3 * i + 1, 3 * j + b] + rigid * (x * l2 - z * l0)
+                block[2, b] = W[3 * i + 2, 3 * j + b] + rigid * (y * l0 - x * l1)
                 block[b, b] += rigid / column.mass
-            for c in range(points.count[p]):
-                row, u = 3 * points.carriers[p, c], points.weights[p, c]
-                for d in range(points.count[q]):
-                    first, w = 3 * points.carriers[q, d], u * points.weights[q, d]
-                    for a in range(3):
-                        for b in range(3):
-                            block[a, b] += w * nodal[row + a, first + b]
             turn_block(rotation, block, half)
             for a in range(3):
                 for b in range(3):
                     W[3 * i + a, 3 * j + b] = block[a, b]
                     W[3 * j + b, 3 * i + a] = block[a, b]
+
+
+@njit
+def add_interpolated(compliance, nodes, weights, active, factor, W):
+    """Add factor times the compliance (3 m, 3 m) of nodes to W (3 k, 3 k) of the active points, upper blocks only.
+
+    nodes, weights: (n, 4) those of which each of the n points takes the displacement, and to which it gives its force.
+    """
+    k = len(active)
+    # the few nodes concerned, beside each other in memory
+    listed, places, m = np.empty(4 * k, np.int64), np.empty((k, 4), np.int64), 0
+    for i in range(k):
+        p = active[i]
+        for c in range(4):
+            if weights[p, c] != 0.0:
+                places[i, c], m = enlist(nodes[p, c], listed, m)
+    local, rows = np.empty((3 * m, 3 * m)), np.empty((3, 3 * m))
+    for u in range(m):
+        for v in range(m):
+            first, second = 3 * listed[u], 3 * listed[v]
+            for a in range(3):
+                for b in range(3):
+                    local[3 * u + a, 3 * v + b] = factor * compliance[first + a, second + b]
+    for i in range(k):
+        rows[:] = 0.0
+        for c in range(4):
+            w = weights[active[i], c]
+            if w != 0.0:
+                for a in range(3):
+                    line = local[3 * places[i, c] + a]
+                    for x in range(3 * m):
+                        rows[a, x] += w * line[x]
+        for j in range(i, k):
+            for d in range(4):
+                w = weights[active[j], d]
+                if w != 0.0:
+                    first = 3 * places[j, d]
+                    for a in range(3):
+                        for b in range(3):
+                            W[3 * i + a, 3 * j + b] += w * rows[a, first + b]
 
 
 @njit
@@ -63,29 +96,17 @@ def turn_block(rotation, block, half):
 def add_below(column, plate, footing, active, W, factor):
     """Add factor times the compliance of base, contact law and uneven rim of the active points to W (3 k, 3 k)."""
     k = len(active)
+    add_interpolated(plate.compliance, footing.slots, footing.weights, active, factor, W)
     for i in range(k):
         p = active[i]
-        for j in range(i, k):
-            q = active[j]
-            for c in range(4):
-                row, u = 3 * footing.slots[p, c], footing.weights[p, c] * factor
-                if u == 0.0:
-                    continue
-                for d in range(4):
-                    w = u * footing.weights[q, d]
-                    if w == 0.0:
-                        continue
-                    first = 3 * footing.slots[q, d]
-                    for a in range(3):
-                        for b in range(3):
-                            value = w * plate.compliance[row + a, first + b]
-                            W[3 * i + a, 3 * j + b] += value
-                            if j > i:
-                                W[3 * j + b, 3 * i + a] += value
         for a in range(3):
             W[3 * i + a, 3 * i + a] += factor * column.own[p, a]
             for b in range(3):
                 W[3 * i + a, 3 * i + b] += factor * footing.even[p, a, b]
+        for j in range(i + 1, k):
+            for a in range(3):
+                for b in range(3):
+                    W[3 * j + b, 3 * i + a] = W[3 * i + a, 3 * j + b]
 
 
 @njit
@@ -115,76 +136,71 @@ def even(column, points, plate, footing, rotation, i):
 @njit
 def static_displacement(column, points, plate, footing, rotation, forces, near, given):
     """given (n, 3): displacement of the near points (mask) relative to the base that follows the forces at once; without the law's own."""
-    n = len(forces)
+    n, loaded, told = len(forces), 0, 0
     given[:] = 0.0
-    on_nodes, at_node = np.zeros((n, 3)), np.empty((n, 3))
-    pressed, done = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
-    slots, shares, n_slots = np.empty(4 * n, np.int64), np.empty((4 * n, 3)), 0
+    for i in range(n):
+        loaded += forces[i, 2] > 0.0
+        told += near[i]
+    if loaded == 0:
+        return
+    # forces on the column's nodes and on the base's, points beside each other share them
+    carriers, pulls, n_carriers = np.empty(4 * loaded, np.int64), np.zeros((4 * loaded, 3)), 0
+    slots, shares, n_slots = np.empty(4 * loaded, np.int64), np.zeros((4 * loaded, 3)), 0
     for i in range(n):
         r0, r1, r2 = forces[i, 0], forces[i, 1], forces[i, 2]
         if r2 <= 0.0:
             continue
         for q in range(points.count[i]):
-            carrier, w = points.carriers[i, q], points.weights[i, q]
-            pressed[carrier] |= w != 0.0
+            place, n_carriers = enlist(points.carriers[i, q], carriers, n_carriers)
             for a in range(3):
-                on_nodes[carrier, a] += w * (rotation[0, a] * r0 + rotation[1, a] * r1 + rotation[2, a] * r2)
+                pulls[place, a] += points.weights[i, q] * (rotation[0, a] * r0 + rotation[1, a] * r1 + rotation[2, a] * r2)
         for q in range(4):
-            slot, w = footing.slots[i, q], footing.weights[i, q]
-            # points beside each other share nodes of the base
-            place = n_slots
-            for p in range(max(0, n_slots - 16), n_slots):
-                if slots[p] == slot:
-                    place = p
-            if place == n_slots:
-                slots[place] = slot
-                shares[place] = 0.0
-                n_slots += 1
+            place, n_slots = enlist(footing.slots[i, q], slots, n_slots)
+            w = footing.weights[i, q]
             shares[place, 0] += w * r0
             shares[place, 1] += w * r1
             shares[place, 2] += w * r2
-    nodes = np.flatnonzero(pressed)
-    if len(nodes) == 0:
-        return
-    sunk = np.empty(3)
+    # what they do at the nodes of the near points, each found once
+    above, moved, n_above = np.empty(4 * told, np.int64), np.empty((4 * told, 3)), 0
+    below, sunk, n_below = np.empty(4 * told, np.int64), np.empty((4 * told, 3)), 0
     for i in range(n):
         if not near[i]:
             continue
         u0 = u1 = u2 = 0.0
         for q in range(points.count[i]):
-            carrier, w = points.carriers[i, q], points.weights[i, q]
-            if w == 0.0:
-                continue
-            if not done[carrier]:
-                done[carrier] = True
-                _respond(column.static, carrier, on_nodes, nodes, at_node[carrier])
-            u0, u1, u2 = u0 + w * at_node[carrier, 0], u1 + w * at_node[carrier, 1], u2 + w * at_node[carrier, 2]
+            known, w = n_above, points.weights[i, q]
+            place, n_above = enlist(points.carriers[i, q], above, n_above)
+            if place == known:
+                _respond(column.static, above[place], pulls, carriers, n_carriers, moved[place])
+            u0, u1, u2 = u0 + w * moved[place, 0], u1 + w * moved[place, 1], u2 + w * moved[place, 2]
         for a in range(3):
             given[i, a] = rotation[a, 0] * u0 + rotation[a, 1] * u1 + rotation[a, 2] * u2
         for q in range(4):
-            slot, w = footing.slots[i, q], footing.weights[i, q]
-            if slot < 0 or w == 0.0:
+            if footing.slots[i, q] < 0 or footing.weights[i, q] == 0.0:
                 continue
-            _respond_rows(plate.compliance, slot, shares, slots, n_slots, sunk)
+            known = n_below
+            place, n_below = enlist(footing.slots[i, q], below, n_below)
+            if place == known:
+                _respond(plate.compliance, below[place], shares, slots, n_slots, sunk[place])
             for a in range(3):
-                given[i, a] += w * sunk[a]
+                given[i, a] += footing.weights[i, q] * sunk[place, a]
         if forces[i, 2] > 0 and points.count[i] > 1:
             for a in range(3):
                 given[i, a] += footing.even[i, a, 0] * forces[i, 0] + footing.even[i, a, 1] * forces[i, 1] + footing.even[i, a, 2] * forces[i, 2]
 
 
 @njit
-def _respond(compliance, row, values, places, target):
-    """target (3,): displacement at node `row` by values (n, 3) at `places`."""
-    for a in range(3):
-        line, total = compliance[3 * row + a], 0.0
-        for place in places:
-            total += line[3 * place] * values[place, 0] + line[3 * place + 1] * values[place, 1] + line[3 * place + 2] * values[place, 2]
-        target[a] = total
+def enlist(item, items, count):
+    """Place of an item among the first `count`, after which it is put where it is not there, and how many there are then."""
+    for place in range(count - 1, -1, -1):
+        if items[place] == item:
+            return place, count
+    items[count] = item
+    return count, count + 1
 
 
 @njit
-def _respond_rows(compliance, row, values, places, count, target):
+def _respond(compliance, row, values, places, count, target):
     """target (3,): displacement at node `row` by values (count, 3) at `places`."""
     for a in range(3):
         line, total = compliance[3 * row + a], 0.0

@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.friction import iterate
-from fecolumn.contact.interface import NEAR, SOLVED
+from fecolumn.contact.interface import SOLVED
 from fecolumn.dynamics.rolling import FLAT
 from fecolumn.dynamics.stage import CONTACT_TOLERANCE, PENETRATION
 from fecolumn.reduced import bed as beds
@@ -17,8 +17,9 @@ from fecolumn.reduced.plate import ON, UNKNOWN, project
 
 # Ways a step can end; FAR_BASE asks for more of the base's compliance, OVERTURNED ends the analysis
 OK, FAR_BASE, OFF_BASE, CONTACT, ITERATIONS, IMPACT, OVERTURNED = range(7)
-# Points nearer than so many times NEAR are told their static displacement
-CLOSE = 2.0
+# Gap, over the foot's width, below which a point takes part in the contact problem: tighter than in the full-order engine, since all that
+# a point costs here grows with it, and one that is missed shows below the base and is taken in; up to CLOSE it is told its static displacement
+NEAR, CLOSE = 2e-5, 4e-5
 # Iterations of a step
 MOST = 25
 # Residual to which a contact problem is solved, over the one at which the laws hold on the moved points
@@ -79,7 +80,7 @@ def equilibrate(column, plate, scheme, points, footing, bed, start, free_center,
     """
     n, mu, tight = len(points.forces), column.friction, SHARP * SOLVED * column.width
     positions, given, slack, relative = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3)), end.relative
-    close, active = np.ones(n, np.bool_), np.zeros(n, np.bool_)
+    close, active, evened = np.ones(n, np.bool_), np.zeros(n, np.bool_), np.zeros(n, np.bool_)
     W, rho, listed, assembled = np.empty((0, 0)), np.empty(n), np.empty(0, np.int64), False
     forces = end.forces
     forces[:] = points.forces
@@ -93,16 +94,20 @@ def equilibrate(column, plate, scheme, points, footing, bed, start, free_center,
         point_positions(points, end, positions)
         if iteration == 0 or not in_bed:
             for i in range(n):
-                close[i] = in_bed or positions[i, 2] < CLOSE * NEAR * column.width or forces[i, 2] > 0 or points.forces[i, 2] > 0
+                close[i] = in_bed or positions[i, 2] < CLOSE * column.width or forces[i, 2] > 0 or points.forces[i, 2] > 0
             answer = project(plate, positions, close, footing)
             if answer != ON:
                 return FAR_BASE if answer == UNKNOWN else OFF_BASE
             for i in range(n):
-                if close[i] and points.count[i] > 1:
+                # the foot turns too little in an iteration to change it
+                if not in_bed and forces[i, 2] > 0 and not evened[i]:
                     even(column, points, plate, footing, end.rotation, i)
+                    evened[i] = True
         if may_bed and 2 * np.sum(close) > n:
             may_bed = False
             if close.all():
+                for i in range(n):
+                    even(column, points, plate, footing, end.rotation, i)
                 beds.make(bed, column, plate, scheme, points, footing, end.center, end.rotation)
                 record[N_ASSEMBLED] += 1
                 in_bed = True
@@ -123,6 +128,10 @@ def equilibrate(column, plate, scheme, points, footing, bed, start, free_center,
         elif changed:
             listed, assembled = np.flatnonzero(active), True
             W = np.empty((3 * count, 3 * count))
+            for i in listed:
+                if not evened[i]:
+                    even(column, points, plate, footing, end.rotation, i)
+                    evened[i] = True
             assemble(column, points, points.arms, listed, end.rotation, scheme.half, scheme.elastic, W)
             add_below(column, plate, footing, listed, W, 1.0)
             record[N_ASSEMBLED] += 1

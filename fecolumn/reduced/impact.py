@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.friction import iterate
+from fecolumn.contact.friction import FEW, iterate
 from fecolumn.contact.interface import IMPACT_TOLERANCE
 from fecolumn.dynamics.stepper import SLIDE, YIELD
-from fecolumn.reduced.compliance import add_below, assemble
+from fecolumn.reduced.compliance import add_below, assemble, even
 from fecolumn.reduced.equilibrium import IMPACT, N_CONTACT, N_IMPACTS, OK
 from fecolumn.reduced.ledger import FRICTION, HIT, kinetic
 from fecolumn.reduced.motion import modal_forces, point_velocities
@@ -53,6 +53,8 @@ def collide(column, plate, scheme, points, footing, start, end, landing, turns, 
     before = np.flatnonzero(held)
     arms = points.arms + _elastic_of_points(points, end.elastic)
     mobility, compliance = np.empty((3 * k, 3 * k)), np.empty((3 * k, 3 * k))
+    for i in union:
+        even(column, points, plate, footing, end.rotation, i)
     assemble(column, points, arms, union, end.rotation, 0.0, column.static, compliance)
     add_below(column, plate, footing, union, compliance, 1.0)
     assemble(column, points, arms, union, end.rotation, 1.0, column.mobility, mobility)
@@ -114,7 +116,7 @@ def _impulses(mobility, velocity, mu, guess, record):
     for attempt in range(2):
         # a guess far off can trap the iteration: zero is the second
         start = guess if attempt == 0 else np.zeros_like(guess)
-        impulses, residual, newtons, sweeps = iterate(mobility, velocity, mu, start, 0.1 * IMPACT_TOLERANCE * largest)
+        impulses, residual, newtons, sweeps = iterate(mobility, velocity, mu, start, 0.1 * IMPACT_TOLERANCE * largest, len(velocity) <= FEW)
         record[N_CONTACT] += newtons + sweeps
         if residual <= IMPACT_TOLERANCE * largest:
             return impulses, True

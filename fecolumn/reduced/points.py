@@ -67,7 +67,7 @@ def place(column, points, angle):
         points.lift[i] = 0.0
         points.arms[i] = 0.0
         for q in range(4):
-            carrier = column.rim[(k + offsets[q]) % n]
+            carrier = column.rim[_around(k + offsets[q], n)]
             points.carriers[i, q], points.weights[i, q] = carrier, weights[q]
             for a in range(3):
                 points.arms[i, a] += weights[q] * column.arms[carrier, a]
@@ -114,41 +114,40 @@ def roll(column, motion, dt, rolls, points):
         turned -= np.rint(turned)
 
     passed = int(np.rint(turned - new_phase + old_phase))
-    places = np.empty((n, 3))
+    places, old, now = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3))
     for k in range(n):
         i = column.rim[k]
+        x, y, z = column.arms[i, 0] + motion.elastic[i, 0], column.arms[i, 1] + motion.elastic[i, 1], column.arms[i, 2] + motion.elastic[i, 2]
         for a in range(3):
-            places[k, a] = motion.center[a]
-            for b in range(3):
-                places[k, a] += motion.rotation[a, b] * (column.arms[i, b] + motion.elastic[i, b])
+            places[k, a] = motion.center[a] + motion.rotation[a, 0] * x + motion.rotation[a, 1] * y + motion.rotation[a, 2] * z
     like_index, _, like_offsets, like_weights = on_circle(lowest(motion.rotation)[0], column.rim_first, sector, n)
     place(column, points, angle)
-    old, now = np.empty(3), np.empty(3)
+    for k in range(n):
+        _interpolate(places, k, old_offsets, old_weights, n, old[k])
+        _interpolate(places, k, new_offsets, new_weights, n, now[k])
+    like = np.empty((2 * REACH + 1, 3))
+    for off in range(-REACH, REACH + 1):
+        _interpolate(places, (like_index + off) % n, like_offsets, like_weights, n, like[REACH + off])
     # what the rule leaves of the third order stays in the lift while the rim carries
     held = 0.0
     if carries:
         taken = strongest if leaps else (new_index - passed) % n
-        held = _at(places, taken, old_offsets, old_weights, n, 2) - _at(places, like_index, like_offsets, like_weights, n, 2)
+        held = old[taken, 2] - like[REACH, 2]
         held += 0.0 if leaps else points.rim_lift[REACH]
     for k in range(n):
-        i, number = column.rim[k], (k - passed) % n
-        taken = column.rim[number]
-        for a in range(3):
-            old[a] = _at(places, number, old_offsets, old_weights, n, a)
-            now[a] = _at(places, k, new_offsets, new_weights, n, a)
-        off = (k - new_index + n // 2) % n - n // 2
-        up = now[2] - old[2]
-        if abs(off) <= REACH:
-            start = _at(places, (like_index + off) % n, like_offsets, like_weights, n, 2)
-            opposite = _at(places, (new_index - off) % n, new_offsets, new_weights, n, 2)
-            points.lift[i] = points.rim_lift[REACH + off] = start - opposite + held
-            up = start - old[2] if leaps else 0.0
+        number = (k - passed) % n
+        i, taken = column.rim[k], column.rim[number]
         for a in range(3):
             points.forces[i, a] = motion.forces[taken, a]
+            points.relative[i, a] = motion.relative[taken, a] + now[k, a] - old[number, a]
         for a in range(2):
-            points.anchors[i, a] = motion.anchors[taken, a] + now[a] - old[a]
-            points.relative[i, a] = motion.relative[taken, a] + now[a] - old[a]
-        points.relative[i, 2] = motion.relative[taken, 2] + up
+            points.anchors[i, a] = motion.anchors[taken, a] + now[k, a] - old[number, a]
+    for off in range(-REACH, REACH + 1):
+        k = (new_index + off) % n
+        i, number = column.rim[k], (k - passed) % n
+        points.lift[i] = points.rim_lift[REACH + off] = like[REACH + off, 2] - now[(new_index - off) % n, 2] + held
+        up = like[REACH + off, 2] - old[number, 2] if leaps else 0.0
+        points.relative[i, 2] = motion.relative[column.rim[number], 2] + up
     return True
 
 
@@ -159,12 +158,21 @@ def _sectors(number, n):
 
 
 @njit
-def _at(places, number, offsets, weights, n, axis):
-    """Coordinate of a point of the rim from those of the rim's nodes (n, 3)."""
-    value = 0.0
-    for q in range(4):
-        value += weights[q] * places[(number + offsets[q]) % n, axis]
-    return value
+def _interpolate(places, number, offsets, weights, n, target):
+    """target (3,): point of the rim from the rim's nodes (n, 3)."""
+    first, second, third, fourth = number + offsets[0], number + offsets[1], number + offsets[2], number + offsets[3]
+    first, second, third, fourth = _around(first, n), _around(second, n), _around(third, n), _around(fourth, n)
+    for a in range(3):
+        target[a] = (weights[0] * places[first, a] + weights[1] * places[second, a]
+                     + weights[2] * places[third, a] + weights[3] * places[fourth, a])
+
+
+@njit
+def _around(number, n):
+    """number, -n to 2 n, modulo n; a division takes longer than all else here."""
+    if number < 0:
+        return number + n
+    return number - n if number >= n else number
 
 
 @njit

@@ -26,21 +26,28 @@ _STOPS = {CONTACT: Stop.CONTACT, IMPACT: Stop.CONTACT, ITERATIONS: Stop.ITERATIO
 @njit
 def advance(column, plate, scheme, points, footing, bed, eye, motion, spare, sway, grounds, rows, last_tilt, ledger, record):
     """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, WIDTH) are filled, last_tilt (1,) kept."""
-    booked = ledger.copy()
-    for k in range(len(grounds)):
+    booked, now, then, made, answer = ledger.copy(), motion, spare, 0, OK
+    for ground in grounds:
         before = record[N_ITERATIONS]
         booked[:] = ledger
-        answer = step(column, plate, scheme, points, footing, bed, motion, grounds[k], spare, sway, ledger, record)
+        answer = step(column, plate, scheme, points, footing, bed, now, ground, then, sway, ledger, record)
         if answer != OK:
             ledger[:] = booked
-            return k, answer
-        motions.copy(spare, motion)
-        tilt, top = observe(column, eye, motion, ledger, record[N_ITERATIONS] - before, rows[k])
+            break
+        tilt, top = observe(column, eye, then, ledger, record[N_ITERATIONS] - before, rows[made])
+        now, then, made = then, now, made + 1
         fallen = lost(eye, tilt, top, last_tilt[0])
         last_tilt[0] = tilt
         if fallen:
-            return k + 1, OVERTURNED
-    return len(grounds), OK
+            answer = OVERTURNED
+            break
+    if made % 2:
+        # a step that failed for want of the base's compliance tells by its end in `spare` where it is wanted
+        center, rotation = motion.center.copy(), motion.rotation.copy()
+        motions.copy(spare, motion)
+        spare.center[:] = center
+        spare.rotation[:] = rotation
+    return made, answer
 
 
 class Engine:

@@ -97,7 +97,7 @@ def _finish(column, scheme, points, start, ground, end, sway):
     for i in range(len(end.forces)):
         x = end.relative[i, 0] + column.own[i, 0] * end.forces[i, 0]
         y = end.relative[i, 1] + column.own[i, 1] * end.forces[i, 1]
-        stuck = np.hypot(x - points.anchors[i, 0], y - points.anchors[i, 1]) <= STUCK * column.width and end.forces[i, 2] > 0
+        stuck = end.forces[i, 2] > 0 and np.hypot(x - points.anchors[i, 0], y - points.anchors[i, 1]) <= STUCK * column.width
         end.anchors[i, 0] = points.anchors[i, 0] if stuck else x
         end.anchors[i, 1] = points.anchors[i, 1] if stuck else y
     end.ground[:] = ground
