@@ -21,6 +21,8 @@ def turning_points(column, points, start, end, dt, early, late):
     turns, slid, slips = np.zeros(n, np.bool_), np.zeros(n, np.bool_), np.zeros(n, np.bool_)
     some, wanted = False, np.empty(n, np.bool_)
     for i in range(n):
+        if not (points.forces[i, 2] > 0 or end.forces[i, 2] > 0):
+            continue
         pull = np.hypot(points.forces[i, 0], points.forces[i, 1])
         touching = end.forces[i, 2] > 0
         slid[i] = pull > 0 and pull >= (1 - 1e-9) * mu * points.forces[i, 2]

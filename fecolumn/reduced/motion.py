@@ -173,19 +173,21 @@ def follow(column, scheme, points, start, free_center, free_modal, advance, forc
 
     end.elastic is used as a guess and updated; end gets center, rotation, modal, elastic; sway the conjugates.
     """
-    n, m = len(forces), len(free_modal)
-    total, spread = np.zeros(3), np.zeros((3, 3))
-    for i in range(n):
-        if forces[i, 2] == 0.0 and forces[i, 0] == 0.0 and forces[i, 1] == 0.0:
+    m, total, spread, arm = len(free_modal), np.zeros(3), np.zeros((3, 3)), np.empty(3)
+    for i in range(len(forces)):
+        r0, r1, r2 = forces[i, 0], forces[i, 1], forces[i, 2]
+        if r2 == 0.0 and r0 == 0.0 and r1 == 0.0:
             continue
         for a in range(3):
-            arm = points.arms[i, a]
-            for q in range(points.count[i]):
-                carrier = points.carriers[i, q]
-                arm += points.weights[i, q] * (start.elastic[carrier, a] + end.elastic[carrier, a]) / 2
-            for b in range(3):
-                spread[a, b] += arm * forces[i, b]
+            arm[a] = points.arms[i, a]
+        for q in range(points.count[i]):
+            carrier, w = points.carriers[i, q], points.weights[i, q] / 2
+            for a in range(3):
+                arm[a] += w * (start.elastic[carrier, a] + end.elastic[carrier, a])
         for a in range(3):
+            spread[a, 0] += arm[a] * r0
+            spread[a, 1] += arm[a] * r1
+            spread[a, 2] += arm[a] * r2
             total[a] += forces[i, a]
     for a in range(3):
         end.center[a] = free_center[a] + scheme.half * total[a] / column.mass
@@ -195,7 +197,6 @@ def follow(column, scheme, points, start, free_center, free_modal, advance, forc
     for k in range(m):
         end.modal[k] = scheme.shrink[k] * (free_modal[k] + scheme.half * sway.modal[k])
     foot_displacement(column.pushes, end.modal, end.elastic)
-    return total
 
 
 @njit

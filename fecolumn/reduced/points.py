@@ -61,16 +61,19 @@ def place(column, points, angle):
             points.lift[i] = 0.0
         return 0
     index, _, offsets, weights = on_circle(angle, column.rim_first, column.rim_sector, n)
+    arms, interpolated = np.empty((2 * n, 3)), np.empty((n, 3))
+    for k in range(n):
+        for a in range(3):
+            arms[k, a] = arms[n + k, a] = column.arms[column.rim[k], a]
+    _interpolate(arms, offsets, weights, interpolated)
     for k in range(n):
         i = column.rim[k]
         points.count[i] = 4
         points.lift[i] = 0.0
-        points.arms[i] = 0.0
         for q in range(4):
-            carrier = column.rim[_around(k + offsets[q], n)]
-            points.carriers[i, q], points.weights[i, q] = carrier, weights[q]
-            for a in range(3):
-                points.arms[i, a] += weights[q] * column.arms[carrier, a]
+            points.carriers[i, q], points.weights[i, q] = column.rim[_around(k + offsets[q], n)], weights[q]
+        for a in range(3):
+            points.arms[i, a] = interpolated[k, a]
     return index
 
 
@@ -114,28 +117,30 @@ def roll(column, motion, dt, rolls, points):
         turned -= np.rint(turned)
 
     passed = int(np.rint(turned - new_phase + old_phase))
-    places, old, now = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3))
+    places, old, now = np.empty((2 * n, 3)), np.empty((n, 3)), np.empty((n, 3))
     for k in range(n):
         i = column.rim[k]
         x, y, z = column.arms[i, 0] + motion.elastic[i, 0], column.arms[i, 1] + motion.elastic[i, 1], column.arms[i, 2] + motion.elastic[i, 2]
         for a in range(3):
-            places[k, a] = motion.center[a] + motion.rotation[a, 0] * x + motion.rotation[a, 1] * y + motion.rotation[a, 2] * z
+            value = motion.center[a] + motion.rotation[a, 0] * x + motion.rotation[a, 1] * y + motion.rotation[a, 2] * z
+            places[k, a] = places[n + k, a] = value
     like_index, _, like_offsets, like_weights = on_circle(lowest(motion.rotation)[0], column.rim_first, sector, n)
     place(column, points, angle)
-    for k in range(n):
-        _interpolate(places, k, old_offsets, old_weights, n, old[k])
-        _interpolate(places, k, new_offsets, new_weights, n, now[k])
-    like = np.empty((2 * REACH + 1, 3))
+    _interpolate(places, old_offsets, old_weights, old)
+    _interpolate(places, new_offsets, new_weights, now)
+    # heights that the lowest point's like and its neighbours have now
+    like = np.zeros(2 * REACH + 1)
     for off in range(-REACH, REACH + 1):
-        _interpolate(places, (like_index + off) % n, like_offsets, like_weights, n, like[REACH + off])
+        for q in range(4):
+            like[REACH + off] += like_weights[q] * places[(like_index + off + like_offsets[q]) % n, 2]
     # what the rule leaves of the third order stays in the lift while the rim carries
     held = 0.0
     if carries:
         taken = strongest if leaps else (new_index - passed) % n
-        held = old[taken, 2] - like[REACH, 2]
+        held = old[taken, 2] - like[REACH]
         held += 0.0 if leaps else points.rim_lift[REACH]
     for k in range(n):
-        number = (k - passed) % n
+        number = _around(k - passed, n)
         i, taken = column.rim[k], column.rim[number]
         for a in range(3):
             points.forces[i, a] = motion.forces[taken, a]
@@ -145,8 +150,8 @@ def roll(column, motion, dt, rolls, points):
     for off in range(-REACH, REACH + 1):
         k = (new_index + off) % n
         i, number = column.rim[k], (k - passed) % n
-        points.lift[i] = points.rim_lift[REACH + off] = like[REACH + off, 2] - now[(new_index - off) % n, 2] + held
-        up = like[REACH + off, 2] - old[number, 2] if leaps else 0.0
+        points.lift[i] = points.rim_lift[REACH + off] = like[REACH + off] - now[(new_index - off) % n, 2] + held
+        up = like[REACH + off] - old[number, 2] if leaps else 0.0
         points.relative[i, 2] = motion.relative[column.rim[number], 2] + up
     return True
 
@@ -158,13 +163,16 @@ def _sectors(number, n):
 
 
 @njit
-def _interpolate(places, number, offsets, weights, n, target):
-    """target (3,): point of the rim from the rim's nodes (n, 3)."""
-    first, second, third, fourth = number + offsets[0], number + offsets[1], number + offsets[2], number + offsets[3]
-    first, second, third, fourth = _around(first, n), _around(second, n), _around(third, n), _around(fourth, n)
-    for a in range(3):
-        target[a] = (weights[0] * places[first, a] + weights[1] * places[second, a]
-                     + weights[2] * places[third, a] + weights[3] * places[fourth, a])
+def _interpolate(values, offsets, weights, target):
+    """target (n, 3): values at the rim's points from those at its nodes, (2 n, 3) since they are needed once around and again."""
+    n = len(target)
+    target[:] = 0.0
+    flat = target.ravel()
+    for q in range(4):
+        first = 3 * _around(offsets[q], n)
+        line, weight = values.ravel()[first:first + 3 * n], weights[q]
+        for x in range(3 * n):
+            flat[x] += weight * line[x]
 
 
 @njit

@@ -69,14 +69,22 @@ def _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway
 
 
 @njit
+def total_force(forces):
+    """Sum (3,) of forces (n, 3), of which most are zero."""
+    total = np.zeros(3)
+    for i in range(len(forces)):
+        if forces[i, 2] > 0:
+            for a in range(3):
+                total[a] += forces[i, a]
+    return total
+
+
+@njit
 def _finish(column, scheme, points, start, ground, end, sway):
     """Velocities, accelerations and anchors at the end of the step."""
     dt, al, ga = scheme.dt, scheme.alpha, scheme.gamma
-    total, J = np.zeros(3), column.inertia
-    for i in range(len(end.forces)):
-        for a in range(3):
-            total[a] += end.forces[i, a]
-    momentum = np.empty(3)
+    J, momentum = column.inertia, np.empty(3)
+    total = total_force(end.forces)
     for a in range(3):
         acceleration = (1 - ga) * start.acceleration[a] + ga * end.acceleration[a] + total[a] / column.mass
         end.velocity[a] = start.velocity[a] + dt * acceleration
