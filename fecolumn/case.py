@@ -182,7 +182,7 @@ class Case:
 # what tells one case from another: all but title and output
 SECTIONS = tuple(field.name for field in dataclasses.fields(Case) if field.name not in ("title", "output"))
 # keys that may name files
-_FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
+FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
 
 
 def content(source: str) -> str:
@@ -203,7 +203,7 @@ def _digest(path: str, size: int, changed: int) -> str:
 def section_text(name: str, section) -> str:
     """JSON of a section of a case, files by content: what it adds to `Case.id`."""
     table = dataclasses.asdict(section) if section else None
-    for key in _FILES.get(name, ()) if table else ():
+    for key in FILES.get(name, ()) if table else ():
         table[key] = content(table[key])
     if name == "motion" and table and not table["delay_s"]:  # a key younger than the first studies: their results keep their names
         del table["delay_s"]
@@ -219,7 +219,7 @@ def located(name: str, section, file):
     """A section of a case with its relative paths taken from the folder of `file`."""
     folder = Path(file).resolve().parent
     found = {}
-    for key in _FILES.get(name, ()) if section else ():
+    for key in FILES.get(name, ()) if section else ():
         source = getattr(section, key)
         if source and ":" not in source and not Path(source).is_absolute():
             found[key] = str(folder / source)
@@ -229,7 +229,7 @@ def located(name: str, section, file):
 def case_from_tables(tables: dict, file) -> Case:
     """Case from TOML tables; relative paths are taken from the folder of `file`."""
     case = build(Case, tables, file)
-    case = dataclasses.replace(case, **{name: located(name, getattr(case, name), file) for name in _FILES})
+    case = dataclasses.replace(case, **{name: located(name, getattr(case, name), file) for name in FILES})
     check(case, file)
     return case
 

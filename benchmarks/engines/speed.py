@@ -24,11 +24,11 @@ CORES = 2
 def speed():
     """Time of a step while rocking and while standing on all nodes, of a whole motion, and the memory of a worker."""
     rocking = engine(case_of(initial={"tilt_rad": 0.03}, contact={"friction_coefficient": 0.8}))
-    # short runs: the least of many is what the step costs where others use the machine too
-    spent = best(lambda: rocking.advance(np.zeros((20, 3))), 10) / 20
+    # short runs between two impacts: the least of many is what the step costs where others use the machine too
+    spent = best(lambda: rocking.advance(np.zeros((100, 3))), 30) / 100
     yield "rocking: microseconds a step", 25.0, 1e6 * spent, spent <= 25e-6
     upright = engine(case_of())
-    spent = best(lambda: upright.advance(np.zeros((20, 3))), 100) / 20
+    spent = best(lambda: upright.advance(np.zeros((100, 3))), 30) / 100
     yield "standing on all nodes: microseconds a step", 150.0, 1e6 * spent, spent <= 150e-6
     case = case_of(motion={"source": "lick:1"}, integration={"duration_s": 0.0})
     with tempfile.TemporaryDirectory() as folder, ProcessPoolExecutor(1, mp_context=get_context("spawn")) as worker:

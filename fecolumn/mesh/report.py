@@ -29,16 +29,16 @@ def mesh_report(case: Case, folder) -> str:
             nodes = len(mesh.part_nodes(part))
             inside = mesh.part == part
             lines.append(f"{PART_NAMES[part]:<16}{nodes:>8}{inside.sum():>10}{3 * nodes:>9}{jacobian[inside].min():>27.3f}")
-    lines += ["", f"{'quantity':<50}{'unit':<8}{'mesh':>14}{'closed form':>14}{'difference':>12}"]
+    lines += ["", f"{'quantity':<53}{'unit':<8}{'mesh':>14}{'closed form':>14}{'difference':>12}"]
     for row in quality_table(case, specimen):
         exact = f"{row.exact:>14.6g}{100 * row.difference:>11.3f}%" if row.exact is not None else ""
-        lines.append(f"{row.name:<50}{row.unit:<8}{row.mesh:>14.6g}{exact}")
+        lines.append(f"{row.name:<53}{row.unit:<8}{row.mesh:>14.6g}{exact}")
     column, material = case.column, case.material
     outer = column.outer_diameter_m / 2
     theory = free_free_bending_frequency(outer, outer - column.wall_m, column.height_m, material.youngs_modulus_pa,
                                          material.poissons_ratio, material.density_kg_m3)
     found = _bare_tube_frequency(case)
-    lines.append(f"{'first free-free bending, tube without cap':<50}{'Hz':<8}{found:>14.6g}{theory:>14.6g}{100 * (found / theory - 1):>11.3f}%")
+    lines.append(f"{'first free-free bending, tube without cap':<53}{'Hz':<8}{found:>14.6g}{theory:>14.6g}{100 * (found / theory - 1):>11.3f}%")
     text = "\n".join(lines)
     (folder / "table.txt").write_text(text + "\n")
     return text

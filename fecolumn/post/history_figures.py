@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.dynamics.history import read_history
 from fecolumn.post.style import (BLACK, BLUE, COLUMN_WIDTH_IN, GREEN, LINES, ORANGE, PAGE_WIDTH_IN, PURPLE, SKY, VERMILION,
                                  new_figure, save, styled)
 from fecolumn.schema import InputError
@@ -35,26 +36,25 @@ class History:
     tilt: np.ndarray
     energy: dict[str, np.ndarray]
 
+    @classmethod
+    def read(cls, file) -> History:
+        """History of an HDF5 file.
 
-def read_history(file) -> History:
-    """History of an HDF5 file.
-
-    Raises:
-        InputError: missing file, or one without the datasets of a history.
-    """
-    import h5py  # Debian's build, after dolfinx if at all: wheels clash with dolfinx's HDF5
-
-    try:
-        with h5py.File(file, "r") as data:
-            return History(data["time"][:], data["u_top"][:], data["tilt"][:], {term: values[:] for term, values in data["energy"].items()})
-    except (OSError, KeyError) as error:
-        raise InputError(file, "", None, f"not a history of an analysis ({error})") from None
+        Raises:
+            InputError: missing file, or one without the datasets of a history.
+        """
+        try:
+            columns = read_history(file)
+            energy = {name.removeprefix("energy/"): values for name, values in columns.items() if name.startswith("energy/")}
+            return cls(columns["time"], columns["u_top"], columns["tilt"], energy)
+        except (OSError, KeyError) as error:
+            raise InputError(file, "", None, f"not a history of an analysis ({error})") from None
 
 
 def history_figures(folder) -> list[Path]:
     """Write u_top, path and energy of an analysis' folder, each as PNG and PDF; needs history.h5 and summary.json."""
     folder = Path(folder)
-    history = read_history(folder / "history.h5")
+    history = History.read(folder / "history.h5")
     try:
         summary = json.loads((folder / "summary.json").read_text())
     except (OSError, ValueError) as error:

@@ -19,7 +19,7 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.case import SECTIONS, Case, case_from_tables, check, digest, located, section_text
+from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check, digest, located, section_text
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.schema import InputError, build, merge, read_toml
 from fecolumn.study.axes import TABLES, Factor, hint, read_factors
@@ -30,7 +30,6 @@ ENSEMBLE_AXES = ("motion", "motion.source", "motion.source_y", "motion.source_z"
 # a column rocks at a few hertz
 DEFAULTS = {"integration": {"engine": "reduced"}, "output": {"history_every_s": 0.005}}
 _KEYS = ("title", "case", *TABLES)
-_PATHS = (("column", "mesh_file"), ("motion", "source"), ("motion", "source_y"), ("motion", "source_z"))
 # Cost of a step, relative: only the order and the share of the work left are judged by it
 _COST = {"full": 500.0, "reduced": 1.0, "rigid": 0.5}
 # dataclass of each section
@@ -126,7 +125,7 @@ def _case_tables(case, path: Path) -> dict:
 
 def _located(tables: dict, file: Path) -> dict:
     """`tables` with the paths that `file` states made absolute, so that another file may take them over."""
-    for section, key in _PATHS:
+    for section, key in ((section, key) for section, keys in FILES.items() for key in keys):
         value = tables[section].get(key) if isinstance(tables.get(section), dict) else None
         if isinstance(value, str) and value and ":" not in value:
             tables = merge(tables, {section: {key: str((file.resolve().parent / value))}})

@@ -6,7 +6,7 @@ from synthetic_history import write_history
 
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.cdf_figure import Panel, cdf_figure, overturn_text
-from fecolumn.post.history_figures import history_figures, read_history
+from fecolumn.post.history_figures import History, history_figures
 from fecolumn.post.style import BLUE, PURPLE, VERMILION
 from fecolumn.schema import InputError
 from fecolumn.statistics.ecdf import ecdf
@@ -86,7 +86,7 @@ def test_figures_of_one_analysis(tmp_path, overturned):
 
 def test_history_is_read_back(tmp_path):
     write_history(tmp_path, n=11)
-    history = read_history(tmp_path / "history.h5")
+    history = History.read(tmp_path / "history.h5")
     assert history.u_top.shape == (11, 3) and history.time[-1] == 4.0 and set(history.energy) >= {"kinetic", "closure"}
 
 
