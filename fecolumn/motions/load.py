@@ -37,14 +37,18 @@ def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
     Warns:
         AliasingWarning: dt is too coarse for the motion.
     """
-    ground = rotate(read_motion(motion, file), motion.rotation_deg)
-    if not motion.vertical:
-        ground = without_vertical(ground)
-    ground = scale_time(scale(ground, motion.scale), motion.time_scale)
-    ground = strong_part(ground, motion.strong_part)
+    ground = unsampled(motion, file)
     if dt > ground.duration:
         raise InputError(file, "integration.dt_s", dt, f"must be at most the motion's length, {ground.duration:g} s")
     return delay(resample(ground, dt), motion.delay_s)
+
+
+def unsampled(motion: Motion, file) -> GroundMotion:
+    """As load_motion, at the motion's own step and without delay."""
+    ground = rotate(read_motion(motion, file), motion.rotation_deg)
+    if not motion.vertical:
+        ground = without_vertical(ground)
+    return strong_part(scale_time(scale(ground, motion.scale), motion.time_scale), motion.strong_part)
 
 
 def read_motion(motion: Motion, file) -> GroundMotion:

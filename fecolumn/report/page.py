@@ -14,6 +14,7 @@ from fecolumn.report.cost import cost_claims
 from fecolumn.report.distribution_claims import distribution_claims
 from fecolumn.report.distributions import TARGET_NOTE, distributions
 from fecolumn.report.document import Column, Paragraph, Section, Table, numbered, referenced
+from fecolumn.report.fragility import fragility
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.individual import individual
 from fecolumn.report.individual_claims import individual_claims
@@ -78,7 +79,7 @@ def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
     pairs = read_pairs(sweep)
     claims = claims_of(sweep, pairs) if gallery.paper else []
     parts = [_claims_section(claims) if claims else None, distributions(sweep, pairs, gallery), individual(sweep, gallery),
-             sensitivity_section(sweep, gallery), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
+             sensitivity_section(sweep, gallery), fragility(sweep, gallery), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
     return [part for part in parts if part]
 
 

@@ -77,6 +77,7 @@ class Sweep:
         analyses: number of all analyses; of a job array at work the ledger has not all of them yet.
         limit_m: displacement at which a column counts as overturned [m].
         case: tables of one case of the study, {} where no result folder has one.
+        intensities: PGV [m/s] and PGA [m/s2] of motions read so far, by what they are read with.
     """
 
     folder: Path
@@ -87,6 +88,7 @@ class Sweep:
     analyses: int
     limit_m: float
     case: dict = field(default_factory=dict)
+    intensities: dict = field(default_factory=dict)
 
     @cached_property
     def done(self) -> tuple[Setting, ...]:
@@ -159,9 +161,13 @@ def _ordered(levels: list) -> list:
     return sorted(levels) if numbers else levels
 
 
-def _case(folder: Path) -> dict:
+def read_tables(folder: Path) -> dict:
     """Tables of the case an analysis was run with."""
+    return json.loads((folder / "case.json").read_text())["case"]
+
+
+def _case(folder: Path) -> dict:
     try:
-        return json.loads((folder / "case.json").read_text())["case"]
+        return read_tables(folder)
     except (OSError, ValueError, KeyError, TypeError):
         return {}

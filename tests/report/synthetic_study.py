@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import random
@@ -17,7 +18,7 @@ LIMIT_M = 0.25
 
 
 def write_synthetic(folder: Path, axes: dict, motions: int, *, effect=lambda values: 1.0, scatter=0.5, fails=(), unfinished=(), cost=None,
-                    title="Synthetic study") -> Path:
+                    title="Synthetic study", sources=None) -> Path:
     """A study folder.
 
     Args:
@@ -27,12 +28,13 @@ def write_synthetic(folder: Path, axes: dict, motions: int, *, effect=lambda val
         effect: factor on the peaks at the values of a setting.
         scatter: ln-sd of the peaks of one motion over the settings.
         fails, unfinished: places of analyses that failed, that were not run.
+        sources: of the motions, files with their numbers; without them the motions are names of nothing.
         cost: wall time of a step [s] at the values of a setting; default 2e-4.
     """
     folder.mkdir(parents=True, exist_ok=True)
     lines = [f'"{key}" = {list(values)}' for key, values in axes.items()]
-    sources = ", ".join(f'"pulse:{number}"' for number in range(motions))
-    (folder / "study.toml").write_text(f'title = "{title}"\ncase = "{SPECIMEN}"\n[axes]\n' + "\n".join(lines) + f'\n"motion.source" = [{sources}]\n')
+    named = ", ".join(f'"{source}"' for source in sources or [f"pulse:{number}" for number in range(motions)])
+    (folder / "study.toml").write_text(f'title = "{title}"\ncase = "{SPECIMEN}"\n[axes]\n' + "\n".join(lines) + f'\n"motion.source" = [{named}]\n')
     plan = read_plan(folder / "study.toml")
     with Store(folder / "out", plan, "synthetic:run") as store:
         for place, analysis in enumerate(plan.analyses):
@@ -43,6 +45,7 @@ def write_synthetic(folder: Path, axes: dict, motions: int, *, effect=lambda val
                 continue
             result = store.result_folder(analysis.id)
             result.mkdir(parents=True, exist_ok=True)
+            (result / "case.json").write_text(json.dumps({"case": dataclasses.asdict(analysis.case)}))
             (result / "summary.json").write_text(json.dumps(_summary(analysis, effect, scatter, cost)))
             store.end(finished(analysis.id, result))
     return folder / "out"

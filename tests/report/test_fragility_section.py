@@ -1,0 +1,49 @@
+"""Fragility in the report: intensities of the motions the analyses name, pooled over their scales."""
+
+import csv
+
+import numpy as np
+import pytest
+from synthetic_study import write_synthetic
+from test_page import report
+
+from fecolumn.cli import main
+from fecolumn.motions.ensemble_file import read_member
+from fecolumn.motions.intensity import peak_values
+from fecolumn.statistics.fragility import lognormal
+
+PEAKS = np.linspace(0.5, 5.0, 30)
+
+
+@pytest.fixture(scope="module")
+def pulses(tmp_path_factory):
+    """Thirty pulses of rising peak in one file."""
+    file = tmp_path_factory.mktemp("pulses") / "pulses.h5"
+    assert main(["motions", "make", "pulses", "symmetric_ricker", "--amplitudes", *map(str, PEAKS), "--periods", "0.5", "-o", str(file)]) == 0
+    return [f"{file}#{number}" for number in range(1, len(PEAKS) + 1)]
+
+
+def rows_of(out):
+    with open(out / "report" / "tables" / "fragilities.csv") as file:
+        return list(csv.DictReader(file))
+
+
+def test_fragility_is_that_of_the_motions_over_all_scales(tmp_path, pulses):
+    out = write_synthetic(tmp_path, {"motion.scale": [0.5, 1.0, 2.0], "contact.friction_coefficient": [0.3, 0.8]}, 0, sources=pulses,
+                          effect=lambda values: values["motion.scale"])
+    page = report(out)
+    assert "Fragility" in page.text and "at all its scales" in page.text
+    rows = rows_of(out)
+    assert len(rows) == 2 and all(int(row["n"]) == 90 for row in rows)
+    from fecolumn.study.store import read_study
+
+    done = [row for row in read_study(out).rows if row["axes"]["contact.friction_coefficient"] == 0.3]
+    pgv = [row["axes"]["motion.scale"] * peak_values(read_member(row["axes"]["motion.source"]))[1] for row in done]
+    fit = lognormal(pgv, [row["summary"]["overturned"] for row in done])
+    assert float(rows[0]["pgv_median_m_s"]) == pytest.approx(fit.median, rel=1e-6)
+    assert float(rows[0]["beta"]) == pytest.approx(fit.beta, rel=1e-6)
+
+
+def test_no_fragility_where_the_motions_are_not_to_be_found(tmp_path):
+    page = report(write_synthetic(tmp_path, {"contact.friction_coefficient": [0.3, 0.8]}, 25))
+    assert "Fragility" not in page.text
