@@ -28,6 +28,6 @@ def print_checks(title: str, groups: dict, names, computed: str = "computed", wi
         for label, reference, found, ok in groups[name]():
             ok = None if ok is None else bool(ok)
             failed += ok is False
-            print(f"| {label:<{width}} | {reference:>10.4g} | {found:>10.4g} | {_WORDS[ok]:<3} |", flush=True)
+            print(f"| {label:<{width}} | {reference:>10.5g} | {found:>10.5g} | {_WORDS[ok]:<3} |", flush=True)
         print(f"{name}: {time.perf_counter() - began:.0f} s", file=sys.stderr)
     return int(failed > 0)
