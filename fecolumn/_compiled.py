@@ -47,3 +47,8 @@ def njit(function=None, **options):
         return numba.njit(cache=True, **options)(function)
     finally:
         numba.config.CACHE_DIR = before
+
+
+def compiled(function) -> bool:
+    """Whether a function of `njit` has been compiled on this machine, by whatever process."""
+    return bool(function.signatures) or any(Path(function.stats.cache_path).glob(f"*.{function.__name__}-*.nbi"))

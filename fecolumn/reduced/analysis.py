@@ -7,6 +7,7 @@ import time
 
 import numpy as np
 
+from fecolumn._compiled import compiled
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
 from fecolumn.contact.law import interface_compliance
@@ -18,7 +19,7 @@ from fecolumn.reduced import motion as motions
 from fecolumn.reduced import start
 from fecolumn.reduced.cache import load_model
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.run import Engine, advance
 from fecolumn.simulation import CHECKPOINT, Analysis, AnalysisFailed
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
@@ -46,6 +47,8 @@ class ReducedAnalysis(Analysis):
         super().__init__(case, folder, comm, file, quiet)
         self.model, self.base, self.model_folder = load_model(case, self.say)
         self.warn_of_base(self.base.frequency, file)
+        if not compiled(advance):
+            self.say("compiling the reduced engine, once on this machine: a minute or two")
         self.engine = engine_of(case, self.model, self.base)
         self.fields = self._fields() if self.field_steps else None
         if (folder / CHECKPOINT).is_file():
