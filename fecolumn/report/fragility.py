@@ -34,8 +34,7 @@ def fragility(sweep: Sweep, gallery: Gallery) -> Section | None:
         if values == own and fit:
             curves = _curves(fit[0], measures[:, 0], over)
             told = (f"At {setting_text(own)} half of the columns overturn at {_speed(fit[1])} m/s {interval(fit[2], fit[3], _speed)}, with a logarithmic standard "
-                    f"deviation of {fixed(fit[4])}; the peak acceleration beside the velocity {'tells more' if fit[7] < 0.05 else 'tells no more'} "
-                    f"({p_clause(fit[7])}). ")
+                    f"deviation of {fixed(fit[4])}{_more(fit[7])}. ")
     if curves is None:
         return None
     files = line_figure([CurvePanel("PGV, RotD50 [m/s]", r"$P$(overturn)", curves, {"ylim": (0, 1)}, legend="upper left")], gallery.path("fragility"), gallery.formats)
@@ -52,6 +51,10 @@ def fragility(sweep: Sweep, gallery: Gallery) -> Section | None:
         Table("fragilities", columns, rows, "Lognormal fragility of every setting: PGV at which half overturn, logarithmic standard deviation β, and p "
                                             "of the likelihood ratio that PGA beside PGV tells no more (logistic regression). A dash: the runs "
                                             "hold no maximum of the likelihood.", folded=len(rows) > _FOLD)])
+
+
+def _more(p: float | None) -> str:
+    return "" if p is None else f"; the peak acceleration beside the velocity tells {'' if p < 0.05 else 'no '}more ({p_clause(p)})"
 
 
 def _speed(value) -> str:
@@ -91,15 +94,23 @@ def _intensity(sweep: Sweep, case_id: str) -> tuple[float, float]:
 
 
 def _fit(measures: np.ndarray, over: np.ndarray):
-    """Fragility over PGV, its median and beta with their intervals, p of PGA; None where there is none."""
+    """Fragility over PGV, its median and beta with their intervals, p of PGA or None; None where there is no fragility."""
     try:
         fit = lognormal(measures[:, 0], over)
+    except DegenerateData:
+        return None
+    return fit, fit.median, *fit.median_interval(), fit.beta, *fit.beta_interval(), _second(measures, over)
+
+
+def _second(measures: np.ndarray, over: np.ndarray) -> float | None:
+    """p of the likelihood ratio that PGA beside PGV tells no more; None where PGA goes with PGV, as of pulses of one shape."""
+    from scipy.stats import chi2
+
+    try:
         more = 2 * (logit(measures, over).loglik - logit(measures[:, 0], over).loglik)
     except DegenerateData:
         return None
-    from scipy.stats import chi2
-
-    return fit, fit.median, *fit.median_interval(), fit.beta, *fit.beta_interval(), float(chi2.sf(max(more, 0.0), 1))
+    return float(chi2.sf(max(more, 0.0), 1))
 
 
 def _curves(fit, pgv: np.ndarray, over: np.ndarray) -> list[Curve]:

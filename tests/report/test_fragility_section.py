@@ -42,6 +42,7 @@ def test_fragility_is_that_of_the_motions_over_all_scales(tmp_path, pulses):
     fit = lognormal(pgv, [row["summary"]["overturned"] for row in done])
     assert float(rows[0]["pgv_median_m_s"]) == pytest.approx(fit.median, rel=1e-6)
     assert float(rows[0]["beta"]) == pytest.approx(fit.beta, rel=1e-6)
+    assert all(row["pga_p"] == "" for row in rows), "peaks of pulses of one shape tell the same"
 
 
 def test_no_fragility_where_the_motions_are_not_to_be_found(tmp_path):

@@ -189,3 +189,12 @@ def test_displacements_that_cannot_be_fitted_are_refused():
         displacement([1.0, 2, 3], [0.1, 9, 9], [0, 1, 1])
     with pytest.raises(DegenerateData, match="without scatter"):
         displacement([1.0, 2, 4, 8], [0.01, 0.02, 0.04, 0.08], [0, 0, 0, 0])
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-13, 1e-8])
+def test_measures_that_go_with_each_other_are_refused(noise):
+    rng = np.random.default_rng(3)
+    im = np.exp(rng.normal(size=80))
+    both = np.column_stack([im, 9.81 * im * (1 + noise * rng.normal(size=80))])
+    with pytest.raises(DegenerateData, match="independently"):
+        logit(both, im * np.exp(rng.normal(size=80)) > 1)
