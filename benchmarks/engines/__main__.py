@@ -2,7 +2,7 @@
 
     ./containers/run python -m benchmarks.engines [NAME ...]
 
-physics      specimen: thresholds, quarter period, restitution; ten seeded motions to the third main impact (about ten minutes)
+physics      specimen: thresholds, quarter period, restitution; ten motions to the third main impact, 30 and 100 modes (five minutes)
 convergence  n_modes 0 to 200 (three minutes)
 ensemble     24 motions on a coarse mesh in both engines (an hour; goes on where it stopped; ENGINES_JOBS=2 for two processes)
 standing     a minute at every (dt, alpha) (five minutes)

@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.engines.motions import RESULTS
 from fecolumn.statistics.bands import dkw_distance
-from fecolumn.statistics.ecdf import percentile
+from fecolumn.statistics.ecdf import censored, percentile
 from fecolumn.statistics.two_sample import kolmogorov_smirnov, paired_kolmogorov_smirnov
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import run_study
@@ -26,9 +26,8 @@ def peaks(workers: int) -> dict[str, np.ndarray]:
         row = rows[analysis.id]
         if row["state"] != DONE:
             raise RuntimeError(f"{row['axes']}: {row['reason']}")
-        summary = row["summary"]
-        found.setdefault(analysis.case.integration.engine, []).append(np.inf if summary["overturned"] else summary["u_max_m"])
-    return {engine: np.array(values) for engine, values in found.items()}
+        found.setdefault(analysis.case.integration.engine, []).append((row["summary"]["u_max_m"], row["summary"]["overturned"]))
+    return {engine: censored(*zip(*pairs)) for engine, pairs in found.items()}
 
 
 def ensemble():

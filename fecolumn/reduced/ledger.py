@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fecolumn._compiled import njit
-from fecolumn.reduced.motion import STATIC
+from fecolumn.reduced.motion import STATIC, total_force
 
 # Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS [J]
 START, BASE, FRICTION, HIT, CONTACT_WORK, ALGORITHMIC = range(6)
@@ -41,10 +41,9 @@ def book(column, scheme, points, start, end, sway, ledger):
     """Book a step before its impact, as Stepper._book; returns the work of contact [J]."""
     al, ga, dt, work, algorithmic, base = scheme.alpha, scheme.gamma, scheme.dt, 0.0, 0.0, 0.0
     damping = dt**2 * al**2 / 4
+    total = total_force(end.forces)
     for a in range(3):
-        moved, push = end.center[a] - start.center[a], 0.0
-        for i in range(len(end.forces)):
-            push += end.forces[i, a]
+        moved, push = end.center[a] - start.center[a], total[a]
         mean = column.mass * ((1 - ga) * start.acceleration[a] + ga * end.acceleration[a])
         load = column.mass * (column.gravity[a] - (start.ground[a] + end.ground[a]) / 2)
         algorithmic += moved * (mean - load) - damping * (end.acceleration[a] - start.acceleration[a]) * (mean + push)

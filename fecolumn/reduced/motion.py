@@ -200,6 +200,17 @@ def follow(column, scheme, points, start, free_center, free_modal, advance, forc
 
 
 @njit
+def total_force(forces):
+    """Sum (3,) of forces (n, 3), of which most are zero."""
+    total = np.zeros(3)
+    for i in range(len(forces)):
+        if forces[i, 2] > 0:
+            for a in range(3):
+                total[a] += forces[i, a]
+    return total
+
+
+@njit
 def modal_forces(column, points, rotation, forces, target):
     """target (m,): what forces (n, 3) at the points, the column turned by `rotation`, do on the modes."""
     m = len(target)

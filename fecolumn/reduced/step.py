@@ -9,7 +9,7 @@ from fecolumn.dynamics.stepper import CREATED, OPEN, STUCK
 from fecolumn.reduced.equilibrium import OK, equilibrate
 from fecolumn.reduced.impact import collide, turning_points
 from fecolumn.reduced.ledger import book
-from fecolumn.reduced.motion import RIM_ANGLE, RIM_LIFT, TIME, orthonormal
+from fecolumn.reduced.motion import RIM_ANGLE, RIM_LIFT, TIME, orthonormal, total_force
 from fecolumn.reduced.points import roll
 
 
@@ -66,17 +66,6 @@ def _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway
         return answer, 0.0
     _finish(column, scheme, points, start, ground, end, sway)
     return OK, book(column, scheme, points, start, end, sway, ledger)
-
-
-@njit
-def total_force(forces):
-    """Sum (3,) of forces (n, 3), of which most are zero."""
-    total = np.zeros(3)
-    for i in range(len(forces)):
-        if forces[i, 2] > 0:
-            for a in range(3):
-                total[a] += forces[i, a]
-    return total
 
 
 @njit

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import numpy as np
 
@@ -22,8 +23,9 @@ _FEWEST, _BINS, _FOLD = 20, 6, 20
 
 def fragility(sweep: Sweep, gallery: Gallery) -> Section | None:
     """The section; None where the motions are not to be found, are few, or do not tell overturning from standing."""
+    known: dict[str, tuple[float, float]] = {}
     try:
-        groups = [(values, *_runs(sweep, settings)) for values, settings in _groups(sweep)]
+        groups = [(values, *_runs(sweep.folder, settings, known)) for values, settings in _groups(sweep)]
     except (InputError, OSError, ValueError, KeyError):
         return None
     rows, curves, told = [], None, ""
@@ -70,25 +72,25 @@ def _groups(sweep: Sweep) -> list[tuple[dict, list[Setting]]]:
     return [group for group in groups.values() if sum(len(setting.runs) for setting in group[1]) >= _FEWEST]
 
 
-def _runs(sweep: Sweep, settings: list[Setting]) -> tuple[np.ndarray, np.ndarray]:
+def _runs(folder: Path, settings: list[Setting], known: dict) -> tuple[np.ndarray, np.ndarray]:
     """PGV and PGA (n, 2) [m/s, m/s2] of all runs, and which overturned (n,)."""
     runs = [run for setting in settings for run in setting.runs.values()]
-    measures = np.array([_intensity(sweep, run["case_id"]) for run in runs])
+    measures = np.array([_intensity(folder / "analyses" / run["case_id"], known) for run in runs])
     return measures, np.concatenate([setting.peaks()[1] for setting in settings])
 
 
-def _intensity(sweep: Sweep, case_id: str) -> tuple[float, float]:
-    """PGV [m/s] and PGA [m/s2] of the motion of an analysis; each motion is read once."""
+def _intensity(folder: Path, known: dict) -> tuple[float, float]:
+    """PGV [m/s] and PGA [m/s2] of the motion of the analysis in a folder; `known` has those of motions read before, at scale 1."""
     from fecolumn.case import Motion
     from fecolumn.motions.intensity import peak_values
     from fecolumn.motions.load import unsampled
 
-    table = dict(read_tables(sweep.folder / "analyses" / case_id)["motion"])
-    scale, known = table["scale"], sweep.intensities
+    table = read_tables(folder)["motion"]
+    scale = table["scale"]
     table.update(scale=1.0, free_vibration_s=0.0, delay_s=0.0)
     key = json.dumps(table, sort_keys=True)
     if key not in known:
-        pga, pgv, _ = peak_values(unsampled(build(Motion, table, sweep.folder), sweep.folder))
+        pga, pgv, _ = peak_values(unsampled(build(Motion, table, folder), folder))
         known[key] = pgv, pga
     return scale * known[key][0], scale * known[key][1]
 

@@ -77,7 +77,6 @@ class Sweep:
         analyses: number of all analyses; of a job array at work the ledger has not all of them yet.
         limit_m: displacement at which a column counts as overturned [m].
         case: tables of one case of the study, {} where no result folder has one.
-        intensities: PGV [m/s] and PGA [m/s2] of motions read so far, by what they are read with.
     """
 
     folder: Path
@@ -88,7 +87,6 @@ class Sweep:
     analyses: int
     limit_m: float
     case: dict = field(default_factory=dict)
-    intensities: dict = field(default_factory=dict)
 
     @cached_property
     def done(self) -> tuple[Setting, ...]:

@@ -69,10 +69,10 @@ def refuse_degenerate(x: np.ndarray, yes: np.ndarray) -> None:
     k, n = int(yes.sum()), yes.size
     if k in (0, n):
         raise DegenerateData(f"{'none' if k == 0 else 'all'} of {n} runs overturned: only a bound of P(overturn) can be told: proportion_interval")
-    spread = x[:, 1:] - x[:, 1:].mean(axis=0)
     # columns alike but for one part in 1e5, such as peaks of pulses of one shape, leave the information singular to rounding
-    if np.linalg.matrix_rank(spread / np.maximum(np.abs(spread).max(axis=0), 1e-300), tol=1e-5 * np.sqrt(len(x))) < spread.shape[1] \
-            or (np.abs(spread).max(axis=0) <= 1e-12 * np.abs(x[:, 1:]).max(axis=0)).any():
+    spread = x[:, 1:] - x[:, 1:].mean(axis=0)
+    size = np.maximum(np.abs(spread).max(axis=0), 1e-9 * np.abs(x[:, 1:]).max(axis=0) + 1e-300)
+    if np.linalg.matrix_rank(spread / size, tol=1e-5 * np.sqrt(len(x))) < spread.shape[1]:
         raise DegenerateData("the intensity measures do not vary, or not independently of each other")
     if _separated(x, yes):
         raise DegenerateData("the intensity parts all runs that overturned from all that stood: the slope of the fragility is unbounded")
