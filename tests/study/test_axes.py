@@ -82,3 +82,14 @@ def test_ids_are_those_of_the_cases(tmp_path):
 def test_mistakes_name_table_key_and_value(tmp_path, text, message):
     with pytest.raises(InputError, match=message):
         _plan(tmp_path, text)
+
+
+def test_a_span_of_the_lick_ensemble_is_its_motions_in_order(tmp_path):
+    plan = _plan(tmp_path, '[axes]\n"motion.source" = ["lick:3-6", "lick:1"]\n')
+    assert plan.axes["motion.source"] == ("lick:3", "lick:4", "lick:5", "lick:6", "lick:1")
+
+
+@pytest.mark.parametrize("span", ["lick:0-3", "lick:5-4", "lick:100-116"])
+def test_a_span_beyond_the_ensemble_is_refused(tmp_path, span):
+    with pytest.raises(InputError, match=r"axes.motion.source = .*two rising numbers from 1 to 115"):
+        _plan(tmp_path, f'[axes]\n"motion.source" = ["{span}"]\n')
