@@ -29,11 +29,12 @@ from fecolumn.case import Case
 from fecolumn.motions import lick
 from fecolumn.motions.ensemble_file import ALL, file_and_number, members
 from fecolumn.motions.record import UnusableRecord
-from fecolumn.schema import InputError
+from fecolumn.schema import InputError, build
+from fecolumn.study.keys import LatinHypercube
 
 # A study's tables that hold axes
 TABLES = ("axes", "zip", "latin_hypercube")
-_SAMPLES = ("samples", "seed")
+_SAMPLES = tuple(field.name for field in dataclasses.fields(LatinHypercube))
 _SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
 
 
@@ -126,10 +127,7 @@ def _latin_hypercube(table, path: Path) -> Factor:
     name = "latin_hypercube"
     if not isinstance(table, dict):
         raise InputError(path, name, table, 'a table is needed: samples, seed and ranges such as "contact.friction_coefficient" = [0.2, 0.8]')
-    for key, low, default in (("samples", 1, None), ("seed", 0, 0)):
-        value = table.get(key, default)
-        if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= 10**9:
-            raise InputError(path, f"{name}.{key}", value, f"must be a whole number in [{low}, 1e9]")
+    build(LatinHypercube, {key: table[key] for key in _SAMPLES if key in table}, path, f"{name}.")
     ranges = {key: values for key, values in _flat(table) if key not in _SAMPLES}
     if not ranges:
         raise InputError(path, name, None, 'needs a range [low, high] for a key at least, such as "contact.friction_coefficient" = [0.2, 0.8]')

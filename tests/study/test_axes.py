@@ -71,7 +71,7 @@ def test_ids_are_those_of_the_cases(tmp_path):
     ('[[zip]]\n"contact.friction_coefficient" = [0.3, -1]', r"zip.contact.friction_coefficient = -1: must lie in"),
     (ZIP + '[axes]\n"column.height_m" = [1.0]', "zip.column.height_m: stands in axes already"),
     ("[[zip]]\n", "zip = {}: a table of lists"),
-    ('[latin_hypercube]\n"contact.friction_coefficient" = [0.2, 0.8]', r"latin_hypercube.samples: must be a whole number in \[1"),
+    ('[latin_hypercube]\n"contact.friction_coefficient" = [0.2, 0.8]', r"latin_hypercube.samples: missing; number of samples"),
     ("[latin_hypercube]\nsamples = 3", "latin_hypercube: needs a range"),
     ('[latin_hypercube]\nsamples = 3\n"contact.friction_coefficient" = [0.8, 0.2]', "two rising numbers"),
     ('[latin_hypercube]\nsamples = 3\n"contact.friction_coefficient" = [0.0, 0.2, "log"]', "must be above 0 for a logarithm"),
