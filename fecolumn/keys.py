@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import re
 import textwrap
 import types
 import typing
@@ -149,6 +150,8 @@ def _allowed(metadata, kind) -> str:
     if kinds == [str] and not metadata["choices"]:
         return "text"
     words = allowed_range(metadata | {"unit": "-"})
+    if kinds == [int]:  # as it is typed
+        words = re.sub(r"[\d.]+e\+?\d+", lambda number: f"{float(number[0]):.0f}", words)
     words = words.removeprefix("must be ").removeprefix("must lie ")
     if typing.get_origin(kinds[0]) is tuple:
         return f"list, each {words}"

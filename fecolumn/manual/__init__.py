@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-_FOLDER = Path(__file__).parent
+FOLDER = Path(__file__).parent
 # in the order of reading
 TOPICS = ("quick-start", "cases", "keys", "motions", "studies", "statistics", "outputs", "examples", "python", "clusters", "theory", "changelog")
 
@@ -41,8 +41,8 @@ def page(topic: str) -> str:
 def contents() -> str:
     """Topics with their titles."""
     lines = [f"  {name:12} {_text(name).partition(chr(10))[0].removeprefix('# ')}" for name in TOPICS]
-    return "\n".join(["fecolumn help TOPIC, of:", *lines, "", f"The same as files: {_FOLDER}", "Options of a command: fecolumn COMMAND --help"])
+    return "\n".join(["fecolumn help TOPIC, of:", *lines, "", f"The same as files: {FOLDER}", "Options of a command: fecolumn COMMAND --help"])
 
 
 def _text(name: str) -> str:
-    return (_FOLDER / f"{name}.md").read_text(encoding="utf-8").rstrip()
+    return (FOLDER / f"{name}.md").read_text(encoding="utf-8").rstrip()

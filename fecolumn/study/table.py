@@ -13,7 +13,7 @@ from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.study.plan import Plan
 from fecolumn.study.store import DONE
 
-_LINE_AXIS = "integration.alpha_hht"  # the axis told apart by lines; all others by panels
+_LINE_AXIS = "integration.alpha_hht"  # the axis told apart by lines where it is varied with others; all others by panels
 
 _TABLE = ("planned", "n", "overturned", "p_overturn", "wilson_low", "wilson_high", "exact_low", "exact_high",
           "u_max_16_m", "u_max_50_m", "u_max_84_m", "energy_closure_worst")
@@ -89,12 +89,15 @@ def table_text(plan: Plan, rows: list[dict]) -> str:
 
 
 def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
-    """Write cdf.png and cdf.pdf: a panel for each time step (and any other axis), a line for each alpha."""
+    """Write cdf.png and cdf.pdf: one set of axes with a line for each setting where one axis is varied, else a panel for each time step
+    (and any other axis) with a line for each alpha."""
+    varied = [key for key in plan.analyses[0].combination if len(set(map(repr, plan.axes[key]))) > 1]
+    by_line = varied[0] if len(varied) == 1 else _LINE_AXIS
     panels: dict[str, list] = {}
     for values, done, _ in combinations(plan, rows):
-        title = ", ".join(axis_text(key, value) for key, value in values.items() if key != _LINE_AXIS)
+        title = ", ".join(axis_text(key, value) for key, value in values.items() if key in varied and key != by_line)
         if done:
-            label = axis_text(_LINE_AXIS, values[_LINE_AXIS]) if _LINE_AXIS in values else f"$n$ = {len(done)}"
+            label = axis_text(by_line, values[by_line]) if by_line in values else f"$n$ = {len(done)}"
             panels.setdefault(title, []).append((label, ecdf([s["u_max_m"] for s in done], [s["overturned"] for s in done])))
     if not panels:
         return []
