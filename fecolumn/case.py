@@ -111,7 +111,7 @@ class Motion(Section):
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
     delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3)
-    vertical: bool = parameter(False, doc="apply the vertical component too; refused where the record has none")
+    vertical: bool = parameter(False, doc="apply the vertical component where the record has one")
     free_vibration_s: float = parameter(1.0, doc="time analysed after the motion's end", unit="s", low=0, high=1e4)
 
 
