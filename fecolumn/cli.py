@@ -1,4 +1,4 @@
-"""The command line: fecolumn mesh | run | resume | study | compare | report | verify | motions | doctor."""
+"""The command line: fecolumn mesh | run | resume | study | compare | report | verify | motions | prepare | doctor."""
 
 from __future__ import annotations
 
@@ -102,6 +102,8 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.motions import command as ground
 
     ground.add_arguments(motions)
+    prepare = commands.add_parser("prepare", help="compile what each machine compiles once; the set-up does it")
+    prepare.set_defaults(command=_prepare)
     commands.add_parser("doctor", help="versions and known traps of this machine")
     return parser
 
@@ -111,6 +113,13 @@ def _mesh(args) -> int:
     from fecolumn.mesh.report import mesh_report
 
     print(mesh_report(read_case(args.case), args.output))
+    return 0
+
+
+def _prepare(args) -> int:
+    from fecolumn.prepare import prepare
+
+    prepare(print)
     return 0
 
 

@@ -217,6 +217,7 @@ class _FullAnalysis(Analysis):
     """A running analysis of the full-order engine."""
 
     def __init__(self, case, folder, comm, file, quiet):
+        from fecolumn.contact.friction import prepare_solver
         from fecolumn.dynamics import gravity
         from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
         from fecolumn.dynamics.checkpoint import read_checkpoint
@@ -225,6 +226,8 @@ class _FullAnalysis(Analysis):
         from fecolumn.dynamics.stepper import Record, Stepper
 
         super().__init__(case, folder, comm, file, quiet)
+        prepare_solver(self.say)
+        self.began = time.perf_counter()
         plan = case.integration
         specimen = share_specimen_mesh(case, comm)
         self.system = build_system(case, comm, specimen)

@@ -48,8 +48,9 @@ class ReducedAnalysis(Analysis):
         self.model, self.base, self.model_folder = load_model(case, self.say)
         self.warn_of_base(self.base.frequency, file)
         if not compiled(advance):
-            self.say("compiling the reduced engine, once on this machine: a minute or two")
+            self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
         self.engine = engine_of(case, self.model, self.base)
+        self.began = time.perf_counter()  # what was made and compiled so far was so for all analyses
         self.fields = self._fields() if self.field_steps else None
         if (folder / CHECKPOINT).is_file():
             self._resume()
