@@ -3,6 +3,7 @@
 import json
 import math
 import warnings
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 
 import fecolumn.reduced.analysis  # noqa: F401  (compiled functions belong in the user's cache, not in this module's)
 from fecolumn import simulation
-from fecolumn.case import case_from_tables
+from fecolumn.case import case_from_tables, read_case, read_toml
 from fecolumn.cli import main
 from fecolumn.schema import InputError, merge
 
@@ -18,7 +19,7 @@ DRUM = {
     "column": {"outer_diameter_m": 0.5, "height_m": 1.6, "wall_m": 0.25, "fine_height_m": 0.1},
     "base": {"length_m": 1.0, "width_m": 1.0, "thickness_m": 0.1, "youngs_modulus_pa": 50e9, "density_kg_m3": 2700},
     "material": {"youngs_modulus_pa": 50e9, "density_kg_m3": 2700}, "contact": {"friction_coefficient": 0.8},
-    "mesh": {"fine_size_m": 0.1, "coarse_size_m": 0.098, "base_size_m": 0.3}, "integration": {"engine": "rigid"}}
+    "mesh": {"fine_size_m": 0.09, "coarse_size_m": 0.098, "base_size_m": 0.3}, "integration": {"engine": "rigid"}}
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -125,9 +126,7 @@ def test_case_with_a_motion_runs_all_of_it(tmp_path):
     """The specimens of this repository say nothing of a duration, so that the motion does."""
     source = pulse(tmp_path / "pulse.csv", 0.01, 0.0, 0.1, 1.5)
     for specimen in ("specimen", "stout"):
-        (tmp_path / f"{specimen}.toml").write_text(f'extends = "{simulation.Path("meshes").resolve() / specimen}.toml"\n[motion]\nsource = "{source}"\n')
-        from fecolumn.case import read_case
-
+        (tmp_path / f"{specimen}.toml").write_text(f'extends = "{Path("meshes").resolve() / specimen}.toml"\n[motion]\nsource = "{source}"\n')
         assert read_case(tmp_path / f"{specimen}.toml").integration.duration_s == 0
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -145,3 +144,19 @@ def test_motion_cut_short_is_said(tmp_path, capsys):
     assert "integration.duration_s = 0.02 s cuts the motion short, which lasts 1.5 s" in said.err
     assert json.loads((out / "summary.json").read_text())["motion_cut_at_s"] == pytest.approx(0.02)
     assert "at rest, residual slide" in said.out
+
+
+def test_strong_motion_overturns_in_both_engines_at_the_same_time(tmp_path):
+    """A push of 0.5 s lays the stout tube on a coarse mesh down after it: full order and reduced within a step or two."""
+    tables = merge(read_toml("meshes/stout.toml"), {
+        "column": {"fine_height_m": 0.01}, "mesh": {"coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05},
+        "base": {"slide_allowance_m": 0.01}, "integration": {"dt_s": 2e-3},
+        "motion": {"source": pulse(tmp_path / "push.csv", 2.0, 0.05, 0.55, 0.6), "free_vibration_s": 2.0}})
+    found = [simulation.run(case_from_tables(merge(tables, {"integration": {"engine": engine}}), "stout.toml"), tmp_path / engine, quiet=True)
+             for engine in ("full", "reduced")]
+    for summary in found:
+        assert summary["overturned"] and summary["ended_by"].startswith("point of no return") and summary["tilt_max_rad"] > summary["critical_tilt_rad"]
+    full, reduced = found
+    assert reduced["overturn_time_s"] == pytest.approx(full["overturn_time_s"], abs=0.01)
+    assert (reduced["critical_tilt_rad"], reduced["u_critical_m"], reduced["energy_to_overturn_j"]) == pytest.approx(
+        (full["critical_tilt_rad"], full["u_critical_m"], full["energy_to_overturn_j"]), rel=1e-9)
