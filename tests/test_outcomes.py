@@ -81,7 +81,7 @@ def test_cap_of_a_case_ends_the_analysis_sooner_and_says_so(tmp_path):
 
 def test_free_vibration_goes_on_until_rest(tmp_path):
     """The drum rocks for seconds after its pulse; the same to the last digit where it was interrupted in its free vibration."""
-    motion = {"source": pulse(tmp_path / "pulse.csv", 3.6, 0.0, 0.1, 0.2), "free_vibration_s": "rest"}
+    motion = {"source": pulse(tmp_path / "pulse.csv", 3.6, 0.0, 0.18, 0.2), "free_vibration_s": "rest"}
     case = drum(motion=motion, integration={"alpha_hht": -0.2})
     whole = simulation.run(case, tmp_path / "whole", quiet=True)
     assert whole["outcome"] == "at rest" and "after the motion's end" in whole["ended_by"] and whole["tilt_max_rad"] > 1e-3
@@ -157,6 +157,7 @@ def test_strong_motion_overturns_in_both_engines_at_the_same_time(tmp_path):
     for summary in found:
         assert summary["overturned"] and summary["ended_by"].startswith("point of no return") and summary["tilt_max_rad"] > summary["critical_tilt_rad"]
     full, reduced = found
-    assert reduced["overturn_time_s"] == pytest.approx(full["overturn_time_s"], abs=0.01)
+    assert reduced["overturn_time_s"] == pytest.approx(full["overturn_time_s"], abs=0.005)
+    assert reduced["tilt_max_rad"] == pytest.approx(full["tilt_max_rad"], rel=0.01)
     assert (reduced["critical_tilt_rad"], reduced["u_critical_m"], reduced["energy_to_overturn_j"]) == pytest.approx(
         (full["critical_tilt_rad"], full["u_critical_m"], full["energy_to_overturn_j"]), rel=1e-9)
