@@ -128,7 +128,7 @@ class ReducedTrial(Trial):
         def begin(engine):
             return starts.standing(engine) if first is None else self.reduction.projected(engine, first, system)
 
-        self.engine = Engine(self.reduction.model, system.base, view(self.reduction.model, np.inf), system.hht, system.gravity, interface.friction,
+        self.engine = Engine(self.reduction.model, system.base, view(self.reduction.model, system.weight, interface.friction), system.hht, system.gravity, interface.friction,
                              interface.own, interface.rim, begin)
         self.state = self.start = self._state()
 

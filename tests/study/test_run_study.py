@@ -244,6 +244,9 @@ def test_tables_count_what_failed_and_what_overturned(tmp_path):
     assert 0 < overturned < 8  # the pulses were chosen so
     assert (row["planned"], row["n"], row["overturned"]) == ("9", "8", str(overturned))
     assert float(row["p_overturn"]) == pytest.approx(overturned / 8)
+    header, *lines = [line.split(",") for line in (tmp_path / "out" / "analyses.csv").read_text().splitlines()]
+    analyses = [dict(zip(header, line)) for line in lines]
+    assert all((one["u_max_m"] == "") == (one["overturned"] != "0") for one in analyses)  # what overturned, or failed, has no peak
     assert "wall" not in ",".join(header) and "wall_s" in (tmp_path / "out" / "timing.csv").read_text()
     assert "8/9" in table_text(plan, rows)
 
