@@ -40,7 +40,7 @@ class Cap:
 
 @dataclass(frozen=True, slots=True)
 class Base:
-    """Elastic base plate; its bottom is held by the shaking table."""
+    """What the column stands on: an elastic plate held at its bottom, a flat of the same layer without edges, or a pad of springs and dashpots."""
 
     length_m: float = parameter(doc="length along x", unit="m", above=0, high=1000)
     width_m: float = parameter(doc="length along y", unit="m", above=0, high=1000)
@@ -49,6 +49,10 @@ class Base:
     youngs_modulus_pa: float = parameter(200e9, doc="Young's modulus of the base", unit="Pa", above=0, high=1e15)
     poissons_ratio: float = parameter(0.3, doc="Poisson's ratio of the base", low=0, high=0.49)
     density_kg_m3: float = parameter(7850.0, doc="density of the base", unit="kg/m3", above=0, high=1e5)
+    kind: str = parameter("plate", doc="plate: elastic plate with edges; unbounded: the same layer without edges; pad: springs and dashpots per area, without edges", choices=("plate", "unbounded", "pad"), since="0.2")
+    stiffness_n_m3: float = parameter(0.0, doc="springs across a pad per area (subgrade modulus); needed for a pad", unit="N/m3", low=0, high=1e15, since="0.2")
+    shear_stiffness_n_m3: float = parameter(0.0, doc="springs along a pad per area; 0 takes 0.8 of stiffness_n_m3", unit="N/m3", low=0, high=1e15, since="0.2")
+    damping_ratio: float = parameter(0.0, doc="of the dashpots of a pad: that of the standing column's vertical mode", low=0, high=10, since="0.2")
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +113,7 @@ class Motion:
     time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", above=0, high=1e3)
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
-    delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3)
+    delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1")
     vertical: bool = parameter(False, doc="apply the vertical component where the record has one")
     free_vibration_s: float = parameter(1.0, doc="time analysed after the motion's end", unit="s", low=0, high=1e4)
 
@@ -181,6 +185,8 @@ class Case:
 
 # what tells one case from another: all but title and output
 SECTIONS = tuple(field.name for field in dataclasses.fields(Case) if field.name not in ("title", "output"))
+# keys of [base] that a pad alone has
+PAD_KEYS = "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"
 # keys that may name files
 FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
 
@@ -205,8 +211,10 @@ def section_text(name: str, section) -> str:
     table = dataclasses.asdict(section) if section else None
     for key in FILES.get(name, ()) if table else ():
         table[key] = content(table[key])
-    if name == "motion" and table and not table["delay_s"]:  # a key younger than the first studies: their results keep their names
-        del table["delay_s"]
+    for field in dataclasses.fields(section) if section else ():
+        # a key younger than the first studies: their results keep their names
+        if field.metadata["since"] and table[field.name] == field.default:
+            del table[field.name]
     return json.dumps(table, sort_keys=True)
 
 
@@ -269,9 +277,10 @@ def check(case: Case, file) -> None:
     for key in ("length_m", "width_m"):
         if case.cap and getattr(case.cap, key) < column.outer_diameter_m:
             refuse(f"cap.{key}", getattr(case.cap, key), f"must be at least column.outer_diameter_m = {column.outer_diameter_m:g} m")
-        if getattr(base, key) < column.outer_diameter_m + 2 * base.slide_allowance_m:
+        if base.kind == "plate" and getattr(base, key) < column.outer_diameter_m + 2 * base.slide_allowance_m:
             refuse(f"base.{key}", getattr(base, key),
                    f"must be at least outer_diameter_m + 2 slide_allowance_m = {column.outer_diameter_m + 2 * base.slide_allowance_m:g} m")
+    check_base(case, refuse)
     if case.integration.engine != "full":
         for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic")):
             if (value := getattr(getattr(case, section), key)) != needed:
@@ -282,3 +291,17 @@ def check(case: Case, file) -> None:
             refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
     elif case.integration.duration_s == 0:
         refuse("integration.duration_s", 0, "must be greater than 0 s where the case has no motion")
+
+
+def check_base(case: Case, refuse) -> None:
+    """Keys of a pad, where there is one and where there is none."""
+    base = case.base
+    if base.kind != "pad":
+        for key in PAD_KEYS:
+            if value := getattr(base, key):
+                refuse(f"base.{key}", value, f"is of a pad; base.kind = {base.kind!r} has none")
+        return
+    if not base.stiffness_n_m3:
+        refuse("base.stiffness_n_m3", base.stiffness_n_m3, "must be greater than 0 N/m3 where base.kind = 'pad'")
+    if case.contact.impact != "plastic":
+        refuse("contact.impact", case.contact.impact, "must be plastic where base.kind = 'pad', whose springs take the place of impacts")

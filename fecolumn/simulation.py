@@ -256,7 +256,8 @@ class _FullAnalysis(Analysis):
         from fecolumn.post.fields import FieldWriter
 
         system = self.system
-        return FieldWriter(self.folder / "fields", system.column, system.base, system.foot_nodes, system.areas, specimen)
+        plate = system.base if len(specimen.base.cells) else None
+        return FieldWriter(self.folder / "fields", system.column, plate, system.foot_nodes, system.areas, specimen)
 
     def _write_fields(self) -> None:
         from fecolumn.dynamics.free_body import FreeBody
@@ -304,7 +305,7 @@ class _FullAnalysis(Analysis):
             raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
         finally:
             progress.end()
-        dofs = 3 * (self.system.column.n_nodes + self.system.base.body.n_nodes)
+        dofs = 3 * self.system.column.n_nodes + self.system.base.dofs
         return self.finish(overturned, dofs, self.stepper.record, self.system.factorizations)
 
     def _agree(self, due: bool, ended: bool) -> tuple[bool, bool]:

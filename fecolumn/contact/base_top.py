@@ -19,6 +19,9 @@ class BaseTop:
         points: (n, 3) [m] reference positions of the top's nodes in any order.
     """
 
+    #: Size of the squares by which the top follows the foot [m]; this one stays.
+    size = 0.0
+
     def __init__(self, points: np.ndarray):
         self.points = points
         self.x, self.y = (_lines(points[:, axis]) for axis in (0, 1))

@@ -30,7 +30,8 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
     forces = np.zeros((interface.size, 3))
     factors = PSEUDO_INERTIA, 1.0
     for _ in range(max_iterations):
-        stage = Stage(target=x, load=load, start=x, scale=1.0, anchors=anchors, forces=forces, rotation=np.eye(3))
+        stage = Stage(target=x, load=load, start=x, scale=1.0, anchors=anchors, forces=forces,
+                      spring=interface.spring(np.inf, np.zeros_like(forces)), rotation=np.eye(3))
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
         if outcome.stop is not Stop.CONVERGED:
             raise RuntimeError(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
@@ -45,7 +46,7 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
     return State(
         time=0.0, x=x, v=np.zeros_like(x), a=-push, contact_a=push, internal=outcome.internal, strain=outcome.strain,
         rotation=outcome.rotation, forces=forces, anchors=anchors, relative=outcome.relative,
-        static=outcome.static, ground=np.zeros(3))
+        static=outcome.static, ground=np.zeros(3), indent=stage.spring.indented(forces))
 
 
 def tilted(system, tilt: float, direction: float) -> State:
@@ -63,4 +64,5 @@ def tilted(system, tilt: float, direction: float) -> State:
     fall = np.tile(system.gravity, (len(x), 1))
     return State(
         time=0.0, x=x, v=np.zeros_like(x), a=fall, contact_a=np.zeros_like(x), internal=internal, strain=strain, rotation=rotation,
-        forces=np.zeros((interface.size, 3)), anchors=relative[:, :2].copy(), relative=relative, static=0.0, ground=np.zeros(3))
+        forces=np.zeros((interface.size, 3)), anchors=relative[:, :2].copy(), relative=relative, static=0.0, ground=np.zeros(3),
+        indent=np.zeros((interface.size, 3)))

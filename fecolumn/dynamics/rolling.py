@@ -69,13 +69,15 @@ def rolled(system, state, dt: float, rolls: bool = True):
 
     slots, taken = rim.nodes, rim.nodes[numbers]
     forces, anchors, relative = state.forces.copy(), state.anchors.copy(), state.relative.copy()
+    indent = state.indent.copy()
     forces[slots], anchors[slots], relative[slots] = state.forces[taken], state.anchors[taken], state.relative[taken]
+    indent[slots] = state.indent[taken]
     shift = now - before[numbers]
     shift[near, 2] = (start - before[numbers])[near, 2] if leaps else 0.0
     anchors[slots] += shift[:, :2]
     relative[slots] += shift
     interface.place(new, _lifted(n, near, lift))
-    return replace(state, forces=forces, anchors=anchors, relative=relative, rim_angle=angle, rim_lift=lift)
+    return replace(state, forces=forces, anchors=anchors, relative=relative, indent=indent, rim_angle=angle, rim_lift=lift)
 
 
 def _near(points, n: int) -> np.ndarray:

@@ -99,11 +99,12 @@ class Stepper:
         state, booked = rolled(system, start, hht.dt, rolls), dict(self.ledger.work)
         dt, al, be, ga = hht.dt, hht.alpha, hht.beta, hht.gamma
         F0, F1 = system.load(state.ground), system.load(ground)
+        spring = interface.spring(dt, state.indent)
         stage = Stage(
             target=state.x + dt * state.v + dt**2 * (0.5 - be) * state.a,
             load=(1 + al) * F1 - al * F0 + al * state.internal,
             start=system.kinematics.predicted(state.x, dt * state.v + dt**2 / 2 * (state.a + state.contact_a)),
-            scale=1 / (2 * be) if self.plastic else 1.0, anchors=state.anchors, forces=state.forces, rotation=state.rotation)
+            scale=1 / (2 * be) if self.plastic else 1.0, anchors=state.anchors, forces=state.forces, spring=spring, rotation=state.rotation)
         operators = system.operators(hht.mass_factor, hht.stiffness_factor)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
         self.record.iterations += outcome.iterations
@@ -115,9 +116,9 @@ class Stepper:
         R, forces = outcome.halfway, outcome.forces
         after = State(
             time=state.time + dt, x=outcome.x, v=state.v, a=state.a, contact_a=state.contact_a, internal=outcome.internal,
-            strain=outcome.strain, rotation=outcome.rotation, forces=forces, anchors=self._anchors(state, outcome),
-            relative=outcome.relative, static=outcome.static, ground=np.array(ground, float), rim_angle=state.rim_angle,
-            rim_lift=state.rim_lift)
+            strain=outcome.strain, rotation=outcome.rotation, forces=forces, anchors=self._anchors(state, outcome, spring),
+            relative=outcome.relative, static=outcome.static, ground=np.array(ground, float), indent=spring.indented(forces),
+            rim_angle=state.rim_angle, rim_lift=state.rim_lift)
         push = interface.load(forces, R)
         if self.plastic:
             w = interface.acceleration(forces, R)
@@ -133,6 +134,9 @@ class Stepper:
             # several points of the rim carry while it rolls fast: they stay for this step
             self.ledger.work.update(booked)
             return self._hht_step(start, ground, hht, rolls=False)
+        if interface.pad is not None:
+            # its springs bring a landing foot to rest in their own time: there is no impact
+            return after
         landing = (state.forces[:, 2] <= 0) & (state.relative[:, 2] > OPEN * interface.width) & (forces[:, 2] > 0)
         if self.plastic:
             turning = self._turning(state, after, dt)
@@ -162,9 +166,9 @@ class Stepper:
         moves = dt * np.linalg.norm(start, axis=1) > SLIDE * self.system.interface.width
         return touching & moves & (slid & ~slips | against & (state.forces[:, 2] > 0))
 
-    def _anchors(self, state, outcome) -> np.ndarray:
-        """Where the points stick from now on: a slipping penalty spring keeps its elastic part."""
-        elastic = self.system.interface.own[:, :2] * outcome.forces[:, :2]
+    def _anchors(self, state, outcome, spring) -> np.ndarray:
+        """Where the points stick from now on: a slipping spring of penalty or pad keeps its elastic part."""
+        elastic = spring.own[:, :2] * outcome.forces[:, :2] + spring.offset[:, :2]
         here = outcome.relative[:, :2] + elastic
         moved = (np.linalg.norm(here - state.anchors, axis=1) > STUCK * self.system.interface.width) | (outcome.forces[:, 2] <= 0)
         return np.where(moved[:, None], here, state.anchors)
@@ -183,7 +187,7 @@ class Stepper:
         touching = after.forces[:, 2] > 0
         slip = np.where(touching[:, None], after.anchors - state.anchors, 0.0)
         friction = float(np.sum(after.forces[:, :2] * slip))
-        landing = touching & (state.forces[:, 2] <= 0)
+        landing = touching & (state.forces[:, 2] <= 0) & (self.system.interface.pad is None)
         landed = float(after.forces[landing, 2] @ (after.relative - state.relative)[landing, 2])
         self.ledger.add(base_work=-np.dot((state.ground + after.ground) / 2, carried), algorithmic=algorithmic,
                         friction=friction, impact=landed, contact=contact - friction - landed)

@@ -22,8 +22,8 @@ class State:
     internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (3, 3) mean rotation.
     forces: (n, 3) contact forces on the foot [N]; anchors: (n, 2) where its points stick [m];
     relative: (n, 3) position of its points relative to the base, the third column the gap [m];
-    static: strain energy of base, foot's static rest and penalty springs [J].
-    ground: (3,) acceleration of the base [m/s2].
+    static: strain energy of base, foot's static rest, penalty springs and pad [J].
+    ground: (3,) acceleration of the base [m/s2]. indent: (n, 3) indentation of the pad at the points [m]; see `contact.pad`.
     rim_angle: where the round rim's lowest contact point is [rad], nan while the foot touches with its nodes only; rim_lift: (5,)
         how far it and its neighbours are above the rim there [m].
     """
@@ -41,6 +41,7 @@ class State:
     relative: np.ndarray
     static: float
     ground: np.ndarray
+    indent: np.ndarray
     rim_angle: float = np.nan
     rim_lift: np.ndarray = field(default_factory=lambda: np.zeros(5))
 
@@ -68,7 +69,7 @@ class System:
         kinematics: Corotated or TotalLagrangian of the column.
         base: BasePlate.
         foot_nodes: (n,) column nodes that may touch; areas: (n,) their tributary areas [m2].
-        friction, own: of the Interface.
+        friction, own, pad: of the Interface.
         gravity: (3,) [m/s2].
         hht: time integration whose step decides the filter of the contact.
         filtered: contact by FilteredFoot, as the plastic impact law needs it, or PlainFoot.
@@ -76,7 +77,7 @@ class System:
     """
 
     def __init__(self, column, kinematics, base, foot_nodes, areas, friction, own, gravity, hht: HHT, filtered=True,
-                 rim=None):
+                 rim=None, pad=None):
         self.column, self.kinematics, self.base = column, kinematics, base
         self.foot_nodes, self.areas = foot_nodes, areas
         self.gravity, self.hht = np.asarray(gravity, float), hht
@@ -86,7 +87,7 @@ class System:
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)
         foot = FilteredFoot(column, foot_nodes, factor, hht.mass_factor, hht.stiffness_factor) if filtered \
             else PlainFoot(column, foot_nodes)
-        self.interface = Interface(foot, column.all_X[foot_nodes], base, friction, own, rim)
+        self.interface = Interface(foot, column.all_X[foot_nodes], base, friction, own, rim, pad)
         self._add(hht.mass_factor, hht.stiffness_factor, factor, np.eye(3))
 
     def _factor(self, mass_factor, stiffness_factor, tangent=None) -> Factor:

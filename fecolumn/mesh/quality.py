@@ -114,7 +114,8 @@ def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
             Row("smallest scaled Jacobian of the column", "-", float(scaled_jacobian(column).min()))]
     if is_cap.any():
         rows += [Row("smallest scaled Jacobian of the cap", "-", float(scaled_jacobian(_part(body, is_cap)).min()))]
-    rows += [Row("smallest scaled Jacobian of the base", "-", float(scaled_jacobian(base).min()))]
+    if len(base.cells):
+        rows += [Row("smallest scaled Jacobian of the base", "-", float(scaled_jacobian(base).min()))]
 
     found, exact = mass_properties(column, density), exact_column(case)
     rows += _mass_rows("column", found, exact)
@@ -123,8 +124,9 @@ def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
         rows += _mass_rows("cap", found_cap, closed_cap)
         rows += _mass_rows("column with cap", found + found_cap, exact + closed_cap)
     plate = case.base
-    rows += [Row("base: volume", "m3", mass_properties(base, plate.density_kg_m3).volume,
-                 plate.length_m * plate.width_m * plate.thickness_m)]
+    if len(base.cells):
+        rows += [Row("base: volume", "m3", mass_properties(base, plate.density_kg_m3).volume,
+                     plate.length_m * plate.width_m * plate.thickness_m)]
     return tuple(rows)
 
 

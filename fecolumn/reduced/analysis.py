@@ -11,6 +11,7 @@ from fecolumn._compiled import compiled
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
 from fecolumn.contact.law import interface_compliance
+from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.stepper import StepFailed
@@ -37,7 +38,7 @@ def engine_of(case, model, base) -> Engine:
         return start.standing(engine)
 
     return Engine(model, base, view(model, case.overturn.displacement_m), HHT(plan.dt_s, plan.alpha_hht), [0.0, 0.0, -GRAVITY],
-                  case.contact.friction_coefficient, own, Rim.find(model.reference), begin, plan.max_cuts)
+                  case.contact.friction_coefficient, own, Rim.find(model.reference), begin, plan.max_cuts, pad_of(case, model.areas, model.mass))
 
 
 class ReducedAnalysis(Analysis):

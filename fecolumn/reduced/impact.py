@@ -58,7 +58,7 @@ def collide(column, plate, scheme, points, footing, start, end, landing, turns, 
     for i in union:
         even(column, points, plate, footing, end.rotation, i)
     assemble(column, points, arms, union, end.rotation, 0.0, column.static, compliance)
-    add_below(column, plate, footing, union, compliance, 1.0)
+    add_below(scheme.own, plate, footing, union, compliance, 1.0)
     assemble(column, points, arms, union, end.rotation, 1.0, column.mobility, mobility)
     compliance *= YIELD * 2 / dt**2
     compliance += mobility

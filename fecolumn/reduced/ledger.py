@@ -60,7 +60,7 @@ def book(column, scheme, points, start, end, sway, ledger):
     for i in range(len(end.forces)):
         if end.forces[i, 2] > 0:
             friction += end.forces[i, 0] * (end.anchors[i, 0] - points.anchors[i, 0]) + end.forces[i, 1] * (end.anchors[i, 1] - points.anchors[i, 1])
-            if points.forces[i, 2] <= 0:
+            if points.forces[i, 2] <= 0 and not column.soft:
                 landed += end.forces[i, 2] * (end.relative[i, 2] - points.relative[i, 2])
     ledger[BASE] += base
     ledger[FRICTION] += friction

@@ -19,8 +19,8 @@ class Motion(NamedTuple):
     rotation: (3, 3) column to table; spin: (3,) angular velocity in the column's frame [rad/s].
     modal, modal_rate, modal_acceleration: (m,) of the modes, the last one without contact.
     elastic: (n, 3) filtered displacement of the foot's nodes in the column's frame [m].
-    forces, anchors, relative: (n, 3), (n, 2), (n, 3) as in `dynamics.system.State`. ground: (3,) acceleration of the base.
-    scalars: (8,) time [s]; strain energy of base, foot's static rest and penalty springs [J]; place of the rim's lowest contact
+    forces, anchors, relative, indent: (n, 3), (n, 2), (n, 3), (n, 3) as in `dynamics.system.State`. ground: (3,) acceleration of the base.
+    scalars: (8,) time [s]; strain energy of base, foot's static rest, penalty springs and pad [J]; place of the rim's lowest contact
     point [rad], nan while the foot touches with its nodes only; from RIM_LIFT on the lift of it and its neighbours [m].
     """
 
@@ -36,6 +36,7 @@ class Motion(NamedTuple):
     forces: np.ndarray
     anchors: np.ndarray
     relative: np.ndarray
+    indent: np.ndarray
     ground: np.ndarray
     scalars: np.ndarray
 
@@ -43,7 +44,7 @@ class Motion(NamedTuple):
 def at_rest(n: int, m: int) -> Motion:
     """A motion of n foot nodes and m modes with zeros everywhere but an upright rotation."""
     return Motion(*(np.zeros(3) for _ in range(3)), np.eye(3), np.zeros(3), *(np.zeros(m) for _ in range(3)), np.zeros((n, 3)),
-                  np.zeros((n, 3)), np.zeros((n, 2)), np.zeros((n, 3)), np.zeros(3), np.array([0.0, 0.0, np.nan, *np.zeros(5)]))
+                  np.zeros((n, 3)), np.zeros((n, 2)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(3), np.array([0.0, 0.0, np.nan, *np.zeros(5)]))
 
 
 class Sway(NamedTuple):
@@ -71,6 +72,7 @@ def copy(source, target):
     target.forces[:] = source.forces
     target.anchors[:] = source.anchors
     target.relative[:] = source.relative
+    target.indent[:] = source.indent
     target.ground[:] = source.ground
     target.scalars[:] = source.scalars
 

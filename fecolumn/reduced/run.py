@@ -58,13 +58,13 @@ class Engine:
         base: BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
         eye: View.
         hht: HHT.
-        gravity, friction, own, rim: as of `model.step_column`.
+        gravity, friction, own, rim, pad: as of `model.step_column`.
         start: function of the engine that returns the first Motion; see `reduced.start`.
     """
 
-    def __init__(self, model, base, eye, hht: HHT, gravity, friction: float, own, rim, start, max_cuts: int = 4):
+    def __init__(self, model, base, eye, hht: HHT, gravity, friction: float, own, rim, start, max_cuts: int = 4, pad=None):
         self.model, self.base, self.eye, self.hht, self.max_cuts = model, base, eye, hht, max_cuts
-        self.column = step_column(model, hht, gravity, friction, own, rim)
+        self.column = step_column(model, hht, gravity, friction, own, rim, pad)
         n, m = len(model.arms), len(model.frequencies)
         self.points, self.footing, self.spare = node_points(model.arms), no_footing(n), motions.at_rest(n, m)
         self.sway = Sway(np.zeros(3), np.zeros(3), np.zeros(m), np.eye(3))

@@ -27,7 +27,8 @@ def step(column, plate, scheme, points, footing, bed, start, ground, end, sway, 
         ledger[:] = booked
         roll(column, start, dt, False, points)
         answer, contact_work = _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record)
-    if answer != OK:
+    if answer != OK or column.soft:
+        # the springs of a pad bring a landing foot to rest in their own time: there is no impact
         return answer
     n = len(end.forces)
     landing = np.zeros(n, np.bool_)
@@ -92,8 +93,8 @@ def _finish(column, scheme, points, start, ground, end, sway):
         rate = (1 - ga) * start.modal_acceleration[k] + ga * end.modal_acceleration[k] + sway.modal[k]
         end.modal_rate[k] = start.modal_rate[k] + dt * rate
     for i in range(len(end.forces)):
-        x = end.relative[i, 0] + column.own[i, 0] * end.forces[i, 0]
-        y = end.relative[i, 1] + column.own[i, 1] * end.forces[i, 1]
+        x = end.relative[i, 0] + scheme.own[i, 0] * end.forces[i, 0] + scheme.kept * points.indent[i, 0]
+        y = end.relative[i, 1] + scheme.own[i, 1] * end.forces[i, 1] + scheme.kept * points.indent[i, 1]
         stuck = end.forces[i, 2] > 0 and np.hypot(x - points.anchors[i, 0], y - points.anchors[i, 1]) <= STUCK * column.width
         end.anchors[i, 0] = points.anchors[i, 0] if stuck else x
         end.anchors[i, 1] = points.anchors[i, 1] if stuck else y
