@@ -16,6 +16,7 @@ from pathlib import Path
 from fecolumn.schema import InputError, build, parameter, read_toml
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
+REST = "rest"  # word of motion.free_vibration_s
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +95,7 @@ class Integration:
     engine: str = parameter("full", doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, exact static compliance of the same mesh; rigid: reduced without modes", choices=("full", "reduced", "rigid"))
     n_modes: int = parameter(30, doc="elastic modes of the reduced engine; all others respond statically", low=0, high=1000)
     kinematics: str = parameter("corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian"))
-    duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration", unit="s", low=0, high=1e5)
+    duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration, and must not stand where there is no motion", unit="s", low=0, high=1e5)
     tolerance: float = parameter(1e-7, doc="residual force at convergence as a fraction of the largest nodal force", above=0, high=1e-2)
     max_iterations: int = parameter(20, doc="iterations of a step before it is cut", low=2, high=1000)
     max_cuts: int = parameter(4, doc="halvings of a step that does not converge before the analysis fails", low=0, high=12)
@@ -113,9 +114,15 @@ class Motion:
     time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", above=0, high=1e3)
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
-    delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1")
+    delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1.0")
     vertical: bool = parameter(False, doc="apply the vertical component where the record has one")
-    free_vibration_s: float = parameter(1.0, doc="time analysed after the motion's end", unit="s", low=0, high=1e4)
+    free_vibration_s: float | str = parameter(1.0, doc='time analysed after the motion\'s end; "rest" goes on until the column is at rest', unit="s", low=0, high=1e4, words=(REST,))
+    rest_ceiling_s: float = parameter(60.0, doc='longest time after the motion\'s end where free_vibration_s = "rest"', unit="s", above=0, high=1e5, since="0.2.0")
+
+    @property
+    def longest_free_vibration_s(self) -> float:
+        """Time after the motion's end that is analysed at most."""
+        return self.rest_ceiling_s if self.free_vibration_s == REST else self.free_vibration_s
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,9 +135,9 @@ class Initial:
 
 @dataclass(frozen=True, slots=True)
 class Overturn:
-    """When the analysis stops because the column falls."""
+    """When the analysis stops because the column falls: at its point of no return (`dynamics.overturning`), or earlier at a cap."""
 
-    displacement_m: float = parameter(0.25, doc="top displacement at which the column counts as overturned", unit="m", above=0, high=1e3)
+    displacement_m: float = parameter(0.0, doc="top displacement at which the column counts as overturned even short of its point of no return; 0 for none", unit="m", low=0, high=1e3)
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,7 +219,6 @@ def section_text(name: str, section) -> str:
     for key in FILES.get(name, ()) if table else ():
         table[key] = content(table[key])
     for field in dataclasses.fields(section) if section else ():
-        # a key younger than the first studies: their results keep their names
         if field.metadata["since"] and table[field.name] == field.default:
             del table[field.name]
     return json.dumps(table, sort_keys=True)
@@ -289,8 +295,6 @@ def check(case: Case, file) -> None:
         part = case.motion.strong_part
         if len(part) != 2 or not part[0] < part[1]:
             refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
-    elif case.integration.duration_s == 0:
-        refuse("integration.duration_s", 0, "must be greater than 0 s where the case has no motion")
 
 
 def check_base(case: Case, refuse) -> None:
@@ -305,3 +309,9 @@ def check_base(case: Case, refuse) -> None:
         refuse("base.stiffness_n_m3", base.stiffness_n_m3, "must be greater than 0 N/m3 where base.kind = 'pad'")
     if case.contact.impact != "plastic":
         refuse("contact.impact", case.contact.impact, "must be plastic where base.kind = 'pad', whose springs take the place of impacts")
+
+
+def check_duration(case: Case, file) -> None:
+    """Refuse to analyse a case that does not say for how long; its mesh may still be looked at."""
+    if case.motion is None and case.integration.duration_s == 0:
+        raise InputError(file, "integration.duration_s", 0, "must be greater than 0 s where the case has no motion")

@@ -130,6 +130,7 @@ def _resume(args) -> int:
 def _analyse(case, folder, file, quiet) -> int:
     from mpi4py import MPI
 
+    from fecolumn.ending import ending_text, peak_text
     from fecolumn.interrupt import held_interrupts
     from fecolumn.post.history_figures import history_figures
     from fecolumn.simulation import AnalysisFailed, run
@@ -141,9 +142,7 @@ def _analyse(case, folder, file, quiet) -> int:
         return _refuse(error, 1)
     if MPI.COMM_WORLD.rank == 0:
         history_figures(folder)
-        end = f"overturned at {summary['overturn_time_s']:.3f} s" if summary["overturned"] else \
-            f"standing, residual slide {1e3 * summary['residual_slide_m']:.3f} mm"
-        print(f"{folder}: u_max {1e3 * summary['u_max_m']:.3f} mm, {end}; {summary['steps']} steps, "
+        print(f"{folder}: {peak_text(summary)}, {ending_text(summary)}; {summary['steps']} steps, "
               f"{1e3 * summary['s_per_step']:.1f} ms/step, energy closure {summary['energy_closure_rel']:.1e}")
     return 0
 

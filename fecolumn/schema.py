@@ -21,7 +21,7 @@ class InputError(ValueError):
 
 
 def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=None, high=None,
-              above=None, choices=None, since: str = ""):
+              above=None, choices=None, words=(), since: str = ""):
     """Dataclass field of a case section.
 
     Args:
@@ -31,10 +31,11 @@ def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=Non
         low, high: closed bounds of a number.
         above: open lower bound of a number.
         choices: the words a text key may take.
-        since: version that brought the key to a section that has been there before; results of cases that leave it at its
-            default keep their names.
+        words: words that a number's key takes in place of a number.
+        since: version that brought a key younger than its section; at its default it is no part of `Case.id`, so that older results
+            keep their names.
     """
-    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices, since=since)
+    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices, words=words, since=since)
     if isinstance(default, (list, dict)):
         raise TypeError("defaults must be immutable")
     return dataclasses.field(default=default, metadata=metadata)
@@ -42,6 +43,10 @@ def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=Non
 
 def allowed_range(metadata) -> str:
     """The allowed values of a parameter in words, with the unit."""
+    return " or ".join([_number_range(metadata), *(f'"{word}"' for word in metadata["words"])])
+
+
+def _number_range(metadata) -> str:
     unit = "" if metadata["unit"] == "-" else f" [{metadata['unit']}]"
     if metadata["choices"]:
         return "one of " + ", ".join(metadata["choices"])
@@ -75,9 +80,12 @@ _WORDS = {float: "a number", int: "a whole number", str: "text in quotes", bool:
 def _checked(kind, metadata, value, file, key):
     if isinstance(kind, types.UnionType):
         kind = next(k for k in typing.get_args(kind) if k is not types.NoneType)
+    if isinstance(value, str) and value in metadata["words"]:
+        return value
     typed = _typed(kind, value)
     if typed is None:
         word = _WORDS.get(kind) or "a list of " + {str: "texts", float: "numbers"}[typing.get_args(kind)[0]]
+        word = " or ".join([word, *(f'"{text}"' for text in metadata["words"])])
         raise InputError(file, key, value, f"must be {word}; {metadata['doc']}")
     for item in typed if isinstance(typed, tuple) else (typed,):
         bad = False

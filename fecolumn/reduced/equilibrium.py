@@ -16,8 +16,8 @@ from fecolumn.reduced.bed import TURN, WAY
 from fecolumn.reduced.motion import STATIC, follow, point_positions
 from fecolumn.reduced.plate import ON, UNKNOWN, project
 
-# Ways a step can end; FAR_BASE asks for more of the base's compliance, OVERTURNED ends the analysis
-OK, FAR_BASE, OFF_BASE, CONTACT, ITERATIONS, IMPACT, OVERTURNED = range(7)
+# Ways a step can end; FAR_BASE asks for more of the base's compliance, ENDED ends the analysis
+OK, FAR_BASE, OFF_BASE, CONTACT, ITERATIONS, IMPACT, ENDED = range(7)
 # Gap, over the foot's width, below which a point takes part in the contact problem: tighter than in the full-order engine, since all that
 # a point costs here grows with it, and one that is missed shows below the base and is taken in; up to CLOSE it is told its static displacement
 NEAR, CLOSE = 2e-5, 4e-5

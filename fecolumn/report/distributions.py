@@ -29,7 +29,7 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
     blocks: list = []
     for name, axis in _views(sweep):
         panels = _panels(sweep, axis)
-        files = cdf_figure(panels, sweep.limit_m, gallery.path(name), gallery.formats)
+        files = cdf_figure(panels, gallery.path(name), gallery.formats)
         other = [axis_name(one) for one in sweep.varied if one != axis]
         what = f"a line for each {axis_name(axis)}" if axis else \
             "settings of the study" if len(sweep.done) <= _LINES else "the settings of least, middle and largest P(overturn)"
@@ -60,7 +60,7 @@ def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
     if axis is None:
         chosen = sweep.done
         if len(chosen) > _LINES:  # of many unordered ones the least, the middle and the most dangerous
-            ranked = sorted(chosen, key=lambda one: (one.column("overturned").mean(), one.column("u_max_m").mean()))
+            ranked = sorted(chosen, key=lambda one: (one.column("overturned").mean(), percentile(*one.peaks(), 0.5)))
             chosen = [ranked[0], ranked[len(ranked) // 2], ranked[-1]]
         labels = _labels(sweep)
         return [Panel("", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen))]

@@ -22,7 +22,7 @@ class Sample:
         title: of the study, or the file's name.
         choice: value of each axis that was chosen, by its dotted key.
         motions: (n,) name of each run's motion, all different.
-        u_max: (n,) [m]; of no meaning where the run overturned.
+        u_max: (n,) [m]; nan where the run overturned.
         overturned: (n,) bool.
         missing: analyses of the choice that are not done.
     """
@@ -93,7 +93,8 @@ def _of_study(folder: str, choice: dict) -> Sample:
     motions = tuple(_motion_name(row["axes"], ENSEMBLE_AXES) for row in done)
     u_max, overturned = ([row["summary"][name] for row in done] for name in ("u_max_m", "overturned"))
     shown = {key: rows[0]["axes"][key] for key in choice}
-    return Sample(folder, study.title, shown, motions, np.array(u_max, float), np.array(overturned, bool), len(rows) - len(done))
+    u_max = np.where(overturned, np.nan, np.array(u_max, float))
+    return Sample(folder, study.title, shown, motions, u_max, np.array(overturned, bool), len(rows) - len(done))
 
 
 def _motion_name(axes: dict, ensemble_axes) -> str:

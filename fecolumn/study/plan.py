@@ -19,7 +19,7 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check, digest, located, section_text
+from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check, check_duration, digest, located, section_text
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.schema import InputError, build, merge, read_toml
 from fecolumn.study.axes import TABLES, Factor, hint, read_factors
@@ -173,6 +173,7 @@ class _Maker:
                 texts[name] = text
         case = Case(**sections)
         check(case, self.path)
+        check_duration(case, self.path)
         return case, texts
 
     def _section(self, name: str, places):

@@ -66,7 +66,8 @@ def _analysis_row(row: dict) -> list:
     texts, summary = [row["id"], *row["axes"].values(), row["state"]], row["summary"]
     if not summary:
         return texts + [""] * len(_ANALYSES)
-    return [*texts, f"{summary['u_max_m']:.6e}", int(summary["overturned"]), f"{summary['residual_slide_m']:.6e}", summary["steps"],
+    peak = "" if summary["overturned"] else f"{summary['u_max_m']:.6e}"  # what overturned has none
+    return [*texts, peak, int(summary["overturned"]), f"{summary['residual_slide_m']:.6e}", summary["steps"],
             f"{summary['energy_closure_rel']:.3e}"]
 
 
@@ -98,6 +99,5 @@ def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
             panels.setdefault(title, []).append((label, ecdf([s["u_max_m"] for s in done], [s["overturned"] for s in done])))
     if not panels:
         return []
-    limit = max(analysis.case.overturn.displacement_m for analysis in plan.analyses)
-    return cdf_figure([Panel(title or plan.title, tuple(lines)) for title, lines in panels.items()], limit, Path(folder) / "cdf")
+    return cdf_figure([Panel(title or plan.title, tuple(lines)) for title, lines in panels.items()], Path(folder) / "cdf")
 

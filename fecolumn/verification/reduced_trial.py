@@ -128,8 +128,9 @@ class ReducedTrial(Trial):
         def begin(engine):
             return starts.standing(engine) if first is None else self.reduction.projected(engine, first, system)
 
-        self.engine = Engine(self.reduction.model, system.base, view(self.reduction.model, np.inf), system.hht, system.gravity, interface.friction,
-                             interface.own, interface.rim, begin, pad=interface.pad)
+        eye = view(self.reduction.model, system.weight, interface.friction)
+        self.engine = Engine(self.reduction.model, system.base, eye, system.hht, system.gravity, interface.friction, interface.own, interface.rim, begin,
+                             pad=interface.pad)
         self.state = self.start = self._state()
 
     def _state(self) -> Expanded:

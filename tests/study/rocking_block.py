@@ -60,7 +60,7 @@ def rock(case, draw) -> dict:
             omega *= restitution
         theta += dt * omega
         u_max = max(u_max, 2 * h * math.sin(min(abs(theta), math.pi / 2)))
-        if u_max >= case.overturn.displacement_m:
+        if abs(theta) >= math.pi / 2 or 0 < case.overturn.displacement_m <= u_max:
             overturned = True
             break
     wall_s = time.perf_counter() - start

@@ -1,0 +1,36 @@
+"""How an analysis ends: what became of the column, and why the analysis stopped there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+#: Outcomes. Only a column at rest has shown its residual slide, and only one that has not overturned its peak.
+AT_REST, STILL_ROCKING, OVERTURNED = "at rest", "still rocking", "overturned"
+
+#: A column is at rest when its mechanical energy above gravity equilibrium is below this share of the energy that lifts it onto its edge.
+#: A slender column with this energy rocks with 1/2000 of its critical tilt, and as nothing feeds it, never with more again.
+REST_SHARE = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """outcome: one of the words above; ended_by: what stopped the analysis, in words, with its time [s]."""
+
+    outcome: str
+    ended_by: str
+
+
+def ending_text(summary: dict) -> str:
+    """What became of the column, for a reader, from the summary of its analysis."""
+    if summary["overturned"]:
+        return f"overturned ({summary.get('ended_by') or 'at {:.3f} s'.format(summary['overturn_time_s'])})"
+    text = f"{summary.get('outcome', 'standing')}, residual slide {1e3 * summary['residual_slide_m']:.3f} mm"
+    if summary.get("outcome") == STILL_ROCKING:
+        text = (f"{STILL_ROCKING} at {summary['duration_s']:.3f} s with {summary['energy_left_j']:.3g} J of the "
+                f"{summary['energy_to_overturn_j']:.3g} J to overturn")
+    return text
+
+
+def peak_text(summary: dict) -> str:
+    """Largest top displacement of an analysis, for a reader; of a column that overturned it is only where the analysis stopped."""
+    return f"u_max {'> ' if summary['overturned'] else ''}{1e3 * summary['u_max_m']:.3f} mm"
