@@ -238,14 +238,12 @@ class _FullAnalysis(Analysis):
             self.state, extra = read_checkpoint(folder / CHECKPOINT, self.system)
             self.resumed(extra)
             self.ledger.start = float(extra["start"])
-            self.ledger.work = dict(zip(TERMS[3:-1], extra["work"].tolist()))
+            self.ledger.work |= zip(TERMS[3:-1], extra["work"].tolist())
             self.stepper.record = Record(*extra["record"].tolist())
             self.observer.last_tilt = float(extra["last_tilt"])
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
-            start = case.initial
-            self.state = gravity.tilted(self.system, start.tilt_rad, np.radians(start.direction_deg)) if start.tilt_rad \
-                else gravity.standing(self.system)
+            self.state = gravity.begin(self.system, case.initial)
             self.state.ground = self.ground(0)
             self.ledger.open(self.state)
             self._note(0)

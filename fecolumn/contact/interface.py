@@ -42,9 +42,12 @@ class Interface:
         friction: Coulomb coefficient.
         own: (n, 3) compliance of the contact law [m/N].
         rim: the foot's round rim, None to take it as the polygon of its nodes.
+        restitution: see `contact.restitution`.
     """
 
-    def __init__(self, foot, reference, base, friction: float, own: np.ndarray, rim: Rim | None = None):
+    def __init__(self, foot, reference, base, friction: float, own: np.ndarray, rim: Rim | None = None,
+                 restitution: float = 0.0):
+        self.restitution = restitution
         self.foot, self.reference, self.base, self.friction, self.own, self.rim = foot, reference, base, friction, own, rim
         self.size = len(reference)
         self._turned: RimPoints | None = None

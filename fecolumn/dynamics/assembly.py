@@ -10,6 +10,7 @@ from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.rim import Rim
 from fecolumn.dynamics.body import Body
 from fecolumn.dynamics.corotated import Corotated
+from fecolumn.dynamics.damping import ModalDamping
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
 from fecolumn.mesh.bricks import LOWER, UPPER, boundary_quads
@@ -87,6 +88,8 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
         kinematics = Corotated(column)
     foot, areas = foot_of(case, specimen, column)
     own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, areas)
+    damping = ModalDamping(column, case.integration.n_modes, ratio) if (ratio := case.material.damping_ratio) else None
     return System(column, kinematics, BasePlate(base_body(case, specimen, comm)), foot, areas, case.contact.friction_coefficient,
                   own, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
-                  filtered=case.contact.impact == "plastic", rim=Rim.find(column.all_X[foot]))
+                  filtered=case.contact.impact == "plastic", rim=Rim.find(column.all_X[foot]), damping=damping,
+                  restitution=case.contact.restitution, rolling=case.contact.rolling_resistance)

@@ -29,15 +29,11 @@ CHUNK = 500
 def engine_of(case, model, base) -> Engine:
     """The reduced engine of a case at its start."""
     own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas)
-    plan, initial = case.integration, case.initial
-
-    def begin(engine):
-        if initial.tilt_rad:
-            return start.tilted(engine, initial.tilt_rad, np.radians(initial.direction_deg))
-        return start.standing(engine)
-
+    plan = case.integration
     return Engine(model, base, view(model, case.overturn.displacement_m), HHT(plan.dt_s, plan.alpha_hht), [0.0, 0.0, -GRAVITY],
-                  case.contact.friction_coefficient, own, Rim.find(model.reference), begin, plan.max_cuts)
+                  case.contact.friction_coefficient, own, Rim.find(model.reference),
+                  lambda engine: start.begin(engine, case.initial), plan.max_cuts, case.material.damping_ratio,
+                  case.contact.restitution, case.contact.rolling_resistance)
 
 
 class ReducedAnalysis(Analysis):

@@ -93,6 +93,7 @@ def model_key(case: Case) -> str:
     tables = {name: dataclasses.asdict(section) if (section := getattr(case, name)) else None
               for name in ("column", "cap", "base", "material", "mesh")}
     tables["column"]["mesh_file"] = content(case.column.mesh_file)
+    del tables["material"]["damping_ratio"]  # no operator has it
     tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT)
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 

@@ -129,7 +129,8 @@ class ReducedTrial(Trial):
             return starts.standing(engine) if first is None else self.reduction.projected(engine, first, system)
 
         self.engine = Engine(self.reduction.model, system.base, view(self.reduction.model, np.inf), system.hht, system.gravity, interface.friction,
-                             interface.own, interface.rim, begin)
+                             interface.own, interface.rim, begin, 4, system.damping.ratio if system.damping else 0.0,
+                             interface.restitution, system.rolling)
         self.state = self.start = self._state()
 
     def _state(self) -> Expanded:
