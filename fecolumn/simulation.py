@@ -268,14 +268,13 @@ class _FullAnalysis(Analysis):
             self.state, extra = read_checkpoint(folder / CHECKPOINT, self.system)
             self.resumed(extra)
             self.ledger.start = float(extra["start"])
-            self.ledger.work = dict(zip(TERMS[3:-1], extra["work"].tolist()))
+            self.ledger.work |= zip(TERMS[3:-1], extra["work"].tolist())
             self.stepper.record = Record(*extra["record"].tolist())
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
-            start = case.initial
-            self.state = self._standing()
-            if start.tilt_rad:
-                self.state = gravity.tilted(self.system, start.tilt_rad, np.radians(start.direction_deg))
+            self.state, start = self._standing(), case.initial
+            if start.tilt_rad or start.moves:
+                self.state = gravity.begin(self.system, start)
             self.state.ground = self.ground(0)
             self.ledger.open(self.state)
             self._note(0)

@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.contact.delassus import below, turned
 from fecolumn.contact.friction import ContactSolution, solve_contact
-from fecolumn.contact.pad import Pad, indent
+from fecolumn.contact.pad import Pad, dashpot_work, indent
 from fecolumn.contact.rim import Rim, RimPoints
 
 # Points nearer than this, over the foot's width, join the contact problem before they touch
@@ -64,11 +64,14 @@ class Interface:
         friction: Coulomb coefficient.
         own: (n, 3) compliance of the contact law [m/N].
         rim: the foot's round rim, None to take it as the polygon of its nodes.
+        restitution: see `contact.restitution`.
         pad: Pad below its points, None for a base without.
     """
 
-    def __init__(self, foot, reference, base, friction: float, own: np.ndarray, rim: Rim | None = None, pad: Pad | None = None):
-        self.foot, self.reference, self.base, self.friction, self.own, self.rim, self.pad = foot, reference, base, friction, own, rim, pad
+    def __init__(self, foot, reference, base, friction: float, own: np.ndarray, rim: Rim | None = None,
+                 restitution: float = 0.0, pad: Pad | None = None):
+        self.restitution, self.pad = restitution, pad
+        self.foot, self.reference, self.base, self.friction, self.own, self.rim = foot, reference, base, friction, own, rim
         self.size = len(reference)
         self._turned: RimPoints | None = None
         self._lift: np.ndarray | float = 0.0
@@ -214,6 +217,10 @@ class Interface:
         if self.pad is not None:
             energy += np.sum(self.pad.stiffness * indented**2)
         return float(energy) / 2
+
+    def pad_loss(self, spring: Spring, forces: np.ndarray, indented: np.ndarray) -> float:
+        """Energy [J] that the pad's dashpots take in a step."""
+        return 0.0 if self.pad is None else dashpot_work(self.pad.stiffness, spring.give, spring.kept, forces, spring.before, indented)
 
     def solve(self, active, compliance, moved, anchors, forces, spring: Spring) -> tuple[np.ndarray, ContactSolution]:
         """New contact forces (n, 3) [N] and the solver's record.

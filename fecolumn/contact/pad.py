@@ -66,3 +66,15 @@ def indent(give, kept, forces, before, after):
             after[i, a] = give[i, a] * forces[i, a] + kept * before[i, a] if pressed else max(kept, 0.0) * before[i, a]
         # a foot that has left in the step leaves the pad level
         after[i, 2] = max(after[i, 2], 0.0)
+
+
+@njit
+def dashpot_work(stiffness, give, kept, forces, before, after):
+    """Energy [J] that the dashpots take in a step, at least 0: work of the forces (n, 3) on the pad less what its springs then hold."""
+    taken = 0.0
+    for i in range(len(forces)):
+        for a in range(3):
+            if forces[i, 2] > 0:
+                taken += forces[i, a] * (give[i, a] * forces[i, a] + (kept - 1.0) * before[i, a])
+            taken -= stiffness[i, a] * (after[i, a] ** 2 - before[i, a] ** 2) / 2
+    return taken

@@ -29,7 +29,7 @@ class Stop(enum.Enum):
 
 @dataclass(slots=True)
 class Stage:
-    """What an implicit stage asks for: m M (x - target) + s f(x) = load + scale U r.
+    """What an implicit stage asks for: m M (x - target) + s [f(x) + C (velocity + rate (x - target))] = load + scale U r.
 
     target: (n_owned, 3) where the column would go without internal forces at the end [m].
     load: (n_owned, 3) effective forces known beforehand [N].
@@ -39,6 +39,7 @@ class Stage:
     spring: what the contact points give alone.
     rotation: (3, 3) of the column at the start. Contact forces act on the column in the rotation halfway, so that their
         work over a turn of the column by t is that of the foot's path up to t^3.
+    velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target [m/s]; None where nothing is damped.
     """
 
     target: np.ndarray
@@ -49,6 +50,7 @@ class Stage:
     forces: np.ndarray
     spring: Spring
     rotation: np.ndarray
+    velocity: np.ndarray | None = None
 
 
 @dataclass(slots=True)
@@ -94,6 +96,8 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         rotation, internal, strain = system.kinematics.internal(x)
         halfway = polar_rotation(rotation + stage.rotation)
         residual = operators.mass_factor * column.apply(column.mass, stage.target - x) + stage.load - operators.stiffness_factor * internal
+        if stage.velocity is not None:
+            residual -= operators.stiffness_factor * system.damping.force(stage.velocity + operators.rate_factor * (x - stage.target), rotation)
         position = interface.dynamic_position(x, rotation)
         try:
             footing = interface.project(position)

@@ -59,6 +59,8 @@ class Column(NamedTuple):
     rest; mobility: (3 n, 3 n) = sum F^2 phi phi, velocity per impulse of the modes.
     own: (n, 3) [m/N] of the contact law at each point; springs: (n, 3) [N/m] and relaxation [s] of a pad (`contact.pad`), soft: whether there is one.
     rim: (n_rim,) foot nodes on the circle, none if the foot is not round; on_rim: (n,) their numbers there, -1 off the rim.
+    damping: (m,) [1/s] damping force on a mode over its rate, 2 zeta w. restitution: see `contact.restitution`. rolling: see
+    `dynamics.rolling.rolling_moment`.
     """
 
     mass: float
@@ -80,10 +82,14 @@ class Column(NamedTuple):
     on_rim: np.ndarray
     rim_first: float
     rim_sector: float
+    rim_radius: float
+    damping: np.ndarray
+    restitution: float
+    rolling: float
 
 
 class Scheme(NamedTuple):
-    """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (m,) s of each mode,
+    """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (m,) s of each mode, here with its damping,
     elastic: (3 n, 3 n) [m/N] modal and static compliance of the foot within a step.
     own: (n, 3) [m/N] of contact law and pad at each point; give, kept: of the pad, see `contact.pad.Pad`."""
 
@@ -99,8 +105,9 @@ class Scheme(NamedTuple):
     kept: float
 
 
-def step_column(model: ColumnModel, hht, gravity, friction: float, own: np.ndarray, rim: Rim | None, pad: Pad | None = None) -> Column:
-    """The column as steps of `hht` see it; further arguments as of `contact.interface.Interface`."""
+def step_column(model: ColumnModel, hht, gravity, friction: float, own: np.ndarray, rim: Rim | None, damping_ratio: float = 0.0,
+                restitution: float = 0.0, rolling: float = 0.0, pad: Pad | None = None) -> Column:
+    """The column as steps of `hht` see it; further arguments as of `contact.interface.Interface` and `dynamics.system.System`."""
     squares = model.frequencies**2
     shrink = 1 / (1 + squares * hht.stiffness_factor / hht.mass_factor)
     pushes = model.shapes * (2 * shrink - shrink**2)
@@ -114,13 +121,15 @@ def step_column(model: ColumnModel, hht, gravity, friction: float, own: np.ndarr
         mobility=_modal(pushes, np.ones_like(squares)), own=np.ascontiguousarray(own, float),
         springs=np.ascontiguousarray(springs, float), relaxation=pad.relaxation if pad else 0.0, soft=pad is not None, friction=float(friction),
         width=float(np.ptp(model.arms[:, 0])), rim=nodes.astype(np.int64), on_rim=on_rim, rim_first=rim.first if rim else 0.0,
-        rim_sector=rim.sector if rim else 1.0)
+        rim_sector=rim.sector if rim else 1.0, rim_radius=rim.radius if rim else 0.0, damping=2 * damping_ratio * model.frequencies,
+        restitution=float(restitution), rolling=float(rolling) if rim else 0.0)
 
 
 def scheme(column: Column, hht) -> Scheme:
     """Coefficients of a step of `hht`; the filter of the contact stays that of the column."""
-    half = hht.dt**2 / 2
-    return _scheme(column, hht.dt, half, hht.alpha, hht.beta, hht.gamma, column.squares * hht.stiffness_factor / hht.mass_factor)
+    half, stiffness = hht.dt**2 / 2, column.squares * hht.stiffness_factor / hht.mass_factor
+    stiffness = stiffness + column.damping * hht.rate_factor * hht.stiffness_factor / hht.mass_factor
+    return _scheme(column, hht.dt, half, hht.alpha, hht.beta, hht.gamma, stiffness)
 
 
 def resting_scheme(column: Column, pseudo_inertia: float) -> Scheme:

@@ -49,12 +49,14 @@ def at_rest(n: int, m: int) -> Motion:
 
 class Sway(NamedTuple):
     """What the contact does to the column in a step, for the ledger: turn (3,) [rad] in the column's frame, moment: (3,) [N m] there,
-    conjugate to the turn; modal: (m,) forces on the modes; halfway: (3, 3) rotation in the middle of the step."""
+    conjugate to the turn; modal: (m,) forces on the modes; halfway: (3, 3) rotation in the middle of the step; resistance: (3,) part of
+    the moment by which a rim resists to roll."""
 
     turn: np.ndarray
     moment: np.ndarray
     modal: np.ndarray
     halfway: np.ndarray
+    resistance: np.ndarray
 
 
 @njit
@@ -123,14 +125,14 @@ def foot_displacement(pushes, modal, target):
 
 
 @njit
-def turning(inertia, inverse, advance, rotation, half, spread, turn, moment, halfway):
+def turning(inertia, inverse, advance, rotation, half, spread, resistance, turn, moment, halfway):
     """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its moment M, in the column's frame.
 
     Energy-momentum conserving (Simo and Wong 1991): with M = sinc(|Th|/2) sum (Rh A) x r, Th . M is the work of the forces on the path
     of rigid arms A.
 
     Args:
-        advance: (3,) dt times the spin at the start. spread: (3, 3) sum of A r^T, r in the table frame.
+        advance: (3,) dt times the spin at the start. spread: (3, 3) sum of A r^T, r in the table frame. resistance: (3,) added to M.
         turn: first guess, and the result. moment, halfway: results; the moment in the column's frame at the start.
     """
     momentum = np.empty(3)
@@ -148,7 +150,7 @@ def turning(inertia, inverse, advance, rotation, half, spread, turn, moment, hal
             m1 += halfway[2, a] * spread[a, 0] - halfway[0, a] * spread[a, 2]
             m2 += halfway[0, a] * spread[a, 1] - halfway[1, a] * spread[a, 0]
         for i in range(3):
-            moment[i] = sinc * (rotation[0, i] * m0 + rotation[1, i] * m1 + rotation[2, i] * m2)
+            moment[i] = sinc * (rotation[0, i] * m0 + rotation[1, i] * m1 + rotation[2, i] * m2) + resistance[i]
         b0, b1, b2 = momentum[0] + half * moment[0], momentum[1] + half * moment[1], momentum[2] + half * moment[2]
         # exp(-Th) b
         square = x * x + y * y + z * z
@@ -193,7 +195,8 @@ def follow(column, scheme, points, start, free_center, free_modal, advance, forc
             total[a] += forces[i, a]
     for a in range(3):
         end.center[a] = free_center[a] + scheme.half * total[a] / column.mass
-    turning(column.inertia, column.inverse, advance, start.rotation, scheme.half, spread, sway.turn, sway.moment, sway.halfway)
+    turning(column.inertia, column.inverse, advance, start.rotation, scheme.half, spread, sway.resistance, sway.turn, sway.moment,
+            sway.halfway)
     turn_by(start.rotation, sway.turn, end.rotation)
     modal_forces(column, points, sway.halfway, forces, sway.modal)
     for k in range(m):

@@ -13,7 +13,7 @@ from fecolumn.dynamics.stepper import Record, StepFailed
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.bed import no_bed
 from fecolumn.reduced.equilibrium import CONTACT, ENDED, FAR_BASE, IMPACT, ITERATIONS, N_CUTS, N_ITERATIONS, OFF_BASE, OK
-from fecolumn.reduced.ledger import kinetic, strain, weight_energy
+from fecolumn.reduced.ledger import N_PLACES, kinetic, strain, weight_energy
 from fecolumn.reduced.model import scheme, step_column
 from fecolumn.reduced.motion import TIME, Sway
 from fecolumn.reduced.observe import ENERGY, WIDTH, lost, observe
@@ -67,22 +67,23 @@ class Engine:
         base: BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
         eye: View.
         hht: HHT.
-        gravity, friction, own, rim, pad: as of `model.step_column`.
+        gravity, friction, own, rim, damping_ratio, restitution, rolling, pad: as of `model.step_column`.
         start: function of the engine that returns the first Motion; see `reduced.start`.
     """
 
-    def __init__(self, model, base, eye, hht: HHT, gravity, friction: float, own, rim, start, max_cuts: int = 4, pad=None):
+    def __init__(self, model, base, eye, hht: HHT, gravity, friction: float, own, rim, start, max_cuts: int = 4,
+                 damping_ratio: float = 0.0, restitution: float = 0.0, rolling: float = 0.0, pad=None):
         self.model, self.base, self.eye, self.hht, self.max_cuts = model, base, eye, hht, max_cuts
-        self.column = step_column(model, hht, gravity, friction, own, rim, pad)
+        self.column = step_column(model, hht, gravity, friction, own, rim, damping_ratio, restitution, rolling, pad)
         n, m = len(model.arms), len(model.frequencies)
         self.points, self.footing, self.spare = node_points(model.arms), no_footing(n), motions.at_rest(n, m)
-        self.sway = Sway(np.zeros(3), np.zeros(3), np.zeros(m), np.eye(3))
+        self.sway = Sway(np.zeros(3), np.zeros(3), np.zeros(m), np.eye(3), np.zeros(3))
         self.bed, self._schemes = no_bed(n), {}
         self.counts = np.zeros(6, np.int64)
         self.base.need(np.unique(base.grid.project(model.reference)[0]))
         self.plate = plate_of(base)
         self.motion = start(self)
-        self.ledger = np.zeros(6)
+        self.ledger = np.zeros(N_PLACES)
         self.ledger[0] = self.mechanical()
 
     @property

@@ -129,8 +129,8 @@ class ReducedTrial(Trial):
             return starts.standing(engine) if first is None else self.reduction.projected(engine, first, system)
 
         eye = view(self.reduction.model, system.weight, interface.friction)
-        self.engine = Engine(self.reduction.model, system.base, eye, system.hht, system.gravity, interface.friction, interface.own, interface.rim, begin,
-                             pad=interface.pad)
+        self.engine = Engine(self.reduction.model, system.base, eye, system.hht, system.gravity, interface.friction, interface.own, interface.rim, begin, 4,
+                             system.damping.ratio if system.damping else 0.0, interface.restitution, system.rolling, interface.pad)
         self.state = self.start = self._state()
 
     def _state(self) -> Expanded:
