@@ -21,7 +21,7 @@ class InputError(ValueError):
 
 
 def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=None, high=None,
-              above=None, choices=None):
+              above=None, choices=None, since: str = "", counts: bool = True):
     """Dataclass field of a case section.
 
     Args:
@@ -31,8 +31,10 @@ def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=Non
         low, high: closed bounds of a number.
         above: open lower bound of a number.
         choices: the words a text key may take.
+        since: version that brought a key younger than the first results; at its default it leaves `Case.id` as it was.
+        counts: whether the key makes another analysis; False for what only guards or tells.
     """
-    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices)
+    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices, since=since, counts=counts)
     if isinstance(default, (list, dict)):
         raise TypeError("defaults must be immutable")
     return dataclasses.field(default=default, metadata=metadata)

@@ -22,12 +22,12 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn._compiled import cache_folder
-from fecolumn.case import Case, content
+from fecolumn.case import Case, section_table
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.reduced.model import ColumnModel
 
 # A new number makes all models afresh
-FORMAT = 2
+FORMAT = 3
 # Elastic modes that a model keeps at least, so that analyses with fewer share it
 KEPT_MODES = 40
 # Least reach of the first compliance of the base around the foot, over the foot's width
@@ -90,9 +90,7 @@ def _keep_base(plate, file) -> None:
 
 def model_key(case: Case) -> str:
     """Name of the model of a case: what of the case its mesh and operators are made from."""
-    tables = {name: dataclasses.asdict(section) if (section := getattr(case, name)) else None
-              for name in ("column", "cap", "base", "material", "mesh")}
-    tables["column"]["mesh_file"] = content(case.column.mesh_file)
+    tables = {name: section_table(name, getattr(case, name)) for name in ("column", "flange", "cap", "base", "material", "mesh")}
     tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT)
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 
