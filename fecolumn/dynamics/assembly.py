@@ -16,11 +16,12 @@ from fecolumn.dynamics.damping import ModalDamping
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
 from fecolumn.mesh.base_plate import levels
-from fecolumn.mesh.bricks import LOWER, UPPER, boundary_quads
+from fecolumn.mesh.bricks import boundary_faces
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.mesh.surface import face_basis, face_points, nodal_areas
 from fecolumn.mesh.tie import project_to_quads
 from fecolumn.schema import InputError
+from fecolumn.sizes import foot_sides
 
 
 def share_specimen_mesh(case: Case, comm) -> SpecimenMesh:
@@ -47,7 +48,7 @@ def column_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
 
 def _tie_links(body: Body, mesh, tie):
     """(slave node, (master nodes, weights)) of one tie, at the Lagrange nodes of the body's order."""
-    slave_quads = boundary_quads(mesh, tie.slave_part, mesh.points[tie.slave_nodes, 2].mean(), 1e-6 * np.ptp(mesh.points[:, 2]))
+    slave_quads = boundary_faces(mesh, tie.slave_part, mesh.points[tie.slave_nodes, 2].mean(), 1e-6 * np.ptp(mesh.points[:, 2]))
     slaves = np.unique(body.find_nodes(face_points(mesh.points[slave_quads], body.order).reshape(-1, 3), tie.slave_part))
     corners = mesh.points[tie.master_quads]
     masters = body.find_nodes(face_points(corners, body.order).reshape(-1, 3), tie.master_part).reshape(len(corners), -1)
@@ -86,11 +87,11 @@ def base_of(case: Case, reference: np.ndarray) -> UnboundedBase | None:
 def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> tuple[np.ndarray, np.ndarray]:
     """Nodes (n,) of the foot in an order that does not depend on the partition, and their tributary areas (n,) [m2]."""
     mesh = specimen.body
-    part = LOWER if mesh.has_part(LOWER) else UPPER
-    quads = boundary_quads(mesh, part, 0.0, 1e-6 * case.column.height_m)
+    part = mesh.foot_part
+    quads = boundary_faces(mesh, part, 0.0, 1e-6 * case.column.height_m)
     found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
     foot, position = np.unique(found, return_inverse=True)
-    order = np.lexsort(np.round(column.all_X[foot, :2].T / case.column.outer_diameter_m, 9))
+    order = np.lexsort(np.round(column.all_X[foot, :2].T / foot_sides(case)[0], 9))
     foot, position = foot[order], np.argsort(order)[position]
     return foot, nodal_areas(mesh.points[quads], position.reshape(len(quads), -1), len(foot), column.order)
 

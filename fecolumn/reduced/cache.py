@@ -22,13 +22,13 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn._compiled import cache_folder
-from fecolumn.case import PAD_KEYS, Case, content
+from fecolumn.case import Case, section_table
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base
 from fecolumn.reduced.model import ColumnModel
 
 # A new number makes all models afresh
-FORMAT = 2
+FORMAT = 3
 # Elastic modes that a model keeps at least, so that analyses with fewer share it
 KEPT_MODES = 40
 # Least reach of the first compliance of the base around the foot, over the foot's width
@@ -91,13 +91,14 @@ def _keep_base(plate, file) -> None:
 
 def model_key(case: Case) -> str:
     """Name of the model of a case: what of the case its mesh and operators are made from."""
-    tables = {name: dataclasses.asdict(section) if (section := getattr(case, name)) else None
-              for name in ("column", "cap", "base", "material", "mesh")}
+    tables = {name: section_table(name, getattr(case, name)) for name in ("column", "flange", "cap", "base", "material", "mesh")}
     # a pad's springs are no part of the model, and a flat has no edges
-    unused = {"plate": ("kind", *PAD_KEYS), "unbounded": ("length_m", "width_m", "slide_allowance_m", *PAD_KEYS)}.get(case.base.kind)
-    tables["base"] = {key: value for key, value in tables["base"].items() if key not in unused} if unused else "pad"
-    tables["column"]["mesh_file"] = content(case.column.mesh_file)
-    del tables["material"]["damping_ratio"]  # no operator has it
+    if case.base.kind == "pad":
+        tables["base"] = "pad"
+    elif case.base.kind == "unbounded":
+        for key in ("length_m", "width_m", "slide_allowance_m"):
+            del tables["base"][key]
+    tables["material"].pop("damping_ratio", None)  # no operator has it
     tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT)
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 

@@ -14,7 +14,7 @@ from fecolumn.dynamics.damping import ModalDamping
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
 from fecolumn.dynamics.total_lagrangian import TotalLagrangian
-from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_quads
+from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
 from fecolumn.schema import merge
@@ -79,7 +79,7 @@ def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, mat
     steel = Material(youngs_modulus_pa=200e9, poissons_ratio=0.3, density_kg_m3=7850.0)
     body = Body(comm, mesh, material or steel, order)
     kinematics = TotalLagrangian(body) if engine == "total_lagrangian" else Corotated(body)
-    quads = boundary_quads(mesh, LOWER, foot_height / 2, foot_height / 2 + 1e-9 * np.ptp(mesh.points[:, 2]))
+    quads = boundary_faces(mesh, LOWER, foot_height / 2, foot_height / 2 + 1e-9 * np.ptp(mesh.points[:, 2]))
     points, position = np.unique(quads, return_inverse=True)
     areas = nodal_areas(mesh.points[quads], position.reshape(quads.shape), len(points), 1)
 
