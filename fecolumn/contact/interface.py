@@ -157,9 +157,13 @@ class Interface:
         """Accelerations (n_owned, 3) of contact forces, or velocity jumps of contact impulses (n, 3)."""
         return self.foot.acceleration(self.at_nodes(forces) @ rotation) @ rotation.T
 
-    def project(self, positions: np.ndarray) -> Footing:
-        """Base nodes under positions (n, 3); raises OffBase outside the plate."""
-        return Footing(*self.base.grid.project(positions))
+    def project(self, positions: np.ndarray, forces: np.ndarray | None = None) -> Footing:
+        """Base nodes under positions (n, 3); raises OffBase where a point that touches is outside the plate.
+
+        Points touch that are low or bear one of the forces (n, 3); all of them without forces.
+        """
+        touching = None if forces is None else (positions[:, 2] < NEAR * self.width) | (forces[:, 2] > 0)
+        return Footing(*self.base.grid.project(positions, touching))
 
     def static_compliance(self, active: np.ndarray, rotation: np.ndarray, footing: Footing, own: np.ndarray | None = None) -> np.ndarray:
         """Compliance (3 k, 3 k) of the active points that follows the forces at once: foot's rest, base, and `own` (n, 3) of the points alone, the contact law's if not given."""

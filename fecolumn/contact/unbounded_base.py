@@ -56,11 +56,14 @@ class MovingTop(BaseTop):
         super().__init__(np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1))
         self.size = size
 
-    def project(self, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def project(self, positions: np.ndarray, touching: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Nodes (n, 4) of the window and weights (n, 4) under all points of the foot at `positions` (n, 3) [m]."""
         moved = np.zeros(3)
         moved[:2] = self.size * np.round(positions[:, :2].mean(axis=0) / self.size)
-        return super().project(positions - moved)
+        return super().project(positions - moved, touching)
+
+    def at_edge(self, positions: np.ndarray, margin: float) -> bool:
+        return False
 
 
 def window(size: float, reference: np.ndarray) -> int:

@@ -24,7 +24,7 @@ class Stop(enum.Enum):
     ITERATIONS = "no convergence within max_iterations"
     CONTACT = "the contact problem did not converge"
     DIVERGED = "the residual grew without bound"
-    OFF_BASE = "the column left the base plate"
+    OFF_BASE = "the foot reached the edge of the base plate"
 
 
 @dataclass(slots=True)
@@ -100,7 +100,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             residual -= operators.stiffness_factor * system.damping.force(stage.velocity + operators.rate_factor * (x - stage.target), rotation)
         position = interface.dynamic_position(x, rotation)
         try:
-            footing = interface.project(position)
+            footing = interface.project(position, forces)
         except OffBase as error:
             return ended(Stop.OFF_BASE, str(error))
         total = residual + scale * interface.load(forces, halfway)

@@ -56,7 +56,7 @@ class ReducedAnalysis(Analysis):
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
         self.model, self.base, self.model_folder = load_model(case, self.say)
-        self.warn_of_base(self.base.frequency, file)
+        self.warn_of_base(self.base.frequency, pad_of(case, self.model.areas, self.model.mass), file)
         if not compiled(advance):
             self.say("compiling the reduced engine, once on this machine: a minute or two")
         self.engine = engine_of(case, self.model, self.base)
@@ -81,7 +81,7 @@ class ReducedAnalysis(Analysis):
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
         progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet, until_rest_from=self.motion_steps if self.until_rest else None)
-        saved, over = time.perf_counter(), False
+        saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
                 began, count = time.perf_counter(), min(CHUNK, self.steps - self.step)
@@ -107,12 +107,14 @@ class ReducedAnalysis(Analysis):
         except StepFailed as failure:
             self._note(engine.made)
             self.step += len(engine.made)
-            self._save()
-            raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+            off = self.slid_off(failure, self.base, engine.motion.center + self.model.arms @ engine.motion.rotation.T)
+            if off is None:
+                self._save()
+                raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
         finally:
             progress.end()
         fallen = lost(engine.eye, engine.motion, engine.row(), self.steepest(self.step)) if over else STANDS
-        return self.finish(self.ending(fallen, engine.motion.rotation), self.model.dofs + self.base.dofs, engine.record, 0)
+        return self.finish(off or self.ending(fallen, engine.motion.rotation), self.model.dofs + self.base.dofs, engine.record, 0)
 
     def _note(self, rows: np.ndarray) -> None:
         columns, place = {}, 0

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.base_top import OffBase
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS, steepest_to_come
 from fecolumn.dynamics.stage import Stop
@@ -175,10 +174,7 @@ class Engine:
         """Make the base's compliance known under the foot and two rows of its nodes around."""
         grid = self.base.grid
         places = motion.center + self.model.arms @ motion.rotation.T
-        try:
-            nodes, _ = grid.project(places)
-        except OffBase as error:
-            raise StepFailed(Stop.OFF_BASE, f"t = {motion.scalars[TIME]:.6g} s: {error}") from None
+        nodes, _ = grid.project(places, np.zeros(len(places), bool))
         where = np.empty((len(self.base.slot), 2), np.int64)
         where[grid.number.ravel()] = np.stack(np.unravel_index(np.arange(grid.number.size), grid.number.shape), axis=1)
         around = np.stack(np.meshgrid(np.arange(-2, 3), np.arange(-2, 3)), axis=-1).reshape(-1, 2)
