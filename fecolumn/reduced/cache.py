@@ -9,9 +9,7 @@ A model is a folder named after the content it was made from, so that nothing ha
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-import fcntl
 import hashlib
 import json
 import os
@@ -25,6 +23,7 @@ from fecolumn._compiled import cache_folder
 from fecolumn.case import Case, section_table
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base
+from fecolumn.lock import alone
 from fecolumn.reduced.model import ColumnModel
 
 # A new number makes all models afresh
@@ -129,17 +128,6 @@ def _open_base(case: Case, folder: Path, reference):
         return rigid_base(reference)
     with np.load(folder / "base.npz") as file:
         return UnboundedBase(float(file["size"]), file["response"], reference, float(file["frequency"]))
-
-
-@contextlib.contextmanager
-def alone(folder: Path):
-    """Hold the right to make a model; who comes second waits. It ends with the process that has it."""
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    file = folder.parent / f".{folder.name}.lock"
-    with open(file, "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        yield
-        file.unlink(missing_ok=True)
 
 
 def make_bodies(case: Case):

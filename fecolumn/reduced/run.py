@@ -11,7 +11,7 @@ from fecolumn.dynamics.stage import Stop
 from fecolumn.dynamics.stepper import Record, StepFailed
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.bed import no_bed
-from fecolumn.reduced.equilibrium import CONTACT, ENDED, FAR_BASE, IMPACT, ITERATIONS, N_CUTS, N_ITERATIONS, OFF_BASE, OK
+from fecolumn.reduced.equilibrium import CONTACT, ENDED, FAR_BASE, IMPACT, ITERATIONS, N_CUTS, N_ITERATIONS, OFF_BASE, OK, equilibrate
 from fecolumn.reduced.ledger import N_PLACES, kinetic, strain, weight_energy
 from fecolumn.reduced.model import scheme, step_column
 from fecolumn.reduced.motion import TIME, Sway
@@ -35,7 +35,14 @@ def ended(eye, motion, row, steepest, rest):
 def advance(column, plate, scheme, points, footing, bed, eye, motion, spare, sway, grounds, steepest, rest, rows, ledger, record):
     """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, WIDTH) are filled.
 
-    steepest: (k,) as of `overturning.fallen` after each step. rest: mechanical energy [J] at which the column is at rest; -inf not to ask."""
+    steepest: (k,) as of `overturning.fallen` after each step. rest: mechanical energy [J] at which the column is at rest; -inf not to ask.
+
+    Without any step to make: one proximal step of `scheme` towards gravity equilibrium, from `motion` to `spare`; see `start.standing`.
+    It is here because each function that Python calls is compiled with all it calls: the contact solver is wanted once.
+    """
+    if len(grounds) == 0:
+        fall, still = motion.center + scheme.half * column.gravity, np.zeros(3)
+        return 0, equilibrate(column, plate, scheme, points, footing, bed, motion, fall, motion.modal, still, spare, sway, record)
     booked, now, then, made, answer = ledger.copy(), motion, spare, 0, OK
     for k in range(len(grounds)):
         before = record[N_ITERATIONS]
@@ -81,9 +88,14 @@ class Engine:
         self.counts = np.zeros(6, np.int64)
         self.base.need(np.unique(base.grid.project(model.reference)[0]))
         self.plate = plate_of(base)
-        self.motion = start(self)
         self.ledger = np.zeros(N_PLACES)
+        self.motion = start(self)
         self.ledger[0] = self.mechanical()
+
+    def settle(self, scheme, motion, end) -> int:
+        """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way to end."""
+        return advance(self.column, self.plate, scheme, self.points, self.footing, self.bed, self.eye, motion, end, self.sway,
+                       np.empty((0, 3)), np.empty(0), -np.inf, np.empty((0, WIDTH)), self.ledger, self.counts)[1]
 
     @property
     def record(self) -> Record:
