@@ -112,7 +112,7 @@ def _mesh(args) -> int:
     from fecolumn.case import read_case
     from fecolumn.mesh.report import mesh_report
 
-    print(mesh_report(read_case(args.case), args.output))
+    print(mesh_report(read_case(args.case), args.output, lambda text: print(text, file=sys.stderr, flush=True)))
     return 0
 
 

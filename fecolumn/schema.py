@@ -75,7 +75,7 @@ def _in_text(words: str) -> str:
 
 
 def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=None, high=None,
-              above=None, choices=None, words=(), since: str = ""):
+              above=None, choices=None, words=(), since: str = "", counts: bool = True):
     """Dataclass field of a case section.
 
     Args:
@@ -88,8 +88,9 @@ def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=Non
         words: words that a number's key takes in place of a number.
         since: version that brought a key younger than its section; at its default it is no part of `Case.id`, so that older results
             keep their names.
+        counts: whether the key makes another analysis; False for what only guards or tells.
     """
-    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices, words=words, since=since)
+    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices, words=words, since=since, counts=counts)
     if isinstance(default, (list, dict)):
         raise TypeError("defaults must be immutable")
     return dataclasses.field(default=default, metadata=metadata)
@@ -141,6 +142,8 @@ def _checked(kind, metadata, value, file, key):
         InputError: wrong type, or out of range.
     """
     if isinstance(kind, types.UnionType):
+        if value is None and types.NoneType in typing.get_args(kind):
+            return None
         kind = next(k for k in typing.get_args(kind) if k is not types.NoneType)
     if isinstance(value, str) and value in metadata["words"]:
         return value

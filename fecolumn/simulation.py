@@ -12,10 +12,12 @@ import numpy as np
 
 from fecolumn.atomic import write_json
 from fecolumn.case import GRAVITY, REST, Case, check_duration
-from fecolumn.ending import AT_REST, OVERTURNED, REST_SHARE, STILL_ROCKING, Ending
+from fecolumn.ending import AT_REST, EDGE, OVERTURNED, REST_SHARE, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.result_folder import held
 from fecolumn.schema import InputError
 
+# Steps in a period of the column's vertical vibration on a pad: needed, and for 3 % in frequency (period error (w dt)^2 / 12)
+FEWEST_STEPS, FEW_STEPS = 4, 10
 CHECKPOINT = "checkpoint.npz"
 
 
@@ -36,7 +38,7 @@ def run(case: Case, folder, *, comm=None, file: str = "case", quiet: bool = Fals
 
     Raises:
         InputError: the folder belongs to another case, or the motion cannot be used.
-        AnalysisFailed: a step did not converge after all cuts, or the column left the base plate.
+        AnalysisFailed: a step did not converge after all cuts.
     """
     from mpi4py import MPI
 
@@ -73,7 +75,8 @@ def read_folder_case(folder) -> tuple[Case, str]:
         raise InputError(folder, "", None, "not a result folder of fecolumn run (no case.json)") from None
     except (json.JSONDecodeError, UnicodeDecodeError):
         raise InputError(path, "", None, "damaged: not valid JSON") from None
-    tables = {key: value for key, value in saved["case"].items() if value is not None}
+    tables = {name: {key: one for key, one in value.items() if one is not None} if isinstance(value, dict) else value
+              for name, value in saved["case"].items() if value is not None}
     return case_from_tables(tables, path), saved["file"]
 
 
@@ -148,9 +151,21 @@ class Analysis:
         every = self.case.output.fields_every_s
         return max(1, round(every / self.case.integration.dt_s)) if every else 0
 
-    def warn_of_base(self, frequency: float, file) -> None:
-        """Tell of a step that resolves the base plate's vibration, of lowest `frequency` [Hz]."""
+    def warn_of_base(self, frequency: float, pad, file) -> None:
+        """Tell of a step that resolves the base plate's vibration, of lowest `frequency` [Hz], or not that of the column on its Pad.
+
+        Raises:
+            InputError: a pad so stiff that its vibration is less than a few steps.
+        """
         dt = self.case.integration.dt_s
+        if pad is not None:
+            steps, stiffness = 1 / (pad.frequency * dt), self.case.base.stiffness_n_m3
+            told = f"the column's vertical vibration on its pad, of {pad.frequency:.3g} Hz, takes {steps:.2g} steps"
+            if steps < FEWEST_STEPS:
+                raise InputError(file, "base.stiffness_n_m3", stiffness, f"{told}; at least {FEWEST_STEPS} are needed: integration.dt_s at most "
+                                 f"{1 / (FEWEST_STEPS * pad.frequency):.2g} s, or base.kind = 'unbounded' for a ground that stiff")
+            if steps < FEW_STEPS:
+                warnings.warn(f"{file}: {told}; with fewer than {FEW_STEPS} its frequency is off by more than 3 %", stacklevel=2)
         if dt < 1 / frequency:
             warnings.warn(f"{file}: integration.dt_s = {dt:g} s resolves the base plate's own vibration (period {1 / frequency:.2g} s), "
                           "which is left out: the base responds statically", stacklevel=2)
@@ -201,6 +216,14 @@ class Analysis:
             return Ending(outcome, f"at rest {last['time'] - self.motion_steps * dt:.3f} s after the motion's end, at {last['time']:.3f} s")
         return Ending(outcome, f"motion.rest_ceiling_s = {self.case.motion.rest_ceiling_s:g} s after the motion's end, at {last['time']:.3f} s")
 
+    def slid_off(self, failure, base, foot: np.ndarray) -> Ending | None:
+        """The ending of a column whose step failed because its foot, at (n, 3) [m] before, met the edge of the base; None for another failure."""
+        from fecolumn.dynamics.stage import Stop
+
+        if failure.stop is not Stop.OFF_BASE or not base.grid.at_edge(foot, EDGE * np.ptp(foot, axis=0)[:2].max()):
+            return None
+        return Ending(SLID_OFF, f"{Stop.OFF_BASE.value}, at {self.history.last()['time']:.3f} s")
+
     def finish(self, ending: Ending, dofs: int, record, factorizations: int) -> dict:
         """Write the last history and the summary, which is returned; the checkpoint goes."""
         from fecolumn import __version__
@@ -208,6 +231,7 @@ class Analysis:
         from fecolumn.dynamics.overturning import barrier, critical_displacement
 
         rows, plan, overturned = self.history.arrays(), self.case.integration, ending.outcome == OVERTURNED
+        slid_off, slide = ending.outcome == SLID_OFF, rows["slide"][-1]
         top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
         fall, end = rows["u_top"][-1], float(rows["time"][-1])
         summary = dict(
@@ -215,10 +239,12 @@ class Analysis:
             dofs=dofs, steps=self.step, dt=plan.dt_s, alpha_hht=plan.alpha_hht,
             motion=self.motion.name if self.motion else "", duration_s=end, motion_cut_at_s=self.cut_at_s,
             outcome=ending.outcome, ended_by=ending.ended_by,
-            # what overturns goes further than the analysis: its largest displacement is where that stopped, and no peak
-            u_max_m=float(top.max()), u_max_censored=overturned,
+            # what overturns or slides off goes further than the analysis: its largest displacement is where that stopped, and no peak
+            u_max_m=float(top.max()), u_max_censored=overturned or slid_off,
             overturned=overturned, overturn_time_s=end if overturned else None,
             overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0]))) if overturned else None,
+            slid_off=slid_off, slid_off_time_s=end if slid_off else None,
+            slid_off_direction_deg=float(np.degrees(np.arctan2(slide[1], slide[0]))) if slid_off else None,
             critical_tilt_rad=self.stance.critical, u_critical_m=critical_displacement(self.stance, self.top_arm),
             energy_left_j=None if overturned else self.energy_left(), energy_to_overturn_j=float(barrier(self.stance)),
             tilt_max_rad=float(rows["tilt"].max()), residual_slide_m=float(np.hypot(*rows["slide"][-1])),
@@ -260,7 +286,7 @@ class _FullAnalysis(Analysis):
         plan = case.integration
         specimen = share_specimen_mesh(case, comm)
         self.system = build_system(case, comm, specimen)
-        self.warn_of_base(self.system.base.frequency, file)
+        self.warn_of_base(self.system.base.frequency, self.system.interface.pad, file)
         self.ledger = Ledger(self.system)
         self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
                                plan.max_iterations, plan.max_cuts)
@@ -271,14 +297,13 @@ class _FullAnalysis(Analysis):
             self.state, extra = read_checkpoint(folder / CHECKPOINT, self.system)
             self.resumed(extra)
             self.ledger.start = float(extra["start"])
-            self.ledger.work = dict(zip(TERMS[3:-1], extra["work"].tolist()))
+            self.ledger.work |= zip(TERMS[3:-1], extra["work"].tolist())
             self.stepper.record = Record(*extra["record"].tolist())
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
-            start = case.initial
-            self.state = self._standing()
-            if start.tilt_rad:
-                self.state = gravity.tilted(self.system, start.tilt_rad, np.radians(start.direction_deg))
+            self.state, start = self._standing(), case.initial
+            if start.tilt_rad or start.moves:
+                self.state = gravity.begin(self.system, start)
             self.state.ground = self.ground(0)
             self.ledger.open(self.state)
             self._note(0)
@@ -302,7 +327,8 @@ class _FullAnalysis(Analysis):
         from fecolumn.post.fields import FieldWriter
 
         system = self.system
-        return FieldWriter(self.folder / "fields", system.column, system.base, system.foot_nodes, system.areas, specimen)
+        plate = system.base if len(specimen.base.cells) else None
+        return FieldWriter(self.folder / "fields", system.column, plate, system.foot_nodes, system.areas, specimen)
 
     def _write_fields(self) -> None:
         from fecolumn.dynamics.free_body import FreeBody
@@ -327,7 +353,7 @@ class _FullAnalysis(Analysis):
         cadence = self.case.output
         progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet or self.comm.rank > 0,
                             until_rest_from=self.motion_steps if self.until_rest else None)
-        saved, fallen, over = time.perf_counter(), STANDS, False
+        saved, fallen, over, off = time.perf_counter(), STANDS, False, None
         try:
             while self.step < self.steps and not over:
                 began, before = time.perf_counter(), self.stepper.record.iterations
@@ -347,12 +373,15 @@ class _FullAnalysis(Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            self._save()
-            raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+            column = self.system.column
+            off = self.slid_off(failure, self.system.base, column.gather(self.system.foot_nodes, self.state.x))
+            if off is None:
+                self._save()
+                raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
         finally:
             progress.end()
-        dofs = 3 * (self.system.column.n_nodes + self.system.base.body.n_nodes)
-        return self.finish(self.ending(fallen, self.state.rotation), dofs, self.stepper.record, self.system.factorizations)
+        dofs = 3 * self.system.column.n_nodes + self.system.base.dofs
+        return self.finish(off or self.ending(fallen, self.state.rotation), dofs, self.stepper.record, self.system.factorizations)
 
     def _agree(self, due: bool, ended: bool) -> tuple[bool, bool]:
         """Checkpoint due, stop asked for: so for all ranks where it is so for one."""

@@ -11,6 +11,7 @@ from fecolumn._compiled import compiled
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
 from fecolumn.contact.law import interface_compliance
+from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS
@@ -30,16 +31,15 @@ CHUNK = 500
 def engine_of(case, model, base, upright: bool = False) -> Engine:
     """The reduced engine of a case at its start, or in gravity equilibrium."""
     own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas)
-    plan, initial = case.integration, case.initial
+    plan = case.integration
 
     def begin(engine):
-        if initial.tilt_rad and not upright:
-            return start.tilted(engine, initial.tilt_rad, np.radians(initial.direction_deg))
-        return start.standing(engine)
+        return start.standing(engine) if upright else start.begin(engine, case.initial)
 
     eye = view(model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m)
     return Engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), [0.0, 0.0, -GRAVITY], case.contact.friction_coefficient, own,
-                  Rim.find(model.reference), begin, plan.max_cuts)
+                  Rim.find(model.reference), begin, plan.max_cuts, case.material.damping_ratio, case.contact.restitution,
+                  case.contact.rolling_resistance, pad_of(case, model.areas, model.mass))
 
 
 def standing_energy(case, model, base) -> float:
@@ -56,7 +56,7 @@ class ReducedAnalysis(Analysis):
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
         self.model, self.base, self.model_folder = load_model(case, self.say)
-        self.warn_of_base(self.base.frequency, file)
+        self.warn_of_base(self.base.frequency, pad_of(case, self.model.areas, self.model.mass), file)
         if not compiled(advance):
             self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
         self.engine = engine_of(case, self.model, self.base)
@@ -82,7 +82,7 @@ class ReducedAnalysis(Analysis):
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
         progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet, until_rest_from=self.motion_steps if self.until_rest else None)
-        saved, over = time.perf_counter(), False
+        saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
                 began, count = time.perf_counter(), min(CHUNK, self.steps - self.step)
@@ -108,12 +108,14 @@ class ReducedAnalysis(Analysis):
         except StepFailed as failure:
             self._note(engine.made)
             self.step += len(engine.made)
-            self._save()
-            raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+            off = self.slid_off(failure, self.base, engine.motion.center + self.model.arms @ engine.motion.rotation.T)
+            if off is None:
+                self._save()
+                raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
         finally:
             progress.end()
         fallen = lost(engine.eye, engine.motion, engine.row(), self.steepest(self.step)) if over else STANDS
-        return self.finish(self.ending(fallen, engine.motion.rotation), self.model.dofs + self.base.dofs, engine.record, 0)
+        return self.finish(off or self.ending(fallen, engine.motion.rotation), self.model.dofs + self.base.dofs, engine.record, 0)
 
     def _note(self, rows: np.ndarray) -> None:
         columns, place = {}, 0

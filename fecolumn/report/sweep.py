@@ -40,9 +40,9 @@ class Setting:
         return np.array([np.nan if run.get(name) is None else run[name] for run in runs.values()], float)
 
     def peaks(self, motions=None) -> tuple[np.ndarray, np.ndarray]:
-        """u_max [m], nan where the column overturned, and whether it did, one a motion."""
-        overturned = self.column("overturned", motions).astype(bool)
-        return np.where(overturned, np.nan, self.column("u_max_m", motions)), overturned
+        """u_max [m], nan where the column overturned or slid off its base, and whether it did, one a motion."""
+        lost = self.column("overturned", motions).astype(bool) | (self.column("slid_off", motions) == 1)
+        return np.where(lost, np.nan, self.column("u_max_m", motions)), lost
 
 
 @dataclass(frozen=True, slots=True)
