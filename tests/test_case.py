@@ -6,9 +6,14 @@ import json
 import shutil
 from pathlib import Path
 
+import pytest
+
 from fecolumn.case import read_case
+from fecolumn.schema import InputError
 
 SPECIMEN = Path("meshes/stout.toml").resolve()
+YOUNGER = {("material", "damping_ratio"): 0.02, ("contact", "restitution"): 0.5, ("contact", "rolling_resistance"): 1e-3,
+           ("initial", "velocity_m_s"): [0.1, 0.0, 0.0], ("initial", "spin_rad_s"): [0.0, 0.0, 1.0]}
 
 
 def _folder(path, acceleration="0.1"):
@@ -36,12 +41,37 @@ def test_id_ignores_title_and_output_but_no_number(tmp_path):
     assert read_case(file).id != first
 
 
-def test_studies_older_than_motion_delay_keep_the_names_of_their_results(tmp_path):
+def test_studies_older_than_a_key_keep_the_names_of_their_results(tmp_path):
     file = _folder(tmp_path / "case") / "case.toml"
     case = read_case(file)
     tables = dataclasses.asdict(case)
     del tables["title"], tables["output"], tables["motion"]["delay_s"]
+    for section, key in YOUNGER:
+        tables[section].pop(key, None)
     tables["motion"]["source"] = hashlib.sha256((tmp_path / "case" / "motion.csv").read_bytes()).hexdigest()
     assert case.id == hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:12]
     file.write_text(file.read_text() + "delay_s = 1e-12\n")
     assert read_case(file).id != case.id
+
+
+@pytest.mark.parametrize("section, key", YOUNGER)
+def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set(tmp_path, section, key):
+    first = read_case(SPECIMEN).id
+    value = YOUNGER[section, key]
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[{section}]\n{key} = {value}\n')
+    assert read_case(tmp_path / "case.toml").id != first
+    nothing = [0.0] * 3 if isinstance(value, list) else 0.0
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[{section}]\n{key} = {nothing}\n')
+    assert read_case(tmp_path / "case.toml").id == first
+
+
+@pytest.mark.parametrize("text, key", [
+    ("[contact]\nrestitution = 1.1", "contact.restitution"), ("[material]\ndamping_ratio = -0.1", "material.damping_ratio"),
+    ("[contact]\nrolling_resistance = 0.5", "contact.rolling_resistance"), ("[initial]\nspin_rad_s = [0, 1]", "initial.spin_rad_s"),
+    ("[initial]\nvelocity_m_s = 1", "initial.velocity_m_s"),
+    ('[contact]\nimpact = "none"\nrestitution = 0.5', "contact.restitution"),
+    ('[integration]\nkinematics = "total_lagrangian"\n[material]\ndamping_ratio = 0.02', "material.damping_ratio")])
+def test_losses_and_starts_that_cannot_be_are_refused_by_name(tmp_path, text, key):
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{text}\n')
+    with pytest.raises(InputError, match=key):
+        read_case(tmp_path / "case.toml")
