@@ -13,6 +13,8 @@ from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.schema import InputError
 
 SPECIMEN = Path("meshes/stout.toml").resolve()
+YOUNGER = {("material", "damping_ratio"): 0.02, ("contact", "restitution"): 0.5, ("contact", "rolling_resistance"): 1e-3,
+           ("initial", "velocity_m_s"): [0.1, 0.0, 0.0], ("initial", "spin_rad_s"): [0.0, 0.0, 1.0]}
 
 
 def _folder(path, acceleration="0.1"):
@@ -83,3 +85,24 @@ def test_unbounded_base_needs_no_room_for_the_foot(tmp_path):
         read_case(file)
     file.write_text(text + "kind = \"unbounded\"\n")
     assert len(specimen_mesh(read_case(file)).base.cells) == 0
+@pytest.mark.parametrize("section, key", YOUNGER)
+def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set(tmp_path, section, key):
+    first = read_case(SPECIMEN).id
+    value = YOUNGER[section, key]
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[{section}]\n{key} = {value}\n')
+    assert read_case(tmp_path / "case.toml").id != first
+    nothing = [0.0] * 3 if isinstance(value, list) else 0.0
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[{section}]\n{key} = {nothing}\n')
+    assert read_case(tmp_path / "case.toml").id == first
+
+
+@pytest.mark.parametrize("text, key", [
+    ("[contact]\nrestitution = 1.1", "contact.restitution"), ("[material]\ndamping_ratio = -0.1", "material.damping_ratio"),
+    ("[contact]\nrolling_resistance = 0.5", "contact.rolling_resistance"), ("[initial]\nspin_rad_s = [0, 1]", "initial.spin_rad_s"),
+    ("[initial]\nvelocity_m_s = 1", "initial.velocity_m_s"),
+    ('[contact]\nimpact = "none"\nrestitution = 0.5', "contact.restitution"),
+    ('[integration]\nkinematics = "total_lagrangian"\n[material]\ndamping_ratio = 0.02', "material.damping_ratio")])
+def test_losses_and_starts_that_cannot_be_are_refused_by_name(tmp_path, text, key):
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{text}\n')
+    with pytest.raises(InputError, match=key):
+        read_case(tmp_path / "case.toml")

@@ -31,7 +31,7 @@ COARSE = {
 }
 
 # Modes of a block that are damped
-DAMPED = 10
+DAMPED = 30
 # Of `shaking`: amplitudes of x, y, z [m/s2], and sign and angular frequencies [rad/s] of its two tones
 AMPLITUDES = np.array([8.0, 6.0, 0.0])
 TONES = ((1, np.array([30.0, 31.0, 1.0])), (-1, np.array([75.0, 73.0, 1.0])))
