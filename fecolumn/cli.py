@@ -1,4 +1,4 @@
-"""The command line: fecolumn new | mesh | run | resume | study | compare | report | verify | motions | keys | help | doctor | completion."""
+"""The command line: fecolumn new | mesh | run | resume | study | compare | report | motions | keys | help | verify | prepare | doctor | completion."""
 
 from __future__ import annotations
 
@@ -105,6 +105,7 @@ def _parser() -> argparse.ArgumentParser:
     add("keys", "every key of a case and of a study: meaning, unit, range, default", keys)
     add("help", "the manual, topic by topic", manual)
     add("verify", "check the engines against exact solutions", verify)
+    add("prepare", "compile what each machine compiles once; the set-up does it", main=_prepare)
     add("doctor", "versions and known traps of this machine")
     add("completion", "completion of the command line by the Tab key", completion, _completion)
     return parser
@@ -121,7 +122,14 @@ def _mesh(args) -> int:
     from fecolumn.case import read_case
     from fecolumn.mesh.report import mesh_report
 
-    print(mesh_report(read_case(args.case), args.output))
+    print(mesh_report(read_case(args.case), args.output, lambda text: print(text, file=sys.stderr, flush=True)))
+    return 0
+
+
+def _prepare(args) -> int:
+    from fecolumn.prepare import prepare
+
+    prepare(print)
     return 0
 
 
@@ -141,6 +149,7 @@ def _resume(args) -> int:
 def _analyse(case, folder, file, quiet) -> int:
     from mpi4py import MPI
 
+    from fecolumn.ending import ending_text, peak_text
     from fecolumn.interrupt import held_interrupts
     from fecolumn.post.history_figures import history_figures
     from fecolumn.simulation import AnalysisFailed, run
@@ -152,9 +161,7 @@ def _analyse(case, folder, file, quiet) -> int:
         return _refuse(error, 1)
     if MPI.COMM_WORLD.rank == 0:
         history_figures(folder)
-        end = f"overturned at {summary['overturn_time_s']:.3f} s" if summary["overturned"] else \
-            f"standing, residual slide {1e3 * summary['residual_slide_m']:.3f} mm"
-        print(f"{folder}: u_max {1e3 * summary['u_max_m']:.3f} mm, {end}; {summary['steps']} steps, "
+        print(f"{folder}: {peak_text(summary)}, {ending_text(summary)}; {summary['steps']} steps, "
               f"{1e3 * summary['s_per_step']:.1f} ms/step, energy closure {summary['energy_closure_rel']:.1e}")
     return 0
 

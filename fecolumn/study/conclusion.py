@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fecolumn.ending import lost
 from fecolumn.statistics.ecdf import censored, proportion_interval
 from fecolumn.statistics.equivalence import distance_bound
 from fecolumn.statistics.holm import holm
@@ -89,12 +90,16 @@ def _pairs(settings) -> list[_Pair]:
         common = [motion for motion in runs_a if motion in runs_b]
         if len(common) < _LEAST_MOTIONS:
             continue
-        (u_a, over_a), (u_b, over_b) = (tuple(np.array([runs[motion][key] for motion in common]) for key in ("u_max_m", "overturned"))
+        (u_a, over_a), (u_b, over_b) = (tuple(np.array([measure(runs[motion]) for motion in common]) for measure in (_peak, lost))
                                         for runs in (runs_a, runs_b))
         names = tuple(_name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second))
         p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
         found.append(_Pair(axis, names, *distance_bound(u_a, over_a, u_b, over_b), p))
     return found
+
+
+def _peak(summary: dict) -> float:
+    return summary["u_max_m"]
 
 
 def _differences(pairs: list[_Pair], settings) -> str:
