@@ -257,7 +257,7 @@ class _FullAnalysis(Analysis):
         from fecolumn.post.fields import FieldWriter
 
         system = self.system
-        return FieldWriter(self.folder / "fields", system.column, system.base, system.foot_nodes, system.areas, specimen)
+        return FieldWriter(self.folder / "fields", system.column, system.base, system.footprint, specimen)
 
     def _write_fields(self) -> None:
         from fecolumn.dynamics.free_body import FreeBody

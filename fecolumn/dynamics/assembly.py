@@ -10,9 +10,10 @@ from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.rim import Rim
 from fecolumn.dynamics.body import Body
 from fecolumn.dynamics.corotated import Corotated
+from fecolumn.dynamics.footprint import Footprint, footprint, relief
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
-from fecolumn.mesh.bricks import boundary_faces
+from fecolumn.mesh.bricks import boundary_faces, outline_edges
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.mesh.surface import face_basis, face_points, nodal_areas
 from fecolumn.mesh.tie import project_to_quads
@@ -64,16 +65,20 @@ def base_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
     return Body(comm, specimen.base, case.base, 1, held)
 
 
-def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (n,) of the foot in an order that does not depend on the partition, and their tributary areas (n,) [m2]."""
+def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> Footprint:
+    """Contact points of the foot, in an order that does not depend on the partition."""
     mesh = specimen.body
     part = mesh.foot_part
-    quads = boundary_faces(mesh, part, 0.0, 1e-6 * case.column.height_m)
-    found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
+    faces = boundary_faces(mesh, part, 0.0, 1e-6 * case.column.height_m)
+    found = column.find_nodes(face_points(mesh.points[faces], column.order).reshape(-1, 3), part)
     foot, position = np.unique(found, return_inverse=True)
     order = np.lexsort(np.round(column.all_X[foot, :2].T / foot_sides(case)[0], 9))
     foot, position = foot[order], np.argsort(order)[position]
-    return foot, nodal_areas(mesh.points[quads], position.reshape(len(quads), -1), len(foot), column.order)
+    areas = nodal_areas(mesh.points[faces], position.reshape(len(faces), -1), len(foot), column.order)
+    ends = mesh.points[outline_edges(faces)]
+    outline = np.concatenate([ends[:, 0] + t * (ends[:, 1] - ends[:, 0]) for t in np.arange(column.order) / column.order])
+    on_outline = np.isin(foot, column.find_nodes(outline, part))
+    return footprint(foot, column.all_X[foot], areas, on_outline, case.contact.interior_points)
 
 
 def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> System:
@@ -86,8 +91,8 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
         kinematics = TotalLagrangian(column)
     else:
         kinematics = Corotated(column)
-    foot, areas = foot_of(case, specimen, column)
-    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, areas)
-    return System(column, kinematics, BasePlate(base_body(case, specimen, comm)), foot, areas, case.contact.friction_coefficient,
+    foot, base = foot_of(case, specimen, column), BasePlate(base_body(case, specimen, comm))
+    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas) + relief(column, base, foot)
+    return System(column, kinematics, base, foot, case.contact.friction_coefficient,
                   own, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
-                  filtered=case.contact.impact == "plastic", rim=Rim.find(column.all_X[foot]))
+                  filtered=case.contact.impact == "plastic", rim=Rim.find(column.all_X[foot.nodes]))

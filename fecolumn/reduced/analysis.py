@@ -28,7 +28,7 @@ CHUNK = 500
 
 def engine_of(case, model, base) -> Engine:
     """The reduced engine of a case at its start."""
-    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas)
+    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas) + model.relief
     plan, initial = case.integration, case.initial
 
     def begin(engine):

@@ -91,7 +91,7 @@ def _keep_base(plate, file) -> None:
 def model_key(case: Case) -> str:
     """Name of the model of a case: what of the case its mesh and operators are made from."""
     tables = {name: section_table(name, getattr(case, name)) for name in ("column", "flange", "cap", "base", "material", "mesh")}
-    tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT)
+    tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT, interior=case.contact.interior_points)
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -137,12 +137,13 @@ def make_bodies(case: Case):
 
 def _make(case: Case, folder: Path) -> None:
     from fecolumn.dynamics.assembly import foot_of
+    from fecolumn.dynamics.footprint import relief
     from fecolumn.dynamics.observer import top_of
     from fecolumn.reduced.build import column_model
 
     body, plate, specimen = make_bodies(case)
-    foot, areas = foot_of(case, specimen, body)
-    model, fields = column_model(body, foot, areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES))
+    foot = foot_of(case, specimen, body)
+    model, fields = column_model(body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES), relief(body, plate, foot))
     allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
     plate.need(_under(plate.grid.points, model.reference, allowance))
     folder.parent.mkdir(parents=True, exist_ok=True)
