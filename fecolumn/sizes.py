@@ -14,9 +14,9 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-from pathlib import Path
 
 from fecolumn.case import Case, content
+from fecolumn.files import is_file
 from fecolumn.schema import InputError
 
 # keys that each shape needs, and those that say nothing of it
@@ -34,7 +34,7 @@ def check_shape(case: Case, file) -> None:
         raise InputError(file, key, value, allowed)
 
     if column.mesh_file:
-        if not Path(column.mesh_file).is_file():
+        if not is_file(column.mesh_file):
             refuse("column.mesh_file", column.mesh_file, "no such file")
         if column.shape != "tube":
             refuse("column.shape", column.shape, "says nothing where column.mesh_file gives the column; leave it out")
