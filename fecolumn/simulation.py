@@ -75,8 +75,7 @@ def read_folder_case(folder) -> tuple[Case, str]:
         raise InputError(folder, "", None, "not a result folder of fecolumn run (no case.json)") from None
     except (json.JSONDecodeError, UnicodeDecodeError):
         raise InputError(path, "", None, "damaged: not valid JSON") from None
-    tables = {name: {key: one for key, one in value.items() if one is not None} if isinstance(value, dict) else value
-              for name, value in saved["case"].items() if value is not None}
+    tables = {key: value for key, value in saved["case"].items() if value is not None}
     return case_from_tables(tables, path), saved["file"]
 
 
@@ -328,7 +327,7 @@ class _FullAnalysis(Analysis):
 
         system = self.system
         plate = system.base if len(specimen.base.cells) else None
-        return FieldWriter(self.folder / "fields", system.column, plate, system.foot_nodes, system.areas, specimen)
+        return FieldWriter(self.folder / "fields", system.column, plate, system.footprint, specimen)
 
     def _write_fields(self) -> None:
         from fecolumn.dynamics.free_body import FreeBody

@@ -98,7 +98,7 @@ def model_key(case: Case) -> str:
         for key in ("length_m", "width_m", "slide_allowance_m"):
             del tables["base"][key]
     tables["material"].pop("damping_ratio", None)  # no operator has it
-    tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT)
+    tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT, interior=case.contact.interior_points)
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -145,19 +145,20 @@ def make_bodies(case: Case):
 
 def _make(case: Case, folder: Path) -> None:
     from fecolumn.dynamics.assembly import base_of, foot_of
+    from fecolumn.dynamics.footprint import relief
     from fecolumn.dynamics.observer import top_of
     from fecolumn.reduced.build import column_model
 
     body, plate, specimen = make_bodies(case)
-    foot, areas = foot_of(case, specimen, body)
-    model, fields = column_model(body, foot, areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES))
+    foot = foot_of(case, specimen, body)
+    below = plate or base_of(case, body.all_X[foot.nodes])
+    model, fields = column_model(body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES), relief(body, below, foot))
     if plate:
         allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
         plate.need(_under(plate.grid.points, model.reference, allowance))
         base = dict(points=plate.grid.points, frequency=plate.frequency, dofs=plate.dofs, foot=model.reference, allowance=allowance)
     else:
-        flat = base_of(case, model.reference)
-        base = dict(size=flat.grid.size, response=flat.response, frequency=flat.frequency)
+        base = dict(size=below.grid.size, response=below.response, frequency=below.frequency)
     folder.parent.mkdir(parents=True, exist_ok=True)
     partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     partial.chmod(0o755)
