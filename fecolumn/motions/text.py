@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import numpy as np
 
+from fecolumn.files import Unreadable, read_bytes
 from fecolumn.motions.record import UnusableRecord
 
 _SPELLINGS = {"g": ("g", "g's"),
@@ -23,13 +23,9 @@ def read_text(path) -> str:
         UnusableRecord: there is no such file, it may not be read, is empty, or is not text.
     """
     try:
-        data = Path(path).read_bytes()
-    except FileNotFoundError:
-        raise UnusableRecord("no such file") from None
-    except IsADirectoryError:
-        raise UnusableRecord("is a directory; a file is needed") from None
-    except OSError as error:
-        raise UnusableRecord(f"may not be read ({error.strerror})") from None
+        data = read_bytes(path)
+    except Unreadable as error:
+        raise UnusableRecord(str(error)) from None
     data = data.rstrip(b"\x1a")  # DOS marked the end of a text so
     if re.search(rb"[\x00-\x08\x0e-\x1f\x7f]", data):
         raise UnusableRecord("is not a text file (it holds control characters)")

@@ -51,8 +51,7 @@ class ReducedAnalysis(Analysis):
             self.say("compiling the reduced engine, once on this machine: a minute or two")
         self.engine = engine_of(case, self.model, self.base)
         self.fields = self._fields() if self.field_steps else None
-        if (folder / CHECKPOINT).is_file():
-            self._resume()
+        if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.scalars[motions.TIME]:.4f} s")
         else:
             self.engine.motion.ground[:] = self.ground(0)
@@ -118,12 +117,14 @@ class ReducedAnalysis(Analysis):
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
-    def _resume(self) -> None:
+    def _take(self, saved: dict) -> None:
         engine = self.engine
-        with np.load(self.folder / CHECKPOINT) as file:
-            saved = {name: file[name] for name in file.files}
-        for prefix, target in (("motion", engine.motion), ("bed", engine.bed)):
-            for name, values in target._asdict().items():
-                values[...] = saved[f"{prefix}.{name}"]
-        engine.ledger[:], engine.counts[:], engine.last_tilt[:] = saved["ledger"], saved["counts"], saved["last_tilt"]
+        targets = {f"{prefix}.{name}": values for prefix, target in (("motion", engine.motion), ("bed", engine.bed))
+                   for name, values in target._asdict().items()}
+        targets |= dict(ledger=engine.ledger, counts=engine.counts, last_tilt=engine.last_tilt)
+        for name, values in targets.items():
+            if saved[name].shape != values.shape or not np.can_cast(saved[name].dtype, values.dtype):
+                raise ValueError(f"{name} does not fit")
         self.resumed(saved)
+        for name, values in targets.items():
+            values[...] = saved[name]

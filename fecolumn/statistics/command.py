@@ -25,6 +25,7 @@ def main(args) -> int:
     Raises:
         InputError: A or B cannot be used.
     """
+    from fecolumn.folder import written
     from fecolumn.schema import InputError
     from fecolumn.statistics.compare import compare
     from fecolumn.statistics.sample import read_sample
@@ -41,8 +42,10 @@ def main(args) -> int:
     print("\n".join(notes) + "\n")
     print(comparison_text(result, a, b, args.cap_mm))
     if args.output:
-        for file in _write(Path(args.output), result, a, b, paired, args.cap_mm):
-            print(f"wrote {file}")
+        with written(args.output, "compare") as draft:
+            files = _write(draft, result, a, b, paired, args.cap_mm)
+        for file in files:
+            print(f"wrote {Path(args.output) / file.name}")
     return 0
 
 
@@ -92,7 +95,6 @@ def _write(folder: Path, result, a, b, paired: bool, cap_mm: float) -> list[Path
     from fecolumn.atomic import write_csv
     from fecolumn.post.compare_figure import compare_figure
 
-    folder.mkdir(parents=True, exist_ok=True)
     files = [folder / "comparison.csv"]
     values = [[key, "" if value is None else value] for key, value in dataclasses.asdict(result).items()]
     write_csv(files[0], [["quantity", "value"], *values])
