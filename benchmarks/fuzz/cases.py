@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.fuzz.damage import hostile_names, toml
+from benchmarks.fuzz.damage import toml
 from fecolumn.case import read_case
 from fecolumn.motions.load import load_motion
 
@@ -58,7 +58,6 @@ def prepare(folder) -> None:
     (folder / "case.toml").write_text(_CASE)
     time = np.arange(0, 2, 0.01)
     (folder / "motion.csv").write_text("time [s],ax,ay\n" + "".join(f"{t:.2f},{np.sin(9 * t):.5f},{np.cos(7 * t):.5f}\n" for t in time))
-    hostile_names(folder)
 
 
 def mutate(rng, folder):

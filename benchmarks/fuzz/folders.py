@@ -60,7 +60,13 @@ class OwnTeam:
         self._batches.append(batch)
 
     def collect(self, timeout_s: float) -> list:
-        return [outcome for outcome in work_off(self._batches.popleft(), analyse, "study.toml")] if self._batches else []
+        kept = [(stream, os.dup(stream)) for stream in (1, 2)]  # work_off lends them to the analyses' logs
+        try:
+            return list(work_off(self._batches.popleft(), analyse, "study.toml")) if self._batches else []
+        finally:
+            for stream, copy in kept:
+                os.dup2(copy, stream)
+                os.close(copy)
 
     def stop(self) -> None:
         self._batches.clear()
@@ -99,19 +105,30 @@ def mutate(rng, folder: Path) -> Path:
         path = [out / "study.sqlite", out / "study.sqlite", out / "study.json", result / "summary.json", result / "summary.json", result / "case.json",
                 out / "study.lock", out / "analyses", out / "logs", result, out / "table.csv", out / "study.sqlite-wal", out][int(rng.integers(13))]
         kind = rng.random()
+        if not path.parent.is_dir():
+            continue
         if kind < 0.3 or not path.is_file():
             displaced(rng, path)
         elif path.name == "summary.json" and kind < 0.7:
             wrong = _FALSE[int(rng.integers(len(_FALSE)))]
-            path.write_text(json.dumps(json.loads(path.read_text()) | wrong if isinstance(wrong, dict) and wrong else wrong))
+            path.write_text(json.dumps(_known(path) | wrong if isinstance(wrong, dict) and wrong else wrong))
         elif path.name == "study.json" and kind < 0.7:
-            known = json.loads(path.read_text())
+            known = _known(path)
             path.write_text([json.dumps(known | {"axes": []}), "[" * 100_000, "7", json.dumps(known | {"analyses": "6"}), json.dumps(known | {"axes": {}}),
                              "[]", '{"study": 1}', json.dumps({**known, "title": 10**400})][int(rng.integers(8))])
         else:
             how = (flip, zeroed, *BYTES)[int(rng.integers(2 + len(BYTES)))]
             path.write_bytes(how(rng, path.read_bytes()))
     return out
+
+
+def _known(path: Path) -> dict:
+    """What a JSON file says, {} where it was damaged before."""
+    try:
+        known = json.loads(path.read_bytes())
+    except ValueError:
+        known = {}
+    return known if isinstance(known, dict) else {}
 
 
 def use(out: Path) -> None:

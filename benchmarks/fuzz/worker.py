@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.fuzz.damage import hostile_names
 from fecolumn.motions.record import UnusableRecord
 from fecolumn.schema import InputError
 from fecolumn.study.team import StudyError
@@ -42,6 +43,7 @@ def main() -> None:
         for number in map(int, numbers):
             folder = Path(home) / "mutant"
             shutil.copytree(sound, folder, symlinks=True)
+            hostile_names(folder)
             began = time.perf_counter()
             verdict, told = _use(module, np.random.default_rng([int(seed), number]), folder)
             out.write(json.dumps(dict(number=number, verdict=verdict, told=told, wall_s=time.perf_counter() - began)) + "\n")

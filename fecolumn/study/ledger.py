@@ -8,6 +8,7 @@ import sqlite3
 import time
 from pathlib import Path
 
+from fecolumn.files import is_file
 from fecolumn.schema import shown
 from fecolumn.study.outcome import DONE, FAILED, Outcome
 from fecolumn.summary import fault_of
@@ -52,14 +53,16 @@ class Ledger:
     def __init__(self, file: Path, many_readers: bool):
         self._committed, self._many_readers, self.put_aside = time.monotonic(), many_readers, None
         try:
+            if not can_be_opened(file):
+                raise sqlite3.DatabaseError("no file")
             self._open(file)
         except sqlite3.DatabaseError as error:
             if isinstance(error, sqlite3.OperationalError):  # cannot be opened, or the disk is full: it may be as good as ever
                 raise
             self.put_aside = file.with_name(f"{file.name}.damaged")
-            os.replace(file, self.put_aside)
-            for companion in ("-wal", "-shm", "-journal"):  # changes of the damaged one
-                file.with_name(file.name + companion).unlink(missing_ok=True)
+            for name in files_of(file):
+                if os.path.lexists(name):
+                    os.replace(name, f"{name}.damaged")
             self._open(file)
 
     def _open(self, file: Path) -> None:
@@ -179,6 +182,16 @@ class Ledger:
         except sqlite3.OperationalError:
             pass  # a reader is in it, or the disk is full: the next writer tidies up
         self._connection.close()
+
+
+def files_of(file: Path) -> list[Path]:
+    """A ledger's file and those in which SQLite keeps its changes."""
+    return [file.with_name(file.name + ending) for ending in ("", "-wal", "-shm", "-journal")]
+
+
+def can_be_opened(file: Path) -> bool:
+    """Whether SQLite can open a ledger, or make it, without being held up by a pipe or a device in its place."""
+    return all(is_file(name) or not os.path.lexists(name) for name in files_of(file))
 
 
 def open_to_read(file: Path) -> sqlite3.Connection | None:

@@ -21,7 +21,7 @@ from fecolumn.atomic import UNFINISHED, write_json
 from fecolumn.case import content
 from fecolumn.files import Unreadable, read_json
 from fecolumn.schema import InputError
-from fecolumn.study.ledger import PLANNED, RUNNING, Ledger, open_to_read, read_rows
+from fecolumn.study.ledger import PLANNED, RUNNING, Ledger, can_be_opened, files_of, open_to_read, read_rows
 from fecolumn.study.lock import FolderLock, stem
 from fecolumn.study.outcome import DONE, FAILED, Outcome, Task, finished
 from fecolumn.study.plan import Analysis, Plan
@@ -83,9 +83,9 @@ class Store:
             return motions[id(case.motion)] if case.motion else None
 
         self.ledger.plan((a.id, place, json.dumps(a.values), motion(a.case)) for place, a in self.analyses)
-        others = [file for file in sorted(self.folder.glob("study*.sqlite")) if file.stem != stem(share)]
+        others = [file for file in _ledgers(self.folder) if file.stem != stem(share)]
         if share is None or self.ledger.is_new:
-            for other in others:
+            for other in filter(can_be_opened, others):
                 self.ledger.adopt(other, recover=share is None)
         there = {entry.name for entry in os.scandir(self.folder / "analyses")} if (self.folder / "analyses").is_dir() else set()
         for case_id, state in self.ledger.states().items():
@@ -96,11 +96,14 @@ class Store:
                 self.ledger.plan_again(case_id=case_id)
         self.ledger.commit()
         for name in ("analyses", "logs"):
-            (self.folder / name).mkdir(exist_ok=True)
+            try:
+                (self.folder / name).mkdir(exist_ok=True)
+            except FileExistsError:
+                raise InputError(self.folder / name, "", None, "is no folder; move it away, the same command does what is missing then") from None
         if share is None:
             for other in others:
-                for file in self.folder.glob(other.name + "*"):
-                    file.unlink()
+                for file in files_of(other):
+                    file.unlink(missing_ok=True)
 
     def missing(self) -> list[Analysis]:
         """What is planned, longest first, so that no straggler is left at the end."""
@@ -168,9 +171,11 @@ def read_study(folder) -> Study:
         raise InputError(folder / "study.json", "", None, str(error)) from None
     if identity is None:
         raise InputError(folder, "", None, "holds no study (no study.json); a folder of fecolumn study is needed")
-    ledgers, files = [], sorted(folder.glob("study*.sqlite"))
+    ledgers, files = [], _ledgers(folder)
     try:
         for file in files:
+            if not can_be_opened(file):
+                raise InputError(file, "", None, "is no file; run fecolumn study on this folder again")
             if ledger := open_to_read(file):
                 ledgers.append(ledger)
         rows = read_rows(*ledgers)
@@ -183,6 +188,11 @@ def read_study(folder) -> Study:
         if row["axes"].keys() != identity["axes"].keys():
             raise InputError(folder, "", None, f"its ledger says nothing of some axes of analysis {row['id']}; run fecolumn study on this folder again")
     return Study(identity["title"], identity["axes"], rows, identity["analyses"])
+
+
+def _ledgers(folder: Path) -> list[Path]:
+    """Ledgers of all drivers; a user's own copy goes by another name."""
+    return sorted(file for file in folder.glob("study*.sqlite") if re.fullmatch(r"study(-\d+-of-\d+)?", file.stem))
 
 
 def _share(plan: Plan, share: tuple[int, int] | None) -> list[tuple[int, Analysis]]:
