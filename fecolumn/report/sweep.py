@@ -167,7 +167,7 @@ def read_tables(folder: Path) -> dict:
 def _case(folder: Path) -> dict:
     try:
         tables = read_tables(folder)
-        float(tables["overturn"]["displacement_m"])
+        float(tables.get("overturn", {}).get("displacement_m", 0.25))
         return tables if all(isinstance(table, (dict, str, type(None))) for table in tables.values()) else {}
     except (ValueError, KeyError, TypeError, AttributeError):
         return {}
