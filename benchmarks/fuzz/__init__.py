@@ -3,6 +3,7 @@
 A subject is a module with
 
     prepare(folder)          makes the sound files, once a process
+    sound(folder)            what `use` takes of the sound files, which is used
     mutate(rng, folder)      makes a mutant of them in a folder of its own, returns what `use` takes
     use(mutant)              does what a command would do with it
 """

@@ -36,7 +36,6 @@ engine = "rigid"
 max_iterations = 20
 [motion]
 source = "motion.csv"
-units = "g"
 scale = 0.5
 time_scale = 0.5
 rotation_deg = 30.0
@@ -57,7 +56,12 @@ def prepare(folder) -> None:
     (folder / "specimen.toml").write_text(_SPECIMEN)
     (folder / "case.toml").write_text(_CASE)
     time = np.arange(0, 2, 0.01)
-    (folder / "motion.csv").write_text("time [s],ax,ay\n" + "".join(f"{t:.2f},{np.sin(9 * t):.5f},{np.cos(7 * t):.5f}\n" for t in time))
+    (folder / "motion.csv").write_text("time [s],ax [g],ay [g]\n" + "".join(f"{t:.2f},{np.sin(9 * t):.5f},{np.cos(7 * t):.5f}\n" for t in time))
+
+
+def sound(folder):
+    """The case as it is."""
+    return folder / "case.toml"
 
 
 def mutate(rng, folder):

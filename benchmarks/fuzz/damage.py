@@ -58,7 +58,10 @@ def value_changed(rng, text: str) -> str:
     if not places:
         return text
     place = places[int(rng.integers(len(places)))]
-    return text[:place.start()] + str(rng.choice(VALUES)) + text[place.end():]
+    value = str(rng.choice(VALUES))
+    if rng.random() < 0.5 and re.fullmatch(r"-?[\d.e-]+", place[0].strip()):  # what might have been meant
+        value = repr(float(place[0]) * float(rng.choice([0.5, 0.9, 1.1, 2, 10, -1])))
+    return text[:place.start()] + value + text[place.end():]
 
 
 def line_changed(rng, text: str) -> str:

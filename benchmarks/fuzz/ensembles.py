@@ -23,6 +23,11 @@ def prepare(folder) -> None:
     write_ensemble(Ensemble("noise", motions, {"seed": np.arange(3.0)}, {"model": "noise"}), folder / "e.h5")
 
 
+def sound(folder):
+    """The ensemble as it is."""
+    return folder / "e.h5"
+
+
 def mutate(rng, folder):
     """Bytes changed, in the open or behind the seal's back."""
     path = folder / "e.h5"

@@ -97,6 +97,11 @@ def prepare(folder: Path) -> None:
         write_json(folder / "out" / "analyses" / row["id"] / "case.json", {"id": row["id"], "file": "case.toml", "case": tables})
 
 
+def sound(folder: Path) -> Path:
+    """The study as it is."""
+    return folder / "out"
+
+
 def mutate(rng, folder: Path) -> Path:
     """Something in the folder changed, once or twice."""
     out = folder / "out"

@@ -25,6 +25,11 @@ def prepare(folder) -> None:
                                   + "".join(f"{v:.6e}\n" for v in values))
 
 
+def sound(folder):
+    """One file as it is."""
+    return Motion(str(folder / "a.AT2")), 0.005
+
+
 def mutate(rng, folder):
     """One of the files changed, and keys that go with it or against it."""
     path = folder / f"a.{rng.choice(['AT2', 'csv', 'txt', 'asc'])}"
@@ -32,10 +37,14 @@ def mutate(rng, folder):
     for _ in range(int(rng.integers(1, 4))):
         data = _changed(rng, data)
     path.write_bytes(data)
-    keys = dict(units=str(rng.choice(["", "g", "cm/s2"])), dt_s=float(rng.choice([0.0, 0.0, _DT, 1e-3])), scale=float(rng.choice([1.0, 1e3, 0.0])),
-                time_scale=float(rng.choice([1.0, 0.5, 1e-3, 1e3])), rotation_deg=float(rng.choice([0.0, 30.0])), vertical=bool(rng.random() < 0.5),
-                strong_part=(0.0, 1.0) if rng.random() < 0.5 else (0.01, 0.99), delay_s=float(rng.choice([0.0, 0.013, 1e3])))
-    return Motion(str(path), **keys), float(rng.choice([0.02, 1e-3, 1e-4, 0.1, 1e-9]))
+    units, dt = "g" if path.suffix == ".txt" else "", 0.01
+    keys = dict(rotation_deg=float(rng.choice([0.0, 30.0])), vertical=bool(rng.random() < 0.5), dt_s=float(rng.choice([0.0, _DT])),
+                strong_part=(0.0, 1.0) if rng.random() < 0.5 else (0.01, 0.99), delay_s=float(rng.choice([0.0, 0.013])))
+    if rng.random() < 0.3:
+        units, dt = str(rng.choice(["", "g", "cm/s2"])), float(rng.choice([0.02, 1e-3, 1e-4, 0.1, 1e-9]))
+        keys |= dict(dt_s=float(rng.choice([0.0, 1e-3, 10.0])), scale=float(rng.choice([1e3, 0.0])), time_scale=float(rng.choice([0.5, 1e-3, 1e3])),
+                     delay_s=float(rng.choice([0.0, 1e3])))
+    return Motion(str(path), units=units, **keys), dt
 
 
 def _changed(rng, data: bytes) -> bytes:

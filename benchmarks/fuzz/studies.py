@@ -37,6 +37,11 @@ def prepare(folder) -> None:
     write_ensemble(Ensemble("two", (motion, motion), {}, {}), folder / "motions.h5")
 
 
+def sound(folder):
+    """The study as it is."""
+    return folder / "study.toml"
+
+
 def mutate(rng, folder):
     """The study's file, or now and then its case's."""
     if rng.random() < 0.2:

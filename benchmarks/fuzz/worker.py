@@ -40,6 +40,7 @@ def main() -> None:
         sound = Path(home) / "sound"
         sound.mkdir()
         module.prepare(sound)
+        module.use(module.sound(sound))  # what is refused undamaged tells nothing
         for number in map(int, numbers):
             folder = Path(home) / "mutant"
             shutil.copytree(sound, folder, symlinks=True)

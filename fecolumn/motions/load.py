@@ -21,6 +21,7 @@ from fecolumn.schema import InputError
 AXES = "xyz"
 _DT_TOLERANCE = 1e-4
 _LENGTH_TOLERANCE = 0.01
+_SOURCES = f"a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX"
 _LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as many terms
 
 
@@ -66,6 +67,8 @@ def read_motion(motion: Motion, file) -> GroundMotion:
         InputError: as load_motion.
     """
     keys = [key for key in ("source", "source_y", "source_z") if getattr(motion, key)]
+    if not keys:
+        raise InputError(file, "motion.source", motion.source, f"must be {_SOURCES}")
     columns, dt, names, sources = {}, None, [], []
     for key in keys:
         recording = _recording(motion, key, file)
@@ -110,7 +113,7 @@ def _recording(motion: Motion, key: str, file) -> Recording:
         if len(recording.values) < 2:
             raise UnusableRecord(f"holds {len(recording.values)} samples; at least 2 are needed")
     except UnusableRecord as error:
-        hint = f"; must be a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX" if str(error) == "no such file" else ""
+        hint = f"; must be {_SOURCES}" if str(error) == "no such file" else ""
         raise InputError(file, f"motion.{key}", source, f"{error}{hint}") from None
     return recording
 

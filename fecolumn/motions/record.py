@@ -10,7 +10,7 @@ import numpy as np
 from fecolumn.case import GRAVITY
 
 # Samples of a motion [-], its step [s] and acceleration [m/s2]: beyond them a file is damaged or its unit is wrong
-MOST_SAMPLES, STEPS_S, LARGEST = 20_000_000, (1e-6, 10.0), 1e5
+MOST_SAMPLES, STEPS_S, LARGEST = 10_000_000, (1e-6, 10.0), 1e5
 METRES_PER_S2 = {"g": GRAVITY, "m/s2": 1.0, "cm/s2": 1e-2, "mm/s2": 1e-3}
 
 
