@@ -46,7 +46,10 @@ def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
         raise InputError(file, "integration.dt_s", dt, f"must be at least {least:.3g} s for a motion of {ground.duration:g} s sampled at {ground.dt:g} s")
     if dt > _LARGEST_RATIO * ground.dt:
         raise InputError(file, "integration.dt_s", dt, f"must be at most {_LARGEST_RATIO * ground.dt:.3g} s for a motion sampled at {ground.dt:g} s")
-    return delay(resample(ground, dt), motion.delay_s)
+    try:
+        return delay(resample(ground, dt), motion.delay_s)
+    except ValueError as error:
+        raise InputError(file, "integration.dt_s", dt, str(error)) from None
 
 
 def unsampled(motion: Motion, file) -> GroundMotion:

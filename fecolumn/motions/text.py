@@ -13,6 +13,8 @@ _SPELLINGS = {"g": ("g", "g's"),
               "m/s2": ("m/s2", "m/s/s"),
               "cm/s2": ("cm/s2", "cm/s/s", "gal", "gals"),
               "mm/s2": ("mm/s2", "mm/s/s")}
+# Times since 1970 are below it [s]; and what numbers of their size may be rounded by, as a share of a step
+_LATEST_S, _RESOLVED = 1e13, 1e-4
 _UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
 
 
@@ -70,8 +72,13 @@ def uniform_step(time: np.ndarray, lines: list[int], dt_s: float) -> float:
     Raises:
         UnusableRecord: times fall, repeat, or are not even.
     """
+    latest = float(np.abs(time).max())
+    if latest > _LATEST_S:
+        raise UnusableRecord(f"line {lines[int(np.argmax(np.abs(time)))]}: t = {latest:g} s; times must be at most {_LATEST_S:g} s")
     steps = np.diff(time)
     dt = (time[-1] - time[0]) / len(steps)
+    if np.spacing(latest) > _RESOLVED * dt > 0:
+        raise UnusableRecord(f"times around {latest:g} s do not tell steps of {dt:g} s apart: subtract the first one")
     rounded = dt_s > 0 and abs(dt - dt_s) * len(steps) < 0.5 * dt_s
     worst = int(np.argmin(steps))
     if steps[worst] < 0 or (steps[worst] == 0 and not rounded):
