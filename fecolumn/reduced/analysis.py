@@ -63,8 +63,7 @@ class ReducedAnalysis(Analysis):
         self.began = time.perf_counter()  # what was made and compiled so far was so for all analyses
         self.stance, self.top_arm = self.engine.eye.stance, self.model.top_arm
         self.fields = self._fields() if self.field_steps else None
-        if (folder / CHECKPOINT).is_file():
-            self._resume()
+        if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.scalars[motions.TIME]:.4f} s")
         else:
             self.standing_j = standing_energy(case, self.model, self.base) if case.initial.tilt_rad else self.engine.mechanical()
@@ -136,12 +135,14 @@ class ReducedAnalysis(Analysis):
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
-    def _resume(self) -> None:
+    def _take(self, saved: dict) -> None:
         engine = self.engine
-        with np.load(self.folder / CHECKPOINT) as file:
-            saved = {name: file[name] for name in file.files}
-        for prefix, target in (("motion", engine.motion), ("bed", engine.bed)):
-            for name, values in target._asdict().items():
-                values[...] = saved[f"{prefix}.{name}"]
-        engine.ledger[:], engine.counts[:] = saved["ledger"], saved["counts"]
+        targets = {f"{prefix}.{name}": values for prefix, target in (("motion", engine.motion), ("bed", engine.bed))
+                   for name, values in target._asdict().items()}
+        targets |= dict(ledger=engine.ledger, counts=engine.counts)
+        for name, values in targets.items():
+            if saved[name].shape != values.shape or not np.can_cast(saved[name].dtype, values.dtype):
+                raise ValueError(f"{name} does not fit")
         self.resumed(saved)
+        for name, values in targets.items():
+            values[...] = saved[name]

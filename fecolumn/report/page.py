@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import datetime
-import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.atomic import write_bytes
+from fecolumn.folder import written
 from fecolumn.report.audit import audit
 from fecolumn.report.claim import SUPPORTED, Claim
 from fecolumn.report.cost import cost_claims
@@ -47,21 +47,21 @@ def write_report(folder, output=None) -> Path:
     """Write index.html, its figures and its tables into `output`, or folder/report; returns the page.
 
     Raises:
-        InputError: the folder holds no study, or none of its analyses is done.
+        InputError: the folder holds no study, or none of its analyses is done; `output` is neither new nor empty nor of an earlier report.
     """
     sweep = read_sweep(folder)
     if not sweep.done:
         raise InputError(folder, "", None, f"none of its {sweep.analyses} analyses is done; nothing to report yet")
     target = Path(output) if output else Path(folder) / "report"
-    for part in ("figures", "tables"):  # of an earlier report, which may have had others
-        shutil.rmtree(target / part, ignore_errors=True)
-        (target / part).mkdir(parents=True)
-    sections = _sections(sweep, Gallery(target / "figures", has_claims(sweep)))
-    for section in sections:
-        for block in section.blocks:
-            if isinstance(block, (Table, ClaimList)):
-                block.write_csv(target / "tables")
-    write_bytes(target / "index.html", _html(sweep, sections).encode())
+    with written(target, "report", alone=True) as draft:
+        for part in ("figures", "tables"):
+            (draft / part).mkdir()
+        sections = _sections(sweep, Gallery(draft / "figures", has_claims(sweep)))
+        for section in sections:
+            for block in section.blocks:
+                if isinstance(block, (Table, ClaimList)):
+                    block.write_csv(draft / "tables")
+        write_bytes(draft / "index.html", _html(sweep, sections).encode())
     return target / "index.html"
 
 

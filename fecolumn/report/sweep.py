@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from fecolumn.files import read_json
 from fecolumn.statistics.ecdf import largest_peak
 from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE, FAILED, read_study
@@ -168,11 +168,13 @@ def _ordered(levels: list) -> list:
 
 def read_tables(folder: Path) -> dict:
     """Tables of the case an analysis was run with."""
-    return json.loads((folder / "case.json").read_text())["case"]
+    return read_json(folder / "case.json")["case"]
 
 
 def _case(folder: Path) -> dict:
     try:
-        return read_tables(folder)
-    except (OSError, ValueError, KeyError, TypeError):
+        tables = read_tables(folder)
+        float(tables.get("overturn", {}).get("displacement_m", 0.25))
+        return tables if all(isinstance(table, (dict, str, type(None))) for table in tables.values()) else {}
+    except (ValueError, KeyError, TypeError, AttributeError):
         return {}

@@ -8,8 +8,9 @@ import sqlite3
 import sys
 import warnings
 
+from fecolumn.atomic import disk_full
 from fecolumn.case import REST
-from fecolumn.study.outcome import FULL, RETURNED, disk_full
+from fecolumn.study.outcome import FULL, RETURNED
 from fecolumn.study.plan import Analysis, Plan
 from fecolumn.study.pool import LocalPool
 from fecolumn.study.progress import Progress
@@ -59,9 +60,9 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
                 store.ledger.plan_again(state=FAILED)
             drive(store, team or LocalPool(workers, entry, plan.file), stream)
             return store.rows()
-    except sqlite3.OperationalError as error:
+    except sqlite3.DatabaseError as error:
         full = "full" in str(error) or "disk I/O" in str(error)
-        raise StudyError(_DISK_FULL if full else f"the ledger cannot be written ({error})") from None
+        raise StudyError(_DISK_FULL if full else f"the ledger of {folder} cannot be written ({error})") from None
     except OSError as error:
         if disk_full(error):
             raise StudyError(_DISK_FULL) from None
