@@ -15,7 +15,7 @@ def add_arguments(parser) -> None:
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for comparison.csv, pairs.csv and the figure")
     parser.add_argument("--unpaired", action="store_true", help="do not match runs by motion")
     parser.add_argument("--cap-mm", type=float, default=250.0, metavar="MM",
-                        help="displacement of an overturned run in R, and end of the figure's axes (default: %(default)g mm)")
+                        help="displacement of an overturned run in R (default: %(default)g mm)")
     parser.add_argument("--seed", type=int, default=0, help="of the permutations (default: %(default)s)")
 
 
@@ -41,7 +41,7 @@ def main(args) -> int:
     print("\n".join(notes) + "\n")
     print(comparison_text(result, a, b, args.cap_mm))
     if args.output:
-        for file in _write(Path(args.output), result, a, b, paired, args.cap_mm):
+        for file in _write(Path(args.output), result, a, b, paired):
             print(f"wrote {file}")
     return 0
 
@@ -88,7 +88,7 @@ def comparison_text(result, a, b, cap_mm: float) -> str:
     return text
 
 
-def _write(folder: Path, result, a, b, paired: bool, cap_mm: float) -> list[Path]:
+def _write(folder: Path, result, a, b, paired: bool) -> list[Path]:
     from fecolumn.atomic import write_csv
     from fecolumn.post.compare_figure import compare_figure
 
@@ -101,7 +101,7 @@ def _write(folder: Path, result, a, b, paired: bool, cap_mm: float) -> list[Path
         u = [["" if fallen else f"{value:.6e}" for value, fallen in zip(sample.u_max, sample.overturned)] for sample in (a, b)]
         write_csv(files[1], [["motion", "u_max_a_m", "overturned_a", "u_max_b_m", "overturned_b"],
                              *zip(a.motions, u[0], a.overturned.astype(int), u[1], b.overturned.astype(int))])
-    return files + compare_figure((a.u_max, a.overturned), (b.u_max, b.overturned), _labels(a, b), paired=paired, limit_m=1e-3 * cap_mm,
+    return files + compare_figure((a.u_max, a.overturned), (b.u_max, b.overturned), _labels(a, b), paired=paired,
                                   correlation=result.correlation, path=folder / "comparison")
 
 
