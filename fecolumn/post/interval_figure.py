@@ -45,9 +45,11 @@ def interval_figure(columns: list[tuple[Scale, list[Estimate]]], path, formats=(
         width_in: of the figure.
     """
     rows, narrow = len(columns[0][1]), width_in <= COLUMN_WIDTH_IN
+    names = [one.name.replace(", ", ",\n") if narrow else one.name for one in columns[0][1]]
+    row_in = 0.19 if not narrow else 0.08 + 0.13 * max(name.count("\n") + 1 for name in names)
     shape = (len(columns), 1) if narrow else (1, len(columns))
     with styled():
-        figure = new_figure(width_in, shape[0] * (0.75 + 0.19 * max(rows, 2)))
+        figure = new_figure(width_in, shape[0] * (0.75 + row_in * max(rows, 2)))
         grid = figure.subplots(*shape, squeeze=False, sharey=True).ravel()
         for axes, (scale, estimates) in zip(grid, columns):
             for place, one in enumerate(estimates):
@@ -64,5 +66,5 @@ def interval_figure(columns: list[tuple[Scale, list[Estimate]]], path, formats=(
             axes.grid(axis="y", visible=False)
             axes.tick_params(axis="y", length=0)
         for axes in grid if narrow else grid[:1]:
-            axes.set_yticks(range(rows), [one.name.replace(", ", ",\n") if narrow else one.name for one in columns[0][1]])
+            axes.set_yticks(range(rows), names)
         return save(figure, path, formats)

@@ -52,9 +52,9 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sec
         text += (f"Half of the motions have overturned it by a PGV of {_speed(here.fit.median)} m/s {interval(*here.fit.median_interval(), _speed)}, with a logarithmic "
                  f"standard deviation of {fixed(here.fit.beta)} {interval(*here.fit.beta_interval())}. Each motion counts once, by the intensities between which it "
                  "first overturns the column; those that never do count as beyond their largest. ")
-    text += (f"With {count(again, 'motion')} the column stands again at a larger scale: to overturn *by* an intensity is then more probable than to overturn *at* it, "
-             "which the fragility below tells." if again else "No motion lets the column stand again at a larger scale.").replace("*", "")
-    blocks.append(Paragraph(text))
+    text += (f"With {count(again, 'motion')} the column stands again at a larger scale: to have overturned by an intensity is then more probable than to overturn at it, "
+             "which the fragility below tells." if again else "No motion lets the column stand again at a larger scale.")
+    blocks.append(Paragraph(f"{text} [[first_overturnings]] has all settings, [[ida_motions]] every motion."))
     blocks.append(gallery.draw("ida", f"Incremental dynamic analysis {at}: peak displacement of the top over the intensity, a thin line a motion, and the 16, 50 and 84 % "
                                       "fractiles over the motions, as far as all motions are known. A line that turns level and ends in a mark: overturned.",
                                incremental_figure, here.curves, LABEL, _critical(sweep)))
@@ -134,7 +134,7 @@ def _motions(sweep: Sweep, found: list[Scaled]) -> Table:
             u = float(curve.u_max[np.searchsorted(curve.im, stood)]) if stood else None
             rows.append((*(one.values[axis] for axis in axes), curve.motion.strip("[]'\""), len(curve.im), stood or None, u,
                          fallen if np.isfinite(fallen) else None, curve.stands_again))
-    return Table("ida", columns, rows, "Every motion: the largest PGV below its first overturning, and that of the first overturning; a dash where there is none.", folded=True)
+    return Table("ida_motions", columns, rows, "Every motion: the largest PGV below its first overturning, and that of the first overturning; a dash where there is none.", folded=True)
 
 
 def _speed(value) -> str:

@@ -15,6 +15,7 @@ _TYPESET = [(re.compile(pattern), replacement) for pattern, replacement in (
     (r"\bu_max\b", "<i>u</i><sub>max</sub>"), (r"\bu([₀-₉]{2})", r"<i>u</i>\1"), (r"\be([₀-₉]{2})", r"<i>e</i>\1"),
     (r"\bP\(", "<i>P</i>("), (r"Δt\b", "Δ<i>t</i>"), (r"([αμτ])", r"<i>\1</i>"),
     (r"\b([pnRD])(?=[\s\u202f]?(?:=|&lt;)|\Z)", r"<i>\1</i>"))]
+_PERCENT = re.compile(r"(\d) %")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -74,7 +75,7 @@ def typeset(text: str):
     """Plain text as HTML: escaped, symbols in italics, true apostrophes."""
     from markupsafe import Markup, escape
 
-    html = str(escape(text.replace("'", "\N{RIGHT SINGLE QUOTATION MARK}")))
+    html = str(escape(_PERCENT.sub("\\1\N{NO-BREAK SPACE}%", text.replace("'", "\N{RIGHT SINGLE QUOTATION MARK}"))))
     for pattern, replacement in _TYPESET:
         html = pattern.sub(replacement, html)
     return Markup(html)

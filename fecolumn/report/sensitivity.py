@@ -6,7 +6,7 @@ from fecolumn.post.axis_text import axis_text, level_number
 from fecolumn.post.interval_figure import Estimate, Scale, interval_figure
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import axis_name, count, fixed, interval, level_text, percent_interval
+from fecolumn.report.notation import axis_name, count, fixed, interval, level_text, percent_interval, sentence
 from fecolumn.report.ranking import Rank, ranking
 from fecolumn.report.sweep import Sweep
 
@@ -19,14 +19,14 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
     first = ranks[0]
     above = [axis_name(rank.axis) for rank in ranks if rank.effect.distance > rank.effect.chance]
     text = ("[[sensitivity]] and [[ranking]] rank the parameters by the largest distance of the CDF between their extreme levels, averaged "
-            f"over all other settings. {axis_name(first.axis)} comes first with {fixed(first.effect.distance)} "
+            f"over all other settings. {sentence(axis_name(first.axis))} comes first with {fixed(first.effect.distance)} "
             f"{interval(first.effect.distance_low, first.effect.distance_high)}. ")
     if any(isinstance(rank.low, tuple) for rank in ranks):
         beside = (" Samples differ in all parameters at once: by the luck of few samples an effect of one shows up under another, too, and "
                   "neither intervals nor chance, which are over motions, know of it.")
     else:
         beside = ""
-    goes = f"{'Only ' if len(above) < len(ranks) else ''}{' and '.join(above)} {'goes' if len(above) == 1 else 'go'}"
+    goes = sentence(f"{'only ' if len(above) < len(ranks) else ''}{' and '.join(above)} {'goes' if len(above) == 1 else 'go'}")
     text += f"{goes if above else 'No parameter goes'} beyond what chance alone gives.{beside}"
     names = [f"{axis_text(rank.axis, low)} to {level_number(high)}" for rank in ranks for low, high in [_ends(rank)]]
     columns = [
