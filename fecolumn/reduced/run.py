@@ -11,7 +11,7 @@ from fecolumn.dynamics.stage import Stop
 from fecolumn.dynamics.stepper import Record, StepFailed
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.bed import no_bed
-from fecolumn.reduced.equilibrium import CONTACT, FAR_BASE, IMPACT, ITERATIONS, N_CUTS, N_ITERATIONS, OFF_BASE, OK, OVERTURNED
+from fecolumn.reduced.equilibrium import CONTACT, FAR_BASE, IMPACT, ITERATIONS, N_CUTS, N_ITERATIONS, OFF_BASE, OK, OVERTURNED, equilibrate
 from fecolumn.reduced.ledger import kinetic, strain, weight_energy
 from fecolumn.reduced.model import scheme, step_column
 from fecolumn.reduced.motion import TIME, Sway
@@ -25,7 +25,14 @@ _STOPS = {CONTACT: Stop.CONTACT, IMPACT: Stop.CONTACT, ITERATIONS: Stop.ITERATIO
 
 @njit
 def advance(column, plate, scheme, points, footing, bed, eye, motion, spare, sway, grounds, rows, last_tilt, ledger, record):
-    """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, WIDTH) are filled, last_tilt (1,) kept."""
+    """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, WIDTH) are filled, last_tilt (1,) kept.
+
+    Without any step to make: one proximal step of `scheme` towards gravity equilibrium, from `motion` to `spare`; see `start.standing`.
+    It is here because each function that Python calls is compiled with all it calls: the contact solver is wanted once.
+    """
+    if len(grounds) == 0:
+        fall, rest = motion.center + scheme.half * column.gravity, np.zeros(3)
+        return 0, equilibrate(column, plate, scheme, points, footing, bed, motion, fall, motion.modal, rest, spare, sway, record)
     booked, now, then, made, answer = ledger.copy(), motion, spare, 0, OK
     for ground in grounds:
         before = record[N_ITERATIONS]
@@ -72,9 +79,14 @@ class Engine:
         self.counts, self.last_tilt = np.zeros(6, np.int64), np.zeros(1)
         self.base.need(np.unique(base.grid.project(model.reference)[0]))
         self.plate = plate_of(base)
-        self.motion = start(self)
         self.ledger = np.zeros(6)
+        self.motion = start(self)
         self.ledger[0] = self.mechanical()
+
+    def settle(self, scheme, motion, end) -> int:
+        """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way to end."""
+        return advance(self.column, self.plate, scheme, self.points, self.footing, self.bed, self.eye, motion, end, self.sway,
+                       np.empty((0, 3)), np.empty((0, WIDTH)), self.last_tilt, self.ledger, self.counts)[1]
 
     @property
     def record(self) -> Record:

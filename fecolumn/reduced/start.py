@@ -7,7 +7,7 @@ import numpy as np
 from fecolumn.dynamics.gravity import PSEUDO_INERTIA, REST
 from fecolumn.dynamics.rotation import rotation_matrix
 from fecolumn.reduced import motion as motions
-from fecolumn.reduced.equilibrium import FAR_BASE, OK, equilibrate
+from fecolumn.reduced.equilibrium import FAR_BASE, OK
 from fecolumn.reduced.model import resting_scheme
 from fecolumn.reduced.motion import point_positions
 
@@ -29,8 +29,7 @@ def standing(engine, max_iterations: int = 50) -> motions.Motion:
     moved = np.inf
     for _ in range(max_iterations):
         while True:
-            answer = equilibrate(column, engine.plate, resting, engine.points, engine.footing, engine.bed, start, start.center + resting.half * column.gravity,
-                                 start.modal, np.zeros(3), end, engine.sway, engine.counts)
+            answer = engine.settle(resting, start, end)
             if answer != FAR_BASE:
                 break
             engine.extend_base(end)

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check, digest, located, section_text
+from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.schema import InputError, build, merge, read_toml
 from fecolumn.study.axes import TABLES, Factor, hint, read_factors
@@ -197,7 +198,7 @@ class _Maker:
         for key in ("source", "source_y", "source_z"):
             source = getattr(motion, key)
             file = (file_and_number(source) or (source,))[0]
-            if source and ":" not in source and not Path(file).is_file():
+            if source and ":" not in source and not is_file(file):
                 raise InputError(self.path, f"motion.{key}", source, "no such file")
 
     def _refuse(self, error: InputError, levels) -> typing.NoReturn:

@@ -1,0 +1,45 @@
+"""Locks of the kernel (flock): they end with their process, however it ends, and Linux keeps them over NFS, too."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+from pathlib import Path
+
+
+def open_lock(file):
+    """A lock's file open for reading and writing, made if need be; a pipe or a device in its place cannot hold the opener up."""
+    return open(os.open(file, os.O_RDWR | os.O_CREAT | os.O_NONBLOCK | os.O_CLOEXEC, 0o666), "r+")
+
+
+@contextlib.contextmanager
+def alone(path: Path):
+    """Hold the right to make `path`; who comes second waits. It ends with the process that has it.
+
+        if not path.exists():
+            with alone(path):
+                if not path.exists():
+                    ...
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    file = path.parent / f".{path.name}.lock"
+    while True:
+        lock = open_lock(file)
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if _still(lock, file):
+            break
+        lock.close()  # its last holder has taken the file away meanwhile: others lock another one by now
+    try:
+        yield
+    finally:
+        with lock:
+            file.unlink(missing_ok=True)
+
+
+def _still(lock, file: Path) -> bool:
+    """Whether an open lock is the one that goes by its name."""
+    try:
+        return os.path.samestat(os.fstat(lock.fileno()), os.stat(file))
+    except FileNotFoundError:
+        return False
