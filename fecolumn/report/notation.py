@@ -41,7 +41,7 @@ def fixed(value, decimals: int = 2) -> str:
 
 def percent(share) -> str:
     """0.435 as "43.5 %"."""
-    return DASH if share is None or math.isnan(share) else f"{100 * share:.1f}".replace("-", MINUS) + f"{THIN}%"
+    return DASH if share is None or math.isnan(share) else f"{fixed(100 * share, 1)}{THIN}%"
 
 
 def millimetres(metres) -> str:

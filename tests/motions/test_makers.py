@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from fecolumn.motions import fema_p695, makers
+from fecolumn.motions.intensity import peak_values
 from fecolumn.motions.pulses import SHAPES
 from fecolumn.schema import InputError
 

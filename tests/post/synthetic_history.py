@@ -14,8 +14,8 @@ def write_history(folder, n: int = 2001, overturned: bool = False) -> None:
     size = 0.03 * growth * (1 if overturned else np.exp(-0.6 * time))
     u_top = np.stack([size * np.cos(7 * time), 0.6 * size * np.sin(9 * time), -5 * size**2], axis=1)
     base_work = 1.2 * (1 - np.exp(-2 * time))
-    losses = {"impact": 0.8 * (1 - np.exp(-time)), "friction": 0.05 * (1 - np.exp(-time)), "algorithmic": 0.02 * (1 - np.exp(-time))}
-    stored = base_work - sum(losses.values())
+    losses = {"impact": -0.8 * (1 - np.exp(-time)), "friction": -0.05 * (1 - np.exp(-time)), "algorithmic": -0.02 * (1 - np.exp(-time))}
+    stored = base_work + sum(losses.values())
     share = np.sin(8 * time) ** 2
     energy = {"kinetic": stored * share, "strain": 1e-3 * np.abs(stored), "gravity": stored * (1 - share), "base_work": base_work, **losses,
               "contact": np.zeros(n), "closure": 1e-6 * np.sin(3 * time)}
