@@ -23,6 +23,7 @@ def power(sweep: Sweep, wanted: float = SMALL, why: str = "") -> Paragraph:
     n, needed = len(common_motions(sweep.done)) or min(len(setting.runs) for setting in sweep.done), motions_needed(wanted)
     overturned = int(sweep.reference.peaks()[1].sum())
     low, high = proportion_interval(overturned, len(sweep.reference.runs))
-    text = (f"{count(n, 'motion')}: a difference of two CDFs below {fixed(detectable_distance(n))} cannot be seen (Kolmogorov-Smirnov, 5 %); {fixed(wanted)} would "
-            f"need about {count(needed, 'motion')}{why}. One P(overturn) is known to about ±{percent((high - low) / 2)} only")
+    text = (f"{count(n, 'motion')}: a difference of two CDFs below {fixed(detectable_distance(n))} cannot be seen (Kolmogorov-Smirnov, 5 %; the same motions in both "
+            f"settings show somewhat less); {fixed(wanted)} would need about {count(needed, 'motion')}{why}. One P(overturn) is known to about "
+            f"±{percent((high - low) / 2)} only")
     return Paragraph(f"{text}. A difference that is not significant here is not shown to be nil, and one that is may shrink with more motions.", n < needed)

@@ -34,7 +34,7 @@ def test_cdf_figure_shows_lines_and_bands(tmp_path, n, titles):
     colours = np.unique(_picture(png)[..., :3].reshape(-1, 3).round(1), axis=0)
     assert len(colours) > 20 and pdf.read_bytes().startswith(b"%PDF")
     width, height = struct.unpack(">II", png.read_bytes()[16:24])
-    assert width in (720, 1440) and height > 400
+    assert width in (864, 1440) and height > 400
 
 
 def _share(picture, colour, opacity=1.0) -> float:
