@@ -12,7 +12,8 @@ from fecolumn.post.style import BLACK, BLUE, GREEN, ORANGE, PAGE_WIDTH_IN, PURPL
 _MOVED = {"kinetic": ("kinetic", VERMILION, "-"), "gravity": ("gravity potential", BLUE, "-"), "base_work": ("work of the base", BLACK, "-")}
 _STRAIN = {"strain": ("strain", ORANGE, "-")}
 _LOST = {"friction": ("sliding friction", GREEN, "-"), "impact": ("impacts", PURPLE, "-"), "algorithmic": ("numerical damping (HHT)", SKY, "-."),
-         "contact": ("contact between impacts", ORANGE, "--")}
+         "contact": ("contact between impacts", ORANGE, "--"), "damping": ("damping of modes", BLUE, ":"),
+         "rolling": ("rolling resistance", VERMILION, ":")}
 _CLOSURE = {"closure": ("closure error", BLACK, "-")}
 _NIL = 1e-6  # share of the largest term of a panel below which a term is left out
 
@@ -33,6 +34,7 @@ def energy_figure(history, path, formats=("png", "pdf")) -> list[Path]:
         figure = new_figure(PAGE_WIDTH_IN, 5.4)
         grid = figure.subplots(len(panels), 1, sharex=True, gridspec_kw={"height_ratios": [height for *_, height in panels]})
         for axes, (label, terms, sign, _) in zip(grid, panels):
+            terms = {term: look for term, look in terms.items() if term in energy}  # earlier versions wrote fewer
             largest = max(float(np.abs(energy[term]).max()) for term in terms)
             for term, (name, colour, dashes) in terms.items():
                 if np.abs(energy[term]).max() > _NIL * largest:

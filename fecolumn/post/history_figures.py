@@ -25,7 +25,8 @@ class History:
         u_top: (n, 3) [m] displacement of the top relative to the base.
         tilt: (n,) [rad] angle of the axis to the vertical.
         ground: (n, 3) [m/s2] acceleration of the base; zeros where it was not recorded.
-        energy: (n,) [J] by term: kinetic, strain, gravity, base_work, friction, impact, contact, algorithmic, closure.
+        energy: (n,) [J] by term: kinetic, strain, gravity, base_work, friction, impact, contact, algorithmic, damping, rolling,
+            closure.
     """
 
     time: np.ndarray

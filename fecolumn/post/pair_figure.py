@@ -30,7 +30,7 @@ class Variable:
 def pair_figure(variables: list[Variable], limit_m: float, path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN) -> list[Path]:
     """Write the figure: a panel for each pair of up to four settings, of more for each pair of neighbours.
 
-    An overturned run is drawn in the shaded strip beyond the largest peak; a motion that overturned in one of the two settings
+    A lost run (overturned, or slid off the base) is drawn in the shaded strip beyond the largest peak; a motion that overturned in one of the two settings
     alone, a flip, is an open red diamond. The title has the correlation R and the number of flips.
 
     Args:
@@ -45,6 +45,7 @@ def pair_figure(variables: list[Variable], limit_m: float, path, formats=("png",
     if width_in <= COLUMN_WIDTH_IN and len(pairs) > 1:
         columns = 1
     rows = math.ceil(len(pairs) / columns)
+    fallen = any(one.overturned.any() for one in variables)
     end = 1e3 * axis_end(u for one in variables for u in one.u_max_m[~one.overturned])
     with styled():
         cell = min(width_in / columns, 2.6 if columns > 1 else 3.2)
@@ -52,13 +53,13 @@ def pair_figure(variables: list[Variable], limit_m: float, path, formats=("png",
         grid = figure.subplots(rows, columns, squeeze=False)
         for place, axes in enumerate(grid.flat):
             if place < len(pairs):
-                _pair(axes, *pairs[place], end, limit_m)
+                _pair(axes, *pairs[place], end, limit_m, fallen)
             else:
                 axes.set_axis_off()
         return save(figure, path, formats)
 
 
-def _pair(axes, a: Variable, b: Variable, end: float, limit_m: float) -> None:
+def _pair(axes, a: Variable, b: Variable, end: float, limit_m: float, fallen: bool) -> None:
     middle = (1 + _STRIP) / 2 * end
     # where many overturn in both, points of one place would hide each other: spread along the strip, always the same way
     shift = 0.045 * end * np.sin(2.4 * np.arange(a.u_max_m.size))
@@ -70,9 +71,10 @@ def _pair(axes, a: Variable, b: Variable, end: float, limit_m: float) -> None:
     axes.scatter(x[~flip], y[~flip], s=9, color=BLUE, alpha=0.65, linewidths=0, zorder=2)
     axes.scatter(x[flip], y[flip], s=13, marker="D", facecolors="none", edgecolors=VERMILION, linewidths=0.8, zorder=3)
     ticks = [tick for tick in MaxNLocator(4).tick_values(0, end) if 0 <= tick < 0.92 * end]
-    axes.set(xlim=(0, _STRIP * end), ylim=(0, _STRIP * end), aspect="equal", xlabel=_label(a), ylabel=_label(b))
-    axes.set_xticks([*ticks, middle], [*(f"{tick:g}" for tick in ticks), "over-\nturned"])
-    axes.set_yticks([*ticks, middle], [*(f"{tick:g}" for tick in ticks), "over-\nturned"])
+    top, strip, word = (_STRIP * end, [middle], ["lost"]) if fallen else (end, [], [])  # no strip for what is not there
+    axes.set(xlim=(0, top), ylim=(0, top), aspect="equal", xlabel=_label(a), ylabel=_label(b))
+    axes.set_xticks([*ticks, *strip], [*(f"{tick:g}" for tick in ticks), *word])
+    axes.set_yticks([*ticks, *strip], [*(f"{tick:g}" for tick in ticks), *word])
     axes.grid(False)
     r = correlation(a.u_max_m, a.overturned, b.u_max_m, b.overturned, limit_m)
     text = rf"$R$ = {r:.2f}".replace("-", "\N{MINUS SIGN}") if np.isfinite(r) else "$R$ undefined"

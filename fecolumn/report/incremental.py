@@ -66,7 +66,7 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sec
 
 def _scaled(values: dict, settings, intensities: Intensities) -> Scaled | None:
     runs = intensities.of_runs(settings)
-    curves = incremental_curves(runs.motion, runs.measures[:, 0], runs.u_max, runs.overturned)
+    curves = incremental_curves(runs.motion, runs.measures[:, 0], runs.u_max, runs.lost)
     if len(curves) < _LEAST_MOTIONS or np.median([len(curve.im) for curve in curves]) < _LEAST_SCALES:
         return None
     try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.ending import lost
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.pair_figure import Variable, pair_figure
 from fecolumn.report.distributions import setting_words
@@ -56,7 +57,7 @@ def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
     name = f"scatter_by_{axis.split('.')[-1]}"
     at = f" {sweep.at(line.others)}" if line.others else ""
     return gallery.draw(name, f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} values of {axis_name(axis)}{at}, one "
-                              "against the other. Shaded strip: overturned; open red diamonds: overturned in one of the two alone (flips). R with "
+                              "against the other. Shaded strip: lost (overturned or slid off); open red diamonds: lost in one of the two alone (flips). R with "
                               f"overturned runs at {millimetres(sweep.limit_m)} mm.", pair_figure, variables, sweep.limit_m)
 
 
@@ -73,7 +74,7 @@ def _motions(sweep: Sweep) -> Table:
     rows = []
     for motion in sweep.motions:
         runs = [setting.runs[motion] for setting in sweep.done if motion in setting.runs]
-        peaks = np.array([run["u_max_m"] for run in runs if not run["overturned"]])
+        peaks = np.array([run["u_max_m"] for run in runs if not lost(run)])
         fallen = sum(bool(run["overturned"]) for run in runs)
         low, high = (float(peaks.min()), float(peaks.max())) if peaks.size else (None, None)
         rows.append((runs[0].get("motion") or motion.strip("[]'\""), len(runs), fallen, low, high, high / low if low else None))

@@ -25,13 +25,14 @@ class Runs:
     Attributes:
         measures: (n, 2) PGV [m/s] and PGA [m/s2].
         motion: (n,) name of the motion, whatever its scale. record: (n,) its file, whatever its scale and direction.
-        u_max: (n,) [m]; of no meaning where the column overturned. overturned: (n,) bool.
+        u_max: (n,) [m]; of no meaning where the column was lost. lost: (n,) bool, overturned or slid off its base. overturned: (n,) bool.
     """
 
     measures: np.ndarray
     motion: np.ndarray
     record: np.ndarray
     u_max: np.ndarray
+    lost: np.ndarray
     overturned: np.ndarray
 
 
@@ -79,9 +80,10 @@ class Intensities:
             One of NOT_FOUND: a motion is not to be found.
         """
         runs = [(name, run) for setting in settings for name, run in setting.runs.items()]
-        u, over = (np.concatenate(values) for values in zip(*(setting.peaks() for setting in settings)))
+        u, lost = (np.concatenate(values) for values in zip(*(setting.peaks() for setting in settings)))
         records = ["|".join((table.source, table.source_y, table.source_z)) for table in (self._table(run)[0] for _, run in runs)]
-        return Runs(np.array([self.peaks(run) for _, run in runs]), np.array([name for name, _ in runs]), np.array(records), u, over)
+        return Runs(np.array([self.peaks(run) for _, run in runs]), np.array([name for name, _ in runs]), np.array(records), u, lost,
+                    np.concatenate([setting.column("overturned").astype(bool) for setting in settings]))
 
     def _table(self, run: dict):
         from fecolumn.case import Motion

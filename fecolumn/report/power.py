@@ -21,7 +21,7 @@ def power(sweep: Sweep, wanted: float = SMALL, why: str = "") -> Paragraph:
         why: what needs it, as words after a number of motions.
     """
     n, needed = len(common_motions(sweep.done)) or min(len(setting.runs) for setting in sweep.done), motions_needed(wanted)
-    overturned = int(sweep.reference.peaks()[1].sum())
+    overturned = int(sweep.reference.column("overturned").sum())
     low, high = proportion_interval(overturned, len(sweep.reference.runs))
     text = (f"{count(n, 'motion')}: a difference of two CDFs below {fixed(detectable_distance(n))} cannot be seen (Kolmogorov-Smirnov, 5 %; the same motions in both "
             f"settings show somewhat less); {fixed(wanted)} would need about {count(needed, 'motion')}{why}. One P(overturn) is known to about "

@@ -29,7 +29,7 @@ class Outcome(NamedTuple):
     Attributes:
         id: of the analysis. word: DONE, FAILED, RETURNED or FULL. reason: why, unless DONE.
         wall_s: wall time of the worker [s]. started: seconds since the epoch. machine: where.
-        summary: JSON of its summary where it is DONE; version and overturned are in it, too.
+        summary: JSON of its summary where it is DONE; version, overturned and slid_off are in it, too.
     """
 
     id: str
@@ -41,6 +41,7 @@ class Outcome(NamedTuple):
     summary: str | None = None
     version: str | None = None
     overturned: bool = False
+    slid_off: bool = False
 
 
 def finished(case_id: str, folder: Path, **more) -> Outcome | None:
@@ -52,7 +53,7 @@ def finished(case_id: str, folder: Path, **more) -> Outcome | None:
     if not isinstance(summary, dict) or summary.get("case_id") != case_id:
         return None
     return Outcome(case_id, DONE, summary=json.dumps(summary), version=summary.get("version"),
-                   overturned=bool(summary.get("overturned")), **{"wall_s": summary.get("wall_s"), **more})
+                   overturned=bool(summary.get("overturned")), slid_off=bool(summary.get("slid_off")), **{"wall_s": summary.get("wall_s"), **more})
 
 
 def disk_full(error: BaseException | None) -> bool:
