@@ -84,7 +84,7 @@ class ReducedAnalysis(Analysis):
         saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
-                began, count = time.perf_counter(), min(CHUNK, self.steps - self.step)
+                began, made_s, count = time.perf_counter(), self.base.made_s, min(CHUNK, self.steps - self.step)
                 if self.step < self.motion_steps:
                     count = min(count, self.motion_steps - self.step)
                 if self.fields:
@@ -92,7 +92,9 @@ class ReducedAnalysis(Analysis):
                 steps = range(self.step + 1, self.step + count + 1)
                 rows, over = engine.advance(np.array([self.ground(k) for k in steps]), np.array([self.steepest(k) for k in steps]), self.rest_j)
                 self.step += len(rows)
-                self.stepping_s += time.perf_counter() - began
+                made_s = self.base.made_s - made_s
+                self.began += made_s
+                self.stepping_s += time.perf_counter() - began - made_s
                 self._note(rows)
                 last = rows[-1]
                 progress.show(self.step, dict(time=last[0], tilt=last[4], active_nodes=int(last[11])), engine.record)
