@@ -14,10 +14,10 @@ from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.fragility import LABEL, line_axis
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.intensity import NOT_FOUND, SCALE, Intensities, across_scales
-from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres, sentence
+from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres
 from fecolumn.report.sweep import Sweep
 from fecolumn.statistics.fragility import DegenerateData, Fragility
-from fecolumn.statistics.incremental import IncrementalCurve, first_overturning, fractile_curves, incremental_curves
+from fecolumn.statistics.incremental import IncrementalCurve, first_overturning, incremental_curves
 
 _LEAST_SCALES, _LEAST_MOTIONS, _FOLD = 3, 3, 20
 
