@@ -7,16 +7,16 @@ import numpy as np
 from fecolumn.dynamics.free_body import rigid_fields
 from fecolumn.dynamics.overturning import STANDS, fallen, stance
 from fecolumn.dynamics.rotation import tilt_angle, twist_angle
-from fecolumn.mesh.bricks import CAP, LOWER, UPPER, boundary_quads
+from fecolumn.mesh.bricks import boundary_faces
 from fecolumn.mesh.surface import face_points, nodal_areas
 
 
 def top_of(column, specimen) -> tuple[np.ndarray, np.ndarray]:
     """Nodes (k,) of the top's face and their shares (k,) in its mean."""
     mesh = specimen.body
-    part = next(p for p in (CAP, UPPER, LOWER) if mesh.has_part(p))
+    part = mesh.top_part
     height = mesh.points[:, 2].max()
-    quads = boundary_quads(mesh, part, height, 1e-6 * height)
+    quads = boundary_faces(mesh, part, height, 1e-6 * height)
     found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
     nodes, position = np.unique(found, return_inverse=True)
     areas = nodal_areas(mesh.points[quads], position.reshape(len(quads), -1), len(nodes), column.order)

@@ -76,7 +76,7 @@ def observe(column, eye, motion, ledger, iterations, row):
         closure -= ledger[k]
         if k:
             row[19 + k] = ledger[k]
-    row[25] = closure
+    row[WIDTH - 1] = closure
 
 
 @njit

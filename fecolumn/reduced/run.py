@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
-from fecolumn.contact.base_top import OffBase
+from fecolumn._compiled import compile_for, njit
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS, steepest_to_come
 from fecolumn.dynamics.stage import Stop
@@ -13,7 +12,7 @@ from fecolumn.dynamics.stepper import Record, StepFailed
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.bed import no_bed
 from fecolumn.reduced.equilibrium import CONTACT, ENDED, FAR_BASE, IMPACT, ITERATIONS, N_CUTS, N_ITERATIONS, OFF_BASE, OK, equilibrate
-from fecolumn.reduced.ledger import kinetic, strain, weight_energy
+from fecolumn.reduced.ledger import N_PLACES, kinetic, strain, weight_energy
 from fecolumn.reduced.model import scheme, step_column
 from fecolumn.reduced.motion import TIME, Sway
 from fecolumn.reduced.observe import ENERGY, WIDTH, lost, observe
@@ -74,28 +73,33 @@ class Engine:
         base: BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
         eye: View.
         hht: HHT.
-        gravity, friction, own, rim: as of `model.step_column`.
+        gravity, friction, own, rim, damping_ratio, restitution, rolling, pad: as of `model.step_column`.
         start: function of the engine that returns the first Motion; see `reduced.start`.
     """
 
-    def __init__(self, model, base, eye, hht: HHT, gravity, friction: float, own, rim, start, max_cuts: int = 4):
+    def __init__(self, model, base, eye, hht: HHT, gravity, friction: float, own, rim, start, max_cuts: int = 4,
+                 damping_ratio: float = 0.0, restitution: float = 0.0, rolling: float = 0.0, pad=None):
         self.model, self.base, self.eye, self.hht, self.max_cuts = model, base, eye, hht, max_cuts
-        self.column = step_column(model, hht, gravity, friction, own, rim)
+        self.column = step_column(model, hht, gravity, friction, own, rim, damping_ratio, restitution, rolling, pad)
         n, m = len(model.arms), len(model.frequencies)
         self.points, self.footing, self.spare = node_points(model.arms), no_footing(n), motions.at_rest(n, m)
-        self.sway = Sway(np.zeros(3), np.zeros(3), np.zeros(m), np.eye(3))
+        self.sway = Sway(np.zeros(3), np.zeros(3), np.zeros(m), np.eye(3), np.zeros(3))
         self.bed, self._schemes = no_bed(n), {}
         self.counts = np.zeros(6, np.int64)
         self.base.need(np.unique(base.grid.project(model.reference)[0]))
         self.plate = plate_of(base)
-        self.ledger = np.zeros(6)
+        self.ledger = np.zeros(N_PLACES)
+        compile_for(advance, self._arguments(self._scheme(hht), self.spare, self.spare))
         self.motion = start(self)
         self.ledger[0] = self.mechanical()
 
     def settle(self, scheme, motion, end) -> int:
         """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way to end."""
-        return advance(self.column, self.plate, scheme, self.points, self.footing, self.bed, self.eye, motion, end, self.sway,
-                       np.empty((0, 3)), np.empty(0), -np.inf, np.empty((0, WIDTH)), self.ledger, self.counts)[1]
+        return advance(*self._arguments(scheme, motion, end))[1]
+
+    def _arguments(self, scheme, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=-np.inf, rows=np.empty((0, WIDTH))) -> tuple:
+        return (self.column, self.plate, scheme, self.points, self.footing, self.bed, self.eye, motion, spare, self.sway, grounds, steepest, rest,
+                rows, self.ledger, self.counts)
 
     @property
     def record(self) -> Record:
@@ -153,8 +157,7 @@ class Engine:
         """Steps of `hht` until one fails for a reason other than a base not known yet."""
         done = 0
         while True:
-            made, answer = advance(self.column, self.plate, self._scheme(hht), self.points, self.footing, self.bed, self.eye, self.motion, self.spare,
-                                   self.sway, grounds[done:], steepest[done:], rest, rows[done:], self.ledger, self.counts)
+            made, answer = advance(*self._arguments(self._scheme(hht), self.motion, self.spare, grounds[done:], steepest[done:], rest, rows[done:]))
             done += made
             if answer != FAR_BASE:
                 return done, answer
@@ -186,10 +189,7 @@ class Engine:
         """Make the base's compliance known under the foot and two rows of its nodes around."""
         grid = self.base.grid
         places = motion.center + self.model.arms @ motion.rotation.T
-        try:
-            nodes, _ = grid.project(places)
-        except OffBase as error:
-            raise StepFailed(Stop.OFF_BASE, f"t = {motion.scalars[TIME]:.6g} s: {error}") from None
+        nodes, _ = grid.project(places, np.zeros(len(places), bool))
         where = np.empty((len(self.base.slot), 2), np.int64)
         where[grid.number.ravel()] = np.stack(np.unravel_index(np.arange(grid.number.size), grid.number.shape), axis=1)
         around = np.stack(np.meshgrid(np.arange(-2, 3), np.arange(-2, 3)), axis=-1).reshape(-1, 2)
