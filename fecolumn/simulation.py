@@ -117,11 +117,14 @@ class Analysis:
 
     def __init__(self, case, folder, comm, file, quiet):
         from fecolumn.dynamics.history import History
+        from fecolumn.mesh.estimate import estimate
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
         self.began = time.perf_counter()
         self.motion = self._load_motion(file)
         self.steps = int(round(self._duration() / case.integration.dt_s))
+        if not (folder / CHECKPOINT).is_file():
+            self.say(str(estimate(case)))
         self.history, self.step = History(), 0
         self.stepping_s = self.earlier_s = 0.0
 
