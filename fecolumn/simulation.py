@@ -114,6 +114,7 @@ class Analysis:
     def __init__(self, case, folder, comm, file, quiet):
         from fecolumn.dynamics.history import History
         from fecolumn.dynamics.overturning import steepest_to_come
+        from fecolumn.mesh.estimate import estimate
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
         self.began = time.perf_counter()
@@ -122,6 +123,8 @@ class Analysis:
         self.motion_steps = len(self.motion.acceleration) if self.motion else 0
         self.until_rest = bool(self.motion) and case.motion.free_vibration_s == REST and not case.integration.duration_s
         self.cut_at_s = self._cut(file)
+        if not (folder / CHECKPOINT).is_file():
+            self.say(str(estimate(case)))
         self.history, self.step = History(), 0
         self.stepping_s = self.earlier_s = 0.0
         self.stance, self.top_arm, self.standing_j = None, None, 0.0
