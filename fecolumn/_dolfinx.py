@@ -22,24 +22,26 @@ _TENSOR_ORDER = [0, 1, 3, 2, 4, 5, 7, 6]
 
 
 def create_brick_mesh(comm, points, cells):
-    """Distributed mesh of 8-node bricks.
+    """Distributed mesh of 8-node bricks, or of tetrahedra.
 
     Args:
         comm: MPI communicator.
         points: (n_points, 3) [m], read on rank 0.
-        cells: (n_cells, 8) point numbers in VTK order, read on rank 0.
+        cells: (n_cells, 8 or 4) point numbers in VTK order, read on rank 0.
     """
+    corners = cells.shape[1]
     if comm.rank == 0:
-        cells = np.ascontiguousarray(cells[:, _TENSOR_ORDER], dtype=np.int64)
+        cells = np.ascontiguousarray(cells[:, _TENSOR_ORDER] if corners == 8 else cells, dtype=np.int64)
         points = np.ascontiguousarray(points, dtype=np.float64)
     else:
-        cells, points = np.empty((0, 8), np.int64), np.empty((0, 3))
+        cells, points = np.empty((0, corners), np.int64), np.empty((0, 3))
+    kind = "hexahedron" if corners == 8 else "tetrahedron"
     if _MODERN:
         import basix.ufl
 
-        element = basix.ufl.element("Lagrange", "hexahedron", 1, shape=(3,))
+        element = basix.ufl.element("Lagrange", kind, 1, shape=(3,))
     else:
-        element = ufl.Mesh(ufl.VectorElement("Lagrange", "hexahedron", 1))
+        element = ufl.Mesh(ufl.VectorElement("Lagrange", kind, 1))
     return mesh.create_mesh(comm, cells, points, element)
 
 

@@ -1,4 +1,4 @@
-"""The command line: fecolumn mesh | run | resume | study | compare | report | verify | motions | doctor."""
+"""The command line: fecolumn mesh | run | resume | study | compare | report | verify | motions | prepare | doctor."""
 
 from __future__ import annotations
 
@@ -109,6 +109,8 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.motions import command as ground
 
     ground.add_arguments(motions)
+    prepare = commands.add_parser("prepare", help="compile what each machine compiles once; the set-up does it")
+    prepare.set_defaults(command=_prepare)
     commands.add_parser("doctor", help="versions and known traps of this machine")
     return parser
 
@@ -120,7 +122,14 @@ def _mesh(args) -> int:
 
     case = read_case(args.case)
     with written(args.output, "mesh", names=("specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt")) as draft:
-        print(mesh_report(case, draft))
+        print(mesh_report(case, draft, lambda text: print(text, file=sys.stderr, flush=True)))
+    return 0
+
+
+def _prepare(args) -> int:
+    from fecolumn.prepare import prepare
+
+    prepare(print)
     return 0
 
 
@@ -140,6 +149,7 @@ def _resume(args) -> int:
 def _analyse(case, folder, file, quiet) -> int:
     from mpi4py import MPI
 
+    from fecolumn.ending import ending_text, peak_text
     from fecolumn.interrupt import held_interrupts
     from fecolumn.post.history_figures import history_figures
     from fecolumn.simulation import AnalysisFailed, run
@@ -151,9 +161,7 @@ def _analyse(case, folder, file, quiet) -> int:
         return _refuse(error, 1)
     if MPI.COMM_WORLD.rank == 0:
         history_figures(folder)
-        end = f"overturned at {summary['overturn_time_s']:.3f} s" if summary["overturned"] else \
-            f"standing, residual slide {1e3 * summary['residual_slide_m']:.3f} mm"
-        print(f"{folder}: u_max {1e3 * summary['u_max_m']:.3f} mm, {end}; {summary['steps']} steps, "
+        print(f"{folder}: {peak_text(summary)}, {ending_text(summary)}; {summary['steps']} steps, "
               f"{1e3 * summary['s_per_step']:.1f} ms/step, energy closure {summary['energy_closure_rel']:.1e}")
     return 0
 

@@ -76,7 +76,7 @@ def _in_text(words: str) -> str:
 
 
 def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=None, high=None,
-              above=None, choices=None):
+              above=None, choices=None, words=(), since: str = "", counts: bool = True):
     """Dataclass field of a case section.
 
     Args:
@@ -86,8 +86,12 @@ def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=Non
         low, high: closed bounds of a number.
         above: open lower bound of a number.
         choices: the words a text key may take.
+        words: words that a number's key takes in place of a number.
+        since: version that brought a key younger than its section; at its default it is no part of `Case.id`, so that older results
+            keep their names.
+        counts: whether the key makes another analysis; False for what only guards or tells.
     """
-    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices)
+    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices, words=words, since=since, counts=counts)
     if isinstance(default, (list, dict)):
         raise TypeError("defaults must be immutable")
     return dataclasses.field(default=default, metadata=metadata)
@@ -95,6 +99,10 @@ def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=Non
 
 def allowed_range(metadata) -> str:
     """The allowed values of a parameter in words, with the unit."""
+    return " or ".join([_number_range(metadata), *(f'"{word}"' for word in metadata["words"])])
+
+
+def _number_range(metadata) -> str:
     unit = "" if metadata["unit"] == "-" else f" [{metadata['unit']}]"
     if metadata["choices"]:
         return "one of " + ", ".join(metadata["choices"])
@@ -135,10 +143,15 @@ def _checked(kind, metadata, value, file, key):
         InputError: wrong type, or out of range.
     """
     if isinstance(kind, types.UnionType):
+        if value is None and types.NoneType in typing.get_args(kind):
+            return None
         kind = next(k for k in typing.get_args(kind) if k is not types.NoneType)
+    if isinstance(value, str) and value in metadata["words"]:
+        return value
     typed = _typed(kind, value)
     if typed is None:
         word = _WORDS.get(kind) or "a list of " + {str: "texts", float: "numbers"}[typing.get_args(kind)[0]]
+        word = " or ".join([word, *(f'"{text}"' for text in metadata["words"])])
         raise InputError(file, key, value, f"must be {word}; {metadata['doc']}")
     for item in typed if isinstance(typed, tuple) else (typed,):
         bad = False

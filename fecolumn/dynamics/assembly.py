@@ -7,16 +7,22 @@ import numpy as np
 from fecolumn.case import GRAVITY, Case
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.law import interface_compliance
+from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
+from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded_base
 from fecolumn.dynamics.body import Body
 from fecolumn.dynamics.corotated import Corotated
+from fecolumn.dynamics.damping import ModalDamping
+from fecolumn.dynamics.footprint import Footprint, footprint, relief
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
-from fecolumn.mesh.bricks import LOWER, UPPER, boundary_quads
+from fecolumn.mesh.base_plate import levels
+from fecolumn.mesh.bricks import boundary_faces, outline_edges
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.mesh.surface import face_basis, face_points, nodal_areas
 from fecolumn.mesh.tie import project_to_quads
 from fecolumn.schema import InputError
+from fecolumn.sizes import foot_sides
 
 
 def share_specimen_mesh(case: Case, comm) -> SpecimenMesh:
@@ -43,7 +49,7 @@ def column_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
 
 def _tie_links(body: Body, mesh, tie):
     """(slave node, (master nodes, weights)) of one tie, at the Lagrange nodes of the body's order."""
-    slave_quads = boundary_quads(mesh, tie.slave_part, mesh.points[tie.slave_nodes, 2].mean(), 1e-6 * np.ptp(mesh.points[:, 2]))
+    slave_quads = boundary_faces(mesh, tie.slave_part, mesh.points[tie.slave_nodes, 2].mean(), 1e-6 * np.ptp(mesh.points[:, 2]))
     slaves = np.unique(body.find_nodes(face_points(mesh.points[slave_quads], body.order).reshape(-1, 3), tie.slave_part))
     corners = mesh.points[tie.master_quads]
     masters = body.find_nodes(face_points(corners, body.order).reshape(-1, 3), tie.master_part).reshape(len(corners), -1)
@@ -63,16 +69,36 @@ def base_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
     return Body(comm, specimen.base, case.base, 1, held)
 
 
-def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (n,) of the foot in an order that does not depend on the partition, and their tributary areas (n,) [m2]."""
+def base_of(case: Case, reference: np.ndarray) -> UnboundedBase | None:
+    """The base below a foot at (n, 3) [m] where it has no edges; None for a plate. A pad's own part is rigid: its springs are the Pad.
+
+    Raises:
+        InputError: a layer too thick for its bricks.
+    """
+    if case.base.kind == "pad":
+        return rigid_base(reference)
+    if case.base.kind == "unbounded":
+        try:
+            return unbounded_base(case.mesh.fine_size_m, levels(case), case.base, reference)
+        except ValueError as error:
+            raise InputError("mesh", "base.thickness_m", case.base.thickness_m, str(error)) from None
+    return None
+
+
+def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> Footprint:
+    """Contact points of the foot, in an order that does not depend on the partition."""
     mesh = specimen.body
-    part = LOWER if mesh.has_part(LOWER) else UPPER
-    quads = boundary_quads(mesh, part, 0.0, 1e-6 * case.column.height_m)
-    found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
+    part = mesh.foot_part
+    faces = boundary_faces(mesh, part, 0.0, 1e-6 * case.column.height_m)
+    found = column.find_nodes(face_points(mesh.points[faces], column.order).reshape(-1, 3), part)
     foot, position = np.unique(found, return_inverse=True)
-    order = np.lexsort(np.round(column.all_X[foot, :2].T / case.column.outer_diameter_m, 9))
+    order = np.lexsort(np.round(column.all_X[foot, :2].T / foot_sides(case)[0], 9))
     foot, position = foot[order], np.argsort(order)[position]
-    return foot, nodal_areas(mesh.points[quads], position.reshape(len(quads), -1), len(foot), column.order)
+    areas = nodal_areas(mesh.points[faces], position.reshape(len(faces), -1), len(foot), column.order)
+    ends = mesh.points[outline_edges(faces)]
+    outline = np.concatenate([ends[:, 0] + t * (ends[:, 1] - ends[:, 0]) for t in np.arange(column.order) / column.order])
+    on_outline = np.isin(foot, column.find_nodes(outline, part))
+    return footprint(foot, column.all_X[foot], areas, on_outline, case.contact.interior_points)
 
 
 def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> System:
@@ -85,8 +111,12 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
         kinematics = TotalLagrangian(column)
     else:
         kinematics = Corotated(column)
-    foot, areas = foot_of(case, specimen, column)
-    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, areas)
-    return System(column, kinematics, BasePlate(base_body(case, specimen, comm)), foot, areas, case.contact.friction_coefficient,
+    foot = foot_of(case, specimen, column)
+    base = base_of(case, column.all_X[foot.nodes]) or BasePlate(base_body(case, specimen, comm))
+    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas) + relief(column, base, foot)
+    damping = ModalDamping(column, case.integration.n_modes, ratio) if (ratio := case.material.damping_ratio) else None
+    return System(column, kinematics, base, foot, case.contact.friction_coefficient,
                   own, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
-                  filtered=case.contact.impact == "plastic", rim=Rim.find(column.all_X[foot]))
+                  filtered=case.contact.impact == "plastic", rim=Rim.find(column.all_X[foot.nodes]), damping=damping,
+                  restitution=case.contact.restitution, rolling=case.contact.rolling_resistance,
+                  pad=pad_of(case, foot.areas, column.total_mass))

@@ -12,7 +12,7 @@ from fecolumn.dynamics.system import State
 from fecolumn.files import read_bytes
 
 _FIELDS = ("x", "v", "a", "contact_a", "internal")
-_SHARED = ("time", "strain", "rotation", "forces", "anchors", "relative", "static", "ground", "rim_angle", "rim_lift")
+_SHARED = ("time", "strain", "rotation", "forces", "anchors", "relative", "static", "ground", "indent", "rim_angle", "rim_lift")
 
 
 def node_order(body) -> np.ndarray:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from scipy.optimize import brentq
 
@@ -9,6 +11,7 @@ from fecolumn.case import Case
 from fecolumn.mesh.bricks import BASE, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
+from fecolumn.sizes import foot_sides
 
 GROWTH = 1.5  # largest ratio of neighbouring bricks
 
@@ -18,13 +21,30 @@ def base_mesh(case: Case) -> BrickMesh:
 
     Squares of `fine_size_m` cover the footprint and the slide allowance; outside and downwards the bricks grow
     geometrically to `base_size_m`. Contact finds the brick below a point from the grid lines alone, so the mesh is
-    a strict tensor-product grid (see `swept_grid` for its numbering).
+    a strict tensor-product grid (see `swept_grid` for its numbering). A base without edges has no bricks.
     """
+    if case.base.kind != "plate":
+        return BrickMesh(np.zeros((0, 3)), np.zeros((0, 8), np.int64), np.zeros(0, np.int8))
     base, fine, largest = case.base, case.mesh.fine_size_m, case.mesh.base_size_m
-    fine_width = case.column.outer_diameter_m + 2 * base.slide_allowance_m
-    x, y = (_symmetric_line(fine_width, length, fine, largest) for length in (base.length_m, base.width_m))
-    z = -_growing_line(fine, base.thickness_m, fine, largest)[::-1]
-    return swept_grid(x, y, z, BASE)
+    x, y = (_symmetric_line(side + 2 * base.slide_allowance_m, length, fine, largest)
+            for side, length in zip(foot_sides(case), (base.length_m, base.width_m)))
+    return swept_grid(x, y, levels(case)[::-1], BASE)
+
+
+def levels(case: Case) -> np.ndarray:
+    """Levels (n,) of the base's nodes from 0 at the top, falling [m]."""
+    return -_growing_line(case.mesh.fine_size_m, case.base.thickness_m, case.mesh.fine_size_m, case.mesh.base_size_m)
+
+
+def base_counts(case: Case) -> tuple[int, int, int] | None:
+    """Bricks of the base along x, y and z, told without making it; None of a base without edges."""
+    if case.base.kind != "plate":
+        return None
+    base, fine, largest = case.base, case.mesh.fine_size_m, case.mesh.base_size_m
+    x, y = (_symmetric_count(side + 2 * base.slide_allowance_m, length, fine, largest)
+            for side, length in zip(foot_sides(case), (base.length_m, base.width_m)))
+    below = base.thickness_m - fine
+    return x, y, 1 if below < fine / 2 else 1 + growing_count(below, fine, largest)
 
 
 def grid_lines(mesh: BrickMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -38,6 +58,14 @@ def grid_lines(mesh: BrickMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     if product.shape != mesh.points.shape or not np.array_equal(product, mesh.points):
         raise ValueError("the mesh is not a tensor-product grid")
     return x, y, z
+
+
+def _symmetric_count(fine_width, length, fine, largest) -> int:
+    """Steps of `_symmetric_line`."""
+    if (length - fine_width) / 2 < fine / 2:
+        return divisions(length, fine)
+    outside = length / 2 - fine_width / 2
+    return divisions(fine_width, fine) + 2 * growing_count(outside, fine, largest)
 
 
 def _symmetric_line(fine_width, length, fine, largest) -> np.ndarray:
@@ -72,11 +100,19 @@ def growing_steps(length: float, fine: float, largest: float) -> np.ndarray:
     def steps(growth, n):
         return np.minimum(fine * growth ** np.arange(1.0, n + 1), largest)
 
-    n = 1
-    while steps(GROWTH, n).sum() < length * (1 - 1e-12):
-        n += 1
+    n = growing_count(length, fine, largest)
     if steps(1.0, n).sum() < length < steps(GROWTH, n).sum():
         found = steps(brentq(lambda growth: steps(growth, n).sum() - length, 1.0, GROWTH, xtol=1e-14), n)
     else:
         found = steps(1.0, n)
     return found * (length / found.sum())
+
+
+def growing_count(length: float, fine: float, largest: float) -> int:
+    """Smallest number n of steps min(fine GROWTH^k, largest), k = 1..n, that reaches `length` [m]."""
+    length *= 1 - 1e-12
+    reached, step, n = 0.0, fine, 0
+    while reached < length and step * GROWTH < largest:
+        step *= GROWTH
+        reached, n = reached + step, n + 1
+    return max(1, n + math.ceil(max(0.0, length - reached) / largest))

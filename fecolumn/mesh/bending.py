@@ -25,7 +25,31 @@ def cowper_coefficient(inner_radius: float, outer_radius: float, poissons_ratio:
 
 def free_free_bending_frequency(outer_radius: float, inner_radius: float, length: float, youngs_modulus: float,
                                 poissons_ratio: float, density: float) -> float:
-    """First bending frequency of a free Timoshenko beam of circular section [Hz].
+    """First bending frequency of a free Timoshenko beam of circular section [Hz]; see `free_free_frequency`.
+
+    Args:
+        outer_radius, inner_radius: [m]; inner 0 for a solid section.
+        length: [m].
+        youngs_modulus: [Pa]; poissons_ratio: [-]; density: [kg/m3].
+    """
+    area = math.pi * (outer_radius**2 - inner_radius**2)
+    second_moment = math.pi / 4 * (outer_radius**4 - inner_radius**4)
+    return free_free_frequency(area, second_moment, cowper_coefficient(inner_radius, outer_radius, poissons_ratio), length, youngs_modulus,
+                               poissons_ratio, density)
+
+
+def rectangle_bending_frequency(across: float, along: float, length: float, youngs_modulus: float, poissons_ratio: float, density: float) -> float:
+    """First bending frequency of a free Timoshenko beam of rectangular section, bent in the plane of its side `across` [m], in Hz.
+
+    Shear coefficient of Cowper (1966): 10 (1 + nu) / (12 + 11 nu).
+    """
+    shear = 10 * (1 + poissons_ratio) / (12 + 11 * poissons_ratio)
+    return free_free_frequency(across * along, along * across**3 / 12, shear, length, youngs_modulus, poissons_ratio, density)
+
+
+def free_free_frequency(area: float, second_moment: float, shear_coefficient: float, length: float, youngs_modulus: float,
+                        poissons_ratio: float, density: float) -> float:
+    """First bending frequency of a free Timoshenko beam [Hz].
 
     With r^2 = I / (A L^2), s^2 = E I / (k A G L^2) and b^2 = rho A L^4 omega^2 / (E I), the frequencies are the roots of
 
@@ -35,16 +59,14 @@ def free_free_bending_frequency(outer_radius: float, inner_radius: float, length
 
     T. C. Huang, "The effect of rotatory inertia and of shear deformation on the frequency and normal mode equations of
     uniform beams with simple end conditions", J. Appl. Mech. 28 (1961), 579-584, case free-free.
-    k is Cowper's. Rotatory inertia and shear only lower the first root, so it lies below that of Euler and Bernoulli.
+    Rotatory inertia and shear only lower the first root, so it lies below that of Euler and Bernoulli.
 
     Args:
-        outer_radius, inner_radius: [m]; inner 0 for a solid section.
+        area: [m2]; second_moment: of the area [m4]; shear_coefficient: k [-].
         length: [m].
         youngs_modulus: [Pa]; poissons_ratio: [-]; density: [kg/m3].
     """
-    area = math.pi * (outer_radius**2 - inner_radius**2)
-    second_moment = math.pi / 4 * (outer_radius**4 - inner_radius**4)
-    shear = cowper_coefficient(inner_radius, outer_radius, poissons_ratio) * youngs_modulus / (2 * (1 + poissons_ratio))
+    shear = shear_coefficient * youngs_modulus / (2 * (1 + poissons_ratio))
     r2 = second_moment / (area * length**2)
     s2 = youngs_modulus * second_moment / (shear * area * length**2)
 

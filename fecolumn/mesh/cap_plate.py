@@ -12,7 +12,7 @@ from fecolumn.mesh.gmsh_section import swept_grid
 
 def cap_mesh(case: Case) -> BrickMesh | None:
     """Rectangular plate of equal bricks, centred on the axis, its bottom at the column's top; None without a cap."""
-    cap, size, bottom = case.cap, case.mesh.cap_size_m, case.column.height_m
+    cap, size, bottom = case.cap, case.mesh.cap_size_m, case.seat_m + case.column.height_m
     if cap is None:
         return None
     x, y = (np.linspace(-length / 2, length / 2, divisions(length, size) + 1) for length in (cap.length_m, cap.width_m))

@@ -6,7 +6,9 @@ import os
 import tempfile
 from pathlib import Path
 
-from fecolumn.mesh.bricks import BrickMesh, merge
+import numpy as np
+
+from fecolumn.mesh.bricks import merge
 from fecolumn.mesh.specimen import SpecimenMesh
 
 
@@ -25,11 +27,10 @@ def write_meshes(specimen: SpecimenMesh, folder) -> tuple[Path, ...]:
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    whole = merge([specimen.body, specimen.base])
     with tempfile.TemporaryDirectory(dir=folder, prefix=".writing-") as draft:
         # The .xdmf names its .h5, so both need their final names; the .h5 must be there first.
-        _write_msh(whole, Path(draft) / "specimen.msh")
-        _write_xdmf(whole, Path(draft) / "specimen.xdmf")
+        _write_msh(specimen, Path(draft) / "specimen.msh")
+        _write_xdmf(specimen, Path(draft) / "specimen.xdmf")
         written = []
         for name in ("specimen.msh", "specimen.h5", "specimen.xdmf"):
             os.replace(Path(draft) / name, folder / name)
@@ -37,15 +38,30 @@ def write_meshes(specimen: SpecimenMesh, folder) -> tuple[Path, ...]:
     return tuple(written)
 
 
-def _write_msh(mesh: BrickMesh, path: Path) -> None:
+def _write_msh(specimen: SpecimenMesh, path: Path) -> None:
+    blocks, points = _blocks(specimen)
+    tags = [part for _, _, part in blocks]
+    _meshio().Mesh(points, [(kind, cells) for kind, cells, _ in blocks],
+                   cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags}).write(path, file_format="gmsh22")
+
+
+def _write_xdmf(specimen: SpecimenMesh, path: Path) -> None:
+    blocks, points = _blocks(specimen)
+    _meshio().Mesh(points, [(kind, cells) for kind, cells, _ in blocks], cell_data={"part": [part for _, _, part in blocks]}).write(path)
+
+
+def _meshio():
     import meshio
 
-    tags = mesh.part.astype("int32")
-    meshio.Mesh(mesh.points, [("hexahedron", mesh.cells)],
-                cell_data={"gmsh:physical": [tags], "gmsh:geometrical": [tags]}).write(path, file_format="gmsh22")
+    return meshio
 
 
-def _write_xdmf(mesh: BrickMesh, path: Path) -> None:
-    import meshio
-
-    meshio.Mesh(mesh.points, [("hexahedron", mesh.cells)], cell_data={"part": [mesh.part.astype("int32")]}).write(path)
+def _blocks(specimen: SpecimenMesh):
+    """Kind, cells and parts of each block of elements of one kind, and all points."""
+    meshes = specimen.body, specimen.base
+    if not specimen.body.is_tetrahedral:
+        meshes = merge(meshes),
+    offsets = np.cumsum([0] + [len(mesh.points) for mesh in meshes])
+    blocks = [("tetra" if mesh.is_tetrahedral else "hexahedron", mesh.cells + offset, mesh.part.astype("int32"))
+              for mesh, offset in zip(meshes, offsets)]
+    return blocks, np.concatenate([mesh.points for mesh in meshes])

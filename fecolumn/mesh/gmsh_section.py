@@ -1,4 +1,4 @@
-"""Plane sections and their extrusion to bricks by Gmsh: transfinite, recombined, layered."""
+"""Extrusion of plane sections to bricks by Gmsh: transfinite, recombined, layered."""
 
 from __future__ import annotations
 
@@ -6,15 +6,14 @@ import contextlib
 import inspect
 import signal
 import threading
-from dataclasses import dataclass
 
 import numpy as np
 
 from fecolumn.mesh.bricks import BrickMesh, brick_mesh
+from fecolumn.mesh.section import Annulus, Disc, Rectangle
 
 _OPTIONS = {"General.Terminal": 0, "Mesh.ElementOrder": 1, "Mesh.SubdivisionAlgorithm": 0, "Mesh.SaveAll": 0}
 _HEXAHEDRON = 5  # Gmsh's element type of the 8-node brick, whose node order is VTK's
-_SQUARE_CORNER = 0.6  # O-grid: the inner square's corners, as a fraction of the disc's radius
 
 
 @contextlib.contextmanager
@@ -62,105 +61,7 @@ def _is_running(gmsh) -> bool:
         return False
 
 
-@dataclass(frozen=True, slots=True)
-class Annulus:
-    """Ring of quadrilaterals with corners exactly on both circles, centred at the origin.
-
-    Attributes:
-        inner_radius, outer_radius: [m].
-        n_around: quadrilaterals around.
-        n_wall: quadrilaterals through the wall.
-    """
-
-    inner_radius: float
-    outer_radius: float
-    n_around: int
-    n_wall: int
-
-    def draw(self, geo) -> list[int]:
-        """Tags of the four surfaces drawn in a `gmsh.model.geo`."""
-        # An arc of Gmsh is shorter than pi, so four arcs share the bricks even where n_around is no multiple of 4.
-        split = np.arange(5) * self.n_around // 4
-        angles = 2 * np.pi * split[:4] / self.n_around
-        centre = geo.addPoint(0, 0, 0)
-        inner, outer = ([geo.addPoint(r * np.cos(a), r * np.sin(a), 0) for a in angles]
-                        for r in (self.inner_radius, self.outer_radius))
-        return _ring(geo, centre, inner, outer, np.diff(split), self.n_wall, curved_inside=True)
-
-    def evened(self, points) -> np.ndarray:
-        """(n, 2) points [m] at exactly equal angles and radii."""
-        radius, thickness = np.hypot(*points.T), self.outer_radius - self.inner_radius
-        ring = np.round((radius - self.inner_radius) / thickness * self.n_wall)
-        return _polar(self.inner_radius + ring / self.n_wall * thickness, _even_angle(points, self.n_around, 0.0))
-
-
-@dataclass(frozen=True, slots=True)
-class Disc:
-    """O-grid of five blocks: a square in the middle and four blocks up to the circle.
-
-    Attributes:
-        radius: [m].
-        n_around: quadrilaterals around, a multiple of 4.
-        n_ring: quadrilaterals from the square to the circle.
-    """
-
-    radius: float
-    n_around: int
-    n_ring: int
-
-    def draw(self, geo) -> list[int]:
-        """Tags of the five surfaces drawn in a `gmsh.model.geo`."""
-        n_side = self.n_around // 4
-        angles = np.pi / 4 + np.arange(4) * np.pi / 2
-        centre = geo.addPoint(0, 0, 0)
-        square, circle = ([geo.addPoint(r * np.cos(a), r * np.sin(a), 0) for a in angles]
-                          for r in (_SQUARE_CORNER * self.radius, self.radius))
-        sides = []
-        blocks = _ring(geo, centre, square, circle, [n_side] * 4, self.n_ring, curved_inside=False, inner_curves=sides)
-        return blocks + [_quadrilateral(geo, sides, square)]
-
-    def evened(self, points) -> np.ndarray:
-        """(n, 2) points [m], those on the rim at exactly equal angles."""
-        rim = np.hypot(*points.T) > self.radius * (1 - 1e-6)
-        on_rim = _polar(self.radius, _even_angle(points, self.n_around, np.pi / 4))
-        return np.where(rim[:, None], on_rim, points)
-
-
-def _even_angle(points, n_around, first):
-    """Nearest of `n_around` equal angles; Gmsh spaces the points of an arc to 1e-9 rad only, which breaks the symmetry."""
-    step = 2 * np.pi / n_around
-    return first + step * np.round((np.arctan2(points[:, 1], points[:, 0]) - first) / step)
-
-
-def _polar(radius, angle):
-    return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
-
-
-def _ring(geo, centre, inner, outer, n_arcs, n_radial, *, curved_inside, inner_curves=None) -> list[int]:
-    """Surfaces of four blocks between four inner and four outer points."""
-    def curve(start, end, curved, n):
-        tag = geo.addCircleArc(start, centre, end) if curved else geo.addLine(start, end)
-        geo.mesh.setTransfiniteCurve(tag, int(n) + 1)
-        return tag
-
-    follow = [1, 2, 3, 0]
-    insides = [curve(inner[i], inner[follow[i]], curved_inside, n_arcs[i]) for i in range(4)]
-    outsides = [curve(outer[i], outer[follow[i]], True, n_arcs[i]) for i in range(4)]
-    spokes = [curve(inner[i], outer[i], False, n_radial) for i in range(4)]
-    if inner_curves is not None:
-        inner_curves.extend(insides)
-    return [_quadrilateral(geo, [spokes[i], outsides[i], -spokes[follow[i]], -insides[i]],
-                           [inner[i], outer[i], outer[follow[i]], inner[follow[i]]]) for i in range(4)]
-
-
-def _quadrilateral(geo, curves, corners) -> int:
-    surface = geo.addPlaneSurface([geo.addCurveLoop(curves)])
-    geo.mesh.setTransfiniteSurface(surface, cornerTags=corners)
-    geo.mesh.setRecombine(2, surface)
-    return surface
-
-
-def extruded(section: Annulus | Disc, bottom: float, height: float, n_layers: int, part: int) -> BrickMesh:
+def extruded(section: Annulus | Disc | Rectangle, bottom: float, height: float, n_layers: int, part: int) -> BrickMesh:
     """Bricks of a section extruded upwards in equal layers.
 
     Args:
@@ -170,6 +71,8 @@ def extruded(section: Annulus | Disc, bottom: float, height: float, n_layers: in
         n_layers: bricks along the height.
         part: part of the bricks.
     """
+    if isinstance(section, Rectangle):
+        return swept_grid(*section.lines, np.linspace(bottom, bottom + height, n_layers + 1), part)
     with gmsh_model() as gmsh:
         geo = gmsh.model.geo
         surfaces = [(2, tag) for tag in section.draw(geo)]

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.mesh.bricks import BASE, CAP, LOWER, PART_NAMES, UPPER, BrickMesh, merge, outer_faces
+from fecolumn.mesh.bricks import BASE, CAP, FLANGE, LOWER, PART_NAMES, UPPER, BrickMesh, outer_faces
 from fecolumn.mesh.specimen import SpecimenMesh
 
-_COLOURS = {LOWER: "#c67b5c", UPPER: "#9fb2c1", CAP: "#d8c08a", BASE: "#cfd1cc"}
+_COLOURS = {FLANGE: "#7f9a75", LOWER: "#c67b5c", UPPER: "#9fb2c1", CAP: "#d8c08a", BASE: "#cfd1cc"}
 _EDGE = "#2f3437"
 _AZIMUTH, _ELEVATION = np.radians(-62), np.radians(24)
 _HEIGHT_MM, _WHOLE_MAX_MM, _ZOOM_MM, _GAP_MM = 120.0, 80.0, (92.0, 86.0), 9.0
@@ -32,9 +32,10 @@ def picture(specimen: SpecimenMesh, path) -> Path:
     from matplotlib.patches import ConnectionPatch, Rectangle
 
     path = Path(path)
-    mesh = merge([specimen.body, specimen.base])
+    meshes = specimen.body, specimen.base
     right, up, toward = _view()
-    plan, rise = mesh.points @ right, mesh.points @ up
+    points = np.concatenate([mesh.points for mesh in meshes])
+    plan, rise = points @ right, points @ up
     centre = np.array([(plan.min() + plan.max()) / 2, (rise.min() + rise.max()) / 2])
     half = np.array([np.ptp(plan), np.ptp(rise)]) / 2 * 1.02
     whole_mm = _HEIGHT_MM * half / half[1]
@@ -52,7 +53,7 @@ def picture(specimen: SpecimenMesh, path) -> Path:
     zoom_axes = _panel(figure, size_mm, (whole_mm[0] + _GAP_MM, 0.5), np.array(_ZOOM_MM), zoom_centre, zoom_half)
     for axes, middle, extent, panel_mm, line in ((whole_axes, centre, half, whole_mm, 0.8),
                                                  (zoom_axes, zoom_centre, zoom_half, np.array(_ZOOM_MM), 2.2)):
-        image = _rendered(mesh, right * middle[0] + up * middle[1], (right, up, toward), extent[1], panel_mm, line)
+        image = _rendered(meshes, right * middle[0] + up * middle[1], (right, up, toward), extent[1], panel_mm, line)
         axes.imshow(image, extent=_extent(middle, extent), interpolation="antialiased", aspect="auto")
 
     corner, frame = zoom_centre - zoom_half, dict(fill=False, edgecolor="#4a4f54", linewidth=0.8)
@@ -62,7 +63,7 @@ def picture(specimen: SpecimenMesh, path) -> Path:
         ends = [zoom_centre + zoom_half * [across, side] for across in (1, -1)]
         figure.add_artist(ConnectionPatch(ends[0], ends[1], "data", "data", axesA=whole_axes, axesB=zoom_axes,
                                           color="#4a4f54", linewidth=0.5))
-    _legend(figure, mesh, whole_mm[0] + _GAP_MM, size_mm)
+    _legend(figure, meshes, whole_mm[0] + _GAP_MM, size_mm)
 
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, draft = tempfile.mkstemp(dir=path.parent, suffix=".png")
@@ -96,7 +97,7 @@ def _panel(figure, size_mm, corner_mm, panel_mm, centre, half):
     return axes
 
 
-def _rendered(mesh: BrickMesh, focus, view, half_height, panel_mm, line_width):
+def _rendered(meshes: tuple[BrickMesh, ...], focus, view, half_height, panel_mm, line_width):
     """(height, width, 3) image of the mesh, at twice the figure's resolution."""
     # VTK asks for an X server first and complains where there is none.
     if not os.environ.get("DISPLAY"):
@@ -108,13 +109,11 @@ def _rendered(mesh: BrickMesh, focus, view, half_height, panel_mm, line_width):
     plotter = pyvista.Plotter(off_screen=True, window_size=pixels, lighting="none")
     try:
         plotter.set_background("white")
-        for part, colour in _COLOURS.items():
-            if not mesh.has_part(part):
-                continue
+        for mesh, part in ((mesh, part) for mesh in meshes for part in _COLOURS if mesh.has_part(part)):
             surface = pyvista.PolyData.from_regular_faces(mesh.points, outer_faces(mesh, part))
-            plotter.add_mesh(surface, color=colour, show_edges=True, edge_color=_EDGE,
+            plotter.add_mesh(surface, color=_COLOURS[part], show_edges=True, edge_color=_EDGE,
                              line_width=line_width, ambient=0.5, diffuse=0.55, specular=0.05, smooth_shading=False)
-        reach = 10 * np.linalg.norm(np.ptp(mesh.points, axis=0))
+        reach = 10 * np.linalg.norm(np.ptp(np.concatenate([mesh.points for mesh in meshes]), axis=0))
         for direction, strength in ((toward + 0.8 * up - 0.5 * right, 0.95), (toward + right, 0.25)):
             plotter.add_light(pyvista.Light(position=tuple(focus + reach * direction), focal_point=tuple(focus),
                                             intensity=strength, light_type="scene light"))
@@ -127,14 +126,15 @@ def _rendered(mesh: BrickMesh, focus, view, half_height, panel_mm, line_width):
         plotter.close()
 
 
-def _legend(figure, mesh: BrickMesh, left_mm, size_mm) -> None:
-    """A swatch, the name and the number of bricks of each part, above the magnified foot."""
+def _legend(figure, meshes: tuple[BrickMesh, ...], left_mm, size_mm) -> None:
+    """A swatch, the name and the number of elements of each part, above the magnified foot."""
     from matplotlib.patches import Rectangle
 
     top_mm = size_mm[1] - 4
-    for row, part in enumerate(part for part in (CAP, UPPER, LOWER, BASE) if mesh.has_part(part)):
+    shown = ((mesh, part) for part in (CAP, UPPER, LOWER, FLANGE, BASE) for mesh in meshes if mesh.has_part(part))
+    for row, (mesh, part) in enumerate(shown):
         y = top_mm - 6 * row
         figure.add_artist(Rectangle(((left_mm + 2) / size_mm[0], (y - 2) / size_mm[1]), 5 / size_mm[0], 4 / size_mm[1],
                                     facecolor=_COLOURS[part], edgecolor=_EDGE, linewidth=0.6))
-        for x, text, align in ((10, PART_NAMES[part], "left"), (58, f"{np.sum(mesh.part == part):,} bricks".replace(",", " "), "right")):
+        for x, text, align in ((10, PART_NAMES[part], "left"), (58, f"{np.sum(mesh.part == part):,} {'tetrahedra' if mesh.is_tetrahedral else 'bricks'}".replace(",", " "), "right")):
             figure.text((left_mm + x) / size_mm[0], y / size_mm[1], text, fontsize=8.5, va="center", ha=align, color="#202326")

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import functools
 import math
+import operator
 from dataclasses import dataclass
 
 import numpy as np
 
 from fecolumn.case import Case
-from fecolumn.mesh.bricks import CAP, BrickMesh
+from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh
 from fecolumn.mesh.column import is_solid
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
 from fecolumn.mesh.specimen import SpecimenMesh
@@ -55,14 +57,20 @@ class Row:
 
 
 def mass_properties(mesh: BrickMesh, density: float) -> MassProperties:
-    """Mass properties of trilinear bricks.
+    """Mass properties of trilinear bricks, or of tetrahedra.
 
-    Three Gauss points a direction are exact: the Jacobian is quadratic and x_i x_j quadratic in each local coordinate.
+    Three Gauss points a direction are exact for bricks: the Jacobian is quadratic and x_i x_j quadratic in each local coordinate.
+    A tetrahedron of volume V has the integral V (4 c_i c_j + sum over corners x_i x_j / 4) / 5 of x_i x_j, c its middle.
 
     Args:
-        mesh: bricks.
+        mesh: bricks or tetrahedra.
         density: [kg/m3].
     """
+    if mesh.is_tetrahedral:
+        corners, weight = mesh.points[mesh.cells], corner_jacobians(mesh)[:, 0] / 6
+        middle = corners.mean(axis=1)
+        second = (4 * np.einsum("c,ci,cj->ij", weight, middle, middle) + np.einsum("c,cai,caj->ij", weight, corners, corners) / 4) / 5
+        return _from_moments(weight.sum(), weight @ middle, second, density)
     abscissae, weights = np.polynomial.legendre.leggauss(3)
     corners = mesh.points[mesh.cells]
     volume, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
@@ -75,6 +83,11 @@ def mass_properties(mesh: BrickMesh, density: float) -> MassProperties:
         volume += weight.sum()
         first += weight @ x
         second += np.einsum("c,ci,cj->ij", weight, x, x)
+    return _from_moments(volume, first, second, density)
+
+
+def _from_moments(volume, first, second, density) -> MassProperties:
+    """Mass properties from the integrals of 1, x_i and x_i x_j over the volume."""
     centre = first / volume
     about_centre = second - volume * np.outer(centre, centre)
     inertia = density * (np.trace(about_centre) * np.eye(3) - about_centre)
@@ -82,58 +95,81 @@ def mass_properties(mesh: BrickMesh, density: float) -> MassProperties:
 
 
 def exact_column(case: Case) -> MassProperties:
-    """Closed form of the tube or solid cylinder."""
+    """Closed form of the tube, solid cylinder or block, without flange and cap."""
     column, density = case.column, case.material.density_kg_m3
+    if column.shape == "block":
+        return _box(column.length_m, column.width_m, column.height_m, case.seat_m, density)
     outer = column.outer_diameter_m / 2
-    inner = 0.0 if is_solid(case) else outer - column.wall_m
-    squares, height = outer**2 + inner**2, column.height_m
-    volume = math.pi * (outer**2 - inner**2) * height
-    mass = density * volume
-    across = mass * (3 * squares + height**2) / 12
-    return MassProperties(volume, mass, np.array([0, 0, height / 2]), np.diag([across, across, mass * squares / 2]))
+    return _ring(outer, 0.0 if is_solid(case) else outer - column.wall_m, column.height_m, case.seat_m, density)
+
+
+def exact_flange(case: Case) -> MassProperties:
+    """Closed form of the flange."""
+    flange = case.flange
+    return _ring(flange.outer_diameter_m / 2, flange.inner_diameter_m / 2, flange.thickness_m, 0.0, case.material.density_kg_m3)
 
 
 def exact_cap(case: Case) -> MassProperties:
     """Closed form of the cap plate."""
-    a, b, c = case.cap.length_m, case.cap.width_m, case.cap.thickness_m
-    mass = case.material.density_kg_m3 * a * b * c
+    cap = case.cap
+    return _box(cap.length_m, cap.width_m, cap.thickness_m, case.seat_m + case.column.height_m, case.material.density_kg_m3)
+
+
+def _ring(outer, inner, height, bottom, density) -> MassProperties:
+    squares = outer**2 + inner**2
+    volume = math.pi * (outer**2 - inner**2) * height
+    mass = density * volume
+    across = mass * (3 * squares + height**2) / 12
+    return MassProperties(volume, mass, np.array([0, 0, bottom + height / 2]), np.diag([across, across, mass * squares / 2]))
+
+
+def _box(a, b, c, bottom, density) -> MassProperties:
+    mass = density * a * b * c
     inertia = np.diag([b * b + c * c, a * a + c * c, a * a + b * b]) * mass / 12
-    return MassProperties(a * b * c, mass, np.array([0, 0, case.column.height_m + c / 2]), inertia)
+    return MassProperties(a * b * c, mass, np.array([0, 0, bottom + c / 2]), inertia)
 
 
 def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
-    """Jacobians, and mass properties of column, cap and their assembly against closed forms.
+    """Jacobians, and mass properties of flange, column, cap and their assembly, against closed forms where the column is a built one.
 
-    A polygon of n chords in place of a circle has too small a volume, by 1 - sin(2 pi / n) / (2 pi / n).
+    Of a user's mesh there is no other form than the mesh itself: it is told as it is, with the tilt at which its centre of mass
+    stands over the nearest edge of the rectangle around its foot.
     """
     body, base = specimen.body, specimen.base
-    density = case.material.density_kg_m3
-    is_cap = body.part == CAP
-    column = _part(body, ~is_cap)
-    rows = [Row("smallest Jacobian of the body", "m3", float(corner_jacobians(body).min())),
-            Row("smallest scaled Jacobian of the column", "-", float(scaled_jacobian(column).min()))]
-    if is_cap.any():
-        rows += [Row("smallest scaled Jacobian of the cap", "-", float(scaled_jacobian(_part(body, is_cap)).min()))]
-    rows += [Row("smallest scaled Jacobian of the base", "-", float(scaled_jacobian(base).min()))]
+    density, own = case.material.density_kg_m3, bool(case.column.mesh_file)
+    kept = {"flange": body.part == FLANGE, "column": (body.part == LOWER) | (body.part == UPPER), "cap": body.part == CAP}
+    parts = {name: _part(body, mask) for name, mask in kept.items() if mask.any()}
+    exact = {"flange": exact_flange, "column": exact_column, "cap": exact_cap}
+    rows = [Row("smallest Jacobian of the body", "m3", float(corner_jacobians(body).min()))]
+    shown = {**parts, "base": base} if len(base.cells) else parts
+    rows += [Row(f"smallest scaled Jacobian of the {name}", "-", float(scaled_jacobian(mesh).min())) for name, mesh in shown.items()]
 
-    found, exact = mass_properties(column, density), exact_column(case)
-    rows += _mass_rows("column", found, exact)
-    if is_cap.any():
-        found_cap, closed_cap = mass_properties(_part(body, is_cap), density), exact_cap(case)
-        rows += _mass_rows("cap", found_cap, closed_cap)
-        rows += _mass_rows("column with cap", found + found_cap, exact + closed_cap)
+    found = {name: mass_properties(mesh, density) for name, mesh in parts.items()}
+    closed = {name: None if own and name == "column" else exact[name](case) for name in parts}
+    for name in parts:
+        rows += _mass_rows(name, found[name], closed[name])
+    whole = functools.reduce(operator.add, found.values())
+    if len(parts) > 1:
+        rows += _mass_rows(" with ".join(sorted(parts, key=list(("column", "flange", "cap")).index)), whole,
+                           None if own else functools.reduce(operator.add, closed.values()))
+    if own:
+        foot = body.points[specimen.foot_nodes, :2] - whole.centre[:2]
+        reach = min(foot.max(axis=0).min(), -foot.min(axis=0).max())
+        rows += [Row("tilt with the centre of mass over the foot's nearest side", "rad", float(np.arctan2(reach, whole.centre[2])))]
     plate = case.base
-    rows += [Row("base: volume", "m3", mass_properties(base, plate.density_kg_m3).volume,
-                 plate.length_m * plate.width_m * plate.thickness_m)]
+    if len(base.cells):
+        rows += [Row("base: volume", "m3", mass_properties(base, plate.density_kg_m3).volume,
+                     plate.length_m * plate.width_m * plate.thickness_m)]
     return tuple(rows)
 
 
 def _mass_rows(name, found, exact):
-    rows = [Row(f"{name}: volume", "m3", found.volume, exact.volume),
-            Row(f"{name}: mass", "kg", found.mass, exact.mass),
-            Row(f"{name}: height of the centre of mass", "m", float(found.centre[2]), float(exact.centre[2]))]
-    return rows + [Row(f"{name}: inertia I_{axis}{axis} about the centre of mass", "kg m2",
-                       float(found.inertia[i, i]), float(exact.inertia[i, i])) for i, axis in enumerate("xyz")]
+    def row(what, unit, of):
+        return Row(f"{name}: {what}", unit, float(of(found)), None if exact is None else float(of(exact)))
+
+    rows = [row("volume", "m3", lambda one: one.volume), row("mass", "kg", lambda one: one.mass),
+            row("height of the centre of mass", "m", lambda one: one.centre[2])]
+    return rows + [row(f"inertia I_{axis}{axis} about the centre of mass", "kg m2", lambda one, i=i: one.inertia[i, i]) for i, axis in enumerate("xyz")]
 
 
 def _part(mesh, kept) -> BrickMesh:

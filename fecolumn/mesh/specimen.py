@@ -9,7 +9,7 @@ import numpy as np
 
 from fecolumn.case import Case
 from fecolumn.mesh.base_plate import base_mesh
-from fecolumn.mesh.bricks import CAP, LOWER, UPPER, BrickMesh, boundary_quads, merge
+from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh, boundary_faces, merge
 from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh, section
 from fecolumn.mesh.imported import imported_column
@@ -21,8 +21,8 @@ class SpecimenMesh:
     """What the solver stands on.
 
     Attributes:
-        body: lower column, upper column and cap in one mesh, slaves already on their master surfaces.
-        base: base plate, a tensor-product grid with its top at z = 0.
+        body: flange, lower column, upper column and cap in one mesh, slaves already on their master surfaces.
+        base: base plate, a tensor-product grid with its top at z = 0; without bricks where the base has no edges.
         ties: slaves and masters, as point numbers of the body.
         foot_nodes: (n_foot,) point numbers of the body in the plane z = 0, sorted.
     """
@@ -44,23 +44,33 @@ def specimen_mesh(case: Case) -> SpecimenMesh:
     height = column.points[:, 2].max()
     body = column
     if cap is not None:
-        body = merge([column, cap.shifted(height - case.column.height_m)])
-    flat = 1e-6 * case.column.height_m
-    top_part = UPPER if column.has_part(UPPER) else LOWER
+        body = merge([column, cap.shifted(height - cap.points[:, 2].min())])
+    flat = 1e-6 * height
 
     ties = []
-    if column.has_part(LOWER) and column.has_part(UPPER):
-        ties.append(tie(body, LOWER, UPPER, case.column.fine_height_m, flat, _reach(case),
-                        "mesh.fine_size_m, mesh.coarse_size_m"))
-    if cap is not None:
-        ties.append(tie(body, top_part, CAP, height, flat, _reach(case), "column.height_m, cap"))
-
+    for one, other, level, keys in _joints(case, column, height):
+        ties.append(tie(body, one, other, level, flat, _reach(case), keys))
     body = adjust(body, ties)
-    foot = np.unique(boundary_quads(body, LOWER if column.has_part(LOWER) else UPPER, 0.0, flat))
+    foot = np.unique(boundary_faces(body, body.foot_part, 0.0, flat))
     return SpecimenMesh(body, base_mesh(case), tuple(ties), foot)
 
 
+def _joints(case: Case, column: BrickMesh, height: float):
+    """Slave part, master part, height [m] and keys of each joint, from the foot upwards."""
+    lowest = LOWER if column.has_part(LOWER) else UPPER
+    if column.has_part(FLANGE):
+        yield lowest, FLANGE, case.seat_m, "flange, column"
+    if column.has_part(LOWER) and column.has_part(UPPER):
+        yield LOWER, UPPER, case.seat_m + case.column.fine_height_m, "mesh.fine_size_m, mesh.coarse_size_m"
+    if case.cap:
+        yield column.top_part, CAP, height, "column.height_m, cap"
+
+
 def _reach(case: Case) -> float:
-    """How far a slave may be moved [m]: the sagitta of an upper brick's chord and a tenth of a fine brick."""
+    """How far a slave may be moved [m]: the sagitta of a brick's chord and a tenth of a fine brick."""
+    if case.column.mesh_file or case.column.shape == "block":
+        return 0.1 * case.mesh.fine_size_m
     sagitta = case.column.outer_diameter_m / 2 * (1 - math.cos(math.pi / section(case, UPPER).n_around))
+    if case.flange:
+        sagitta += case.flange.outer_diameter_m / 2 * (1 - math.cos(math.pi / section(case, FLANGE).n_around))
     return sagitta + 0.1 * case.mesh.fine_size_m

@@ -1,4 +1,4 @@
-"""Lagrange nodes, basis and tributary areas on the quadrilateral faces of bricks of any order."""
+"""Lagrange nodes, basis and tributary areas on the faces of bricks of any order, and of tetrahedra."""
 
 from __future__ import annotations
 
@@ -8,7 +8,12 @@ from fecolumn.mesh.tie import shape_functions
 
 
 def face_points(quads: np.ndarray, order: int) -> np.ndarray:
-    """Positions (n_quads, (order + 1)^2, 3) of the Lagrange nodes of faces with corners (n_quads, 4, 3)."""
+    """Positions (n_quads, (order + 1)^2, 3) of the Lagrange nodes of faces with corners (n_quads, 4, 3).
+
+    Of triangles (n, 3, 3), order 2: (n, 6, 3), the corners and the middles of the sides that follow them.
+    """
+    if quads.shape[1] == 3:
+        return np.concatenate([quads, (quads + np.roll(quads, -1, axis=1)) / 2], axis=1)
     line = np.linspace(-1, 1, order + 1)
     xi = np.stack(np.meshgrid(line, line, indexing="ij"), axis=-1).reshape(-1, 2)
     return np.einsum("ka,nai->nki", shape_functions(xi), quads)
@@ -30,7 +35,14 @@ def nodal_areas(quads: np.ndarray, nodes: np.ndarray, n_nodes: int, order: int) 
     Args:
         quads: (n_quads, 4, 3) corners [m], in one horizontal plane.
         nodes: (n_quads, (order + 1)^2) node of each face point.
+
+    The quadratic basis of a triangle's corner has no area at all: there the areas are those of the linear basis on its four quarters.
     """
+    if quads.shape[1] == 3:
+        areas = np.zeros(n_nodes)
+        whole = np.linalg.norm(np.cross(quads[:, 1] - quads[:, 0], quads[:, 2] - quads[:, 0]), axis=1) / 2
+        np.add.at(areas, nodes, whole[:, None] * np.repeat([1 / 12, 1 / 4], 3))
+        return areas
     points, weights = np.polynomial.legendre.leggauss(3)
     areas = np.zeros(n_nodes)
     for s, ws in zip(points, weights):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from fecolumn.mesh.bricks import PART_NAMES, BrickMesh, boundary_quads
+from fecolumn.mesh.bricks import PART_NAMES, BrickMesh, boundary_faces
 from fecolumn.schema import InputError
 
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
@@ -60,7 +60,7 @@ def tie(mesh: BrickMesh, slave_part: int, master_part: int, z: float, flat: floa
     def refuse(what):
         raise InputError("mesh", names, None, f"{PART_NAMES[slave_part]} cannot be tied to {PART_NAMES[master_part]}: {what}")
 
-    slaves, masters = (boundary_quads(mesh, part, z, flat) for part in (slave_part, master_part))
+    slaves, masters = (boundary_faces(mesh, part, z, flat) for part in (slave_part, master_part))
     for part, quads in ((slave_part, slaves), (master_part, masters)):
         if not len(quads):
             refuse(f"{PART_NAMES[part]} has no faces within {flat:.3g} m of z = {z:.6g} m")

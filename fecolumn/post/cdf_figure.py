@@ -12,6 +12,7 @@ from fecolumn.post.style import LINES, PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.statistics.ecdf import Ecdf, proportion_interval
 
 _PANELS_A_ROW = 3
+_ROOM = 1.08  # of an axis over the largest peak, so that the level of what overturned is seen
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,18 +23,18 @@ class Panel:
     lines: tuple[tuple[str, Ecdf], ...]
 
 
-def cdf_figure(panels: list[Panel], limit_m: float, path, formats=("png", "pdf")) -> list[Path]:
+def cdf_figure(panels: list[Panel], path, formats=("png", "pdf")) -> list[Path]:
     """Write the figure, as PNG and PDF unless told otherwise.
 
-    Each distribution ends at 1 - P(overturn) and runs on as a level to the overturn displacement; its shade is the
-    pointwise 95 % band of Greenwood; the legend gives P(overturn) with Wilson's 95 % interval.
+    Each distribution ends at 1 - P(overturn) and runs on as a level to the end of the axis, a little beyond the largest peak of all
+    panels; its shade is the pointwise 95 % band of Greenwood; the legend gives P(overturn) with Wilson's 95 % interval.
 
     Args:
         panels: at least one.
-        limit_m: overturn displacement [m], where the axis ends.
         path: file name without suffix.
         formats: of the files.
     """
+    limit_mm = 1e3 * axis_end(distribution.x[-1] for panel in panels for _, distribution in panel.lines if distribution.x.size)
     columns = 2 if len(panels) == 4 else min(len(panels), _PANELS_A_ROW)
     rows = math.ceil(len(panels) / columns)
     deepest = max(len(panel.lines) for panel in panels)
@@ -51,7 +52,7 @@ def cdf_figure(panels: list[Panel], limit_m: float, path, formats=("png", "pdf")
             if place >= len(panels):
                 axes.set_axis_off()
                 continue
-            _draw(axes, panels[place], looks, 1e3 * limit_m)
+            _draw(axes, panels[place], looks, limit_mm)
             if column == 0:
                 axes.set_ylabel(r"$P\,(u_{\max} \leq u)$")
             else:
@@ -59,6 +60,12 @@ def cdf_figure(panels: list[Panel], limit_m: float, path, formats=("png", "pdf")
             strip.legend(*axes.get_legend_handles_labels(), loc="upper center", framealpha=0, borderaxespad=0,
                          title=r"$P$(overturn) [95 % interval]", title_fontsize=7.5)
         return save(figure, path, formats)
+
+
+def axis_end(peaks) -> float:
+    """Where an axis of displacements ends [m]: a little beyond the largest of the peaks; 1 where there is none above 0."""
+    largest = max(peaks, default=0.0)
+    return _ROOM * largest if largest > 0 else 1.0
 
 
 def _draw(axes, panel: Panel, looks: dict, limit_mm: float) -> None:

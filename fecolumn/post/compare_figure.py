@@ -8,14 +8,15 @@ import numpy as np
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from fecolumn.post.cdf_figure import axis_end
 from fecolumn.post.style import BLACK, BLUE, GREY, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
 from fecolumn.statistics.bands import dkw, dkw_distance
 from fecolumn.statistics.ecdf import censored, ecdf, proportion_interval
 
-_STRIP = 0.09  # beyond the overturn displacement, where overturned runs are drawn; as a share of the axis
+_STRIP = 0.09  # beyond the axes' ends, where overturned runs are drawn; as a share of the axis
 
 
-def compare_figure(a: tuple, b: tuple, labels: tuple[str, str], *, paired: bool, limit_m: float, correlation: float | None, path) -> list[Path]:
+def compare_figure(a: tuple, b: tuple, labels: tuple[str, str], *, paired: bool, correlation: float | None, path) -> list[Path]:
     """Write the figure as PNG and PDF.
 
     Left, both CDFs with the pointwise 95 % band of Greenwood of each (shaded) and the simultaneous one of b, the reference
@@ -25,17 +26,17 @@ def compare_figure(a: tuple, b: tuple, labels: tuple[str, str], *, paired: bool,
         a, b: u_max [m] and overturned, (n,) each; with the same motion at the same place where paired.
         labels: of a and b.
         paired: whether the right panel is drawn.
-        limit_m: overturn displacement, where the axes end [m].
         correlation: R, written into the right panel; None or nan writes none.
         path: file name without suffix.
     """
+    limit_mm = 1e3 * axis_end(peak for sample in (a, b) for peak in ecdf(*sample).x)
     with styled():
         figure = new_figure(PAGE_WIDTH_IN if paired else PAGE_WIDTH_IN / 2, 3.75)
         figure.get_layout_engine().set(w_pad=0.06)
         grid = figure.subplots(1, 2 if paired else 1, squeeze=False)[0]
-        _distributions(grid[0], a, b, labels, 1e3 * limit_m)
+        _distributions(grid[0], a, b, labels, limit_mm)
         if paired:
-            _pairs(grid[1], censored(*a), censored(*b), labels, 1e3 * limit_m, correlation)
+            _pairs(grid[1], censored(*a), censored(*b), labels, limit_mm, correlation)
         return save(figure, path)
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from fecolumn.dynamics.history import read_history
+from fecolumn.files import Unreadable, read_json
 from fecolumn.post.style import (BLACK, BLUE, COLUMN_WIDTH_IN, GREEN, LINES, ORANGE, PAGE_WIDTH_IN, PURPLE, SKY, VERMILION,
                                  new_figure, save, styled)
 from fecolumn.schema import InputError
@@ -17,7 +17,8 @@ from fecolumn.schema import InputError
 _MOVED = {"kinetic": ("kinetic", VERMILION, "-"), "strain": ("strain", ORANGE, "-"),
           "gravity": ("gravity potential", BLUE, "-"), "base_work": ("work of the base", BLACK, "-")}
 _LOST = {"friction": ("friction", GREEN, "-"), "impact": ("impact", PURPLE, "-"),
-         "contact": ("contact on release", ORANGE, "--"), "algorithmic": ("numerical (HHT)", SKY, "-.")}
+         "contact": ("contact on release", ORANGE, "--"), "algorithmic": ("numerical (HHT)", SKY, "-."),
+         "damping": ("damping of modes", BLUE, ":"), "rolling": ("rolling resistance", VERMILION, ":")}
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +29,8 @@ class History:
         time: (n,) [s].
         u_top: (n, 3) [m] displacement of the top relative to the base.
         tilt: (n,) [rad] angle of the axis to the vertical.
-        energy: (n,) [J] by term: kinetic, strain, gravity, base_work, friction, impact, contact, algorithmic, closure.
+        energy: (n,) [J] by term: kinetic, strain, gravity, base_work, friction, impact, contact, algorithmic, damping, rolling,
+            closure.
     """
 
     time: np.ndarray
@@ -56,9 +58,9 @@ def history_figures(folder) -> list[Path]:
     folder = Path(folder)
     history = History.read(folder / "history.h5")
     try:
-        summary = json.loads((folder / "summary.json").read_text())
-    except (OSError, ValueError) as error:
-        raise InputError(folder / "summary.json", "", None, f"cannot be read ({error})") from None
+        summary = read_json(folder / "summary.json")
+    except Unreadable as error:
+        raise InputError(folder / "summary.json", "", None, str(error)) from None
     return [*displacement_figure(history, bool(summary["overturned"]), folder / "u_top"),
             *path_figure(history, bool(summary["overturned"]), folder / "path"),
             *energy_figure(history, folder / "energy")]
@@ -112,6 +114,8 @@ def energy_figure(history: History, path) -> list[Path]:
         figure = new_figure(PAGE_WIDTH_IN, 4.6)
         moved, lost, closure = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 1]})
         for axes, terms in ((moved, _MOVED), (lost, _LOST)):
+            # results of earlier versions do not have every term
+            terms = {term: style for term, style in terms.items() if term in energy}
             largest = max(float(np.abs(energy[term]).max()) for term in terms)
             for term, (label, colour, dashes) in terms.items():
                 if np.abs(energy[term]).max() > 1e-6 * largest:

@@ -72,7 +72,7 @@ def _table(sweep: Sweep) -> Table:
                Column("closure_median", "closure, median", number), Column("closure_worst", "worst", number),
                Column("penetration_max_m", "pene\N{SOFT HYPHEN}tration [mm]", lambda value: number(None if value is None else 1e3 * value)),
                Column("cuts", "step cuts", number), Column("impacts_mean", "impacts a run", number),
-               Column("algorithmic_share", "loss by damping [%]", _hundred), Column("impact_share", "impact [%]", _hundred),
+               Column("algorithmic_share", "loss by HHT [%]", _hundred), Column("impact_share", "impact [%]", _hundred),
                Column("friction_share", "friction [%]", _hundred),
                Column("overturn_first_s overturn_last_s", "overturned at [s]", _span))
     return Table("audit", columns, rows, "Audit of every setting: analyses; relative closure error of the energy ledger; largest "
@@ -112,7 +112,7 @@ def _mean(setting: Setting, name: str):
 def _share(setting: Setting, term: str):
     """Part of a term of the ledger in all losses of the setting [-]."""
     ledgers = [run["energy_j"] for run in setting.runs.values() if isinstance(run.get("energy_j"), dict)]
-    losses = {name: -sum(ledger.get(name, 0.0) for ledger in ledgers) for name in ("algorithmic", "impact", "friction", "contact")}
+    losses = {name: -sum(ledger.get(name, 0.0) for ledger in ledgers) for name in ("algorithmic", "impact", "friction", "contact", "damping", "rolling")}
     whole = sum(max(loss, 0.0) for loss in losses.values())
     return losses[term] / whole if whole > 0 else None
 

@@ -29,7 +29,7 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
     blocks: list = []
     for name, axis in _views(sweep):
         panels = _panels(sweep, axis)
-        files = cdf_figure(panels, sweep.limit_m, gallery.path(name), gallery.formats)
+        files = cdf_figure(panels, gallery.path(name), gallery.formats)
         other = [axis_name(one) for one in sweep.varied if one != axis]
         what = f"a line for each {axis_name(axis)}" if axis else \
             "settings of the study" if len(sweep.done) <= _LINES else "the settings of least, middle and largest P(overturn)"
@@ -60,7 +60,7 @@ def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
     if axis is None:
         chosen = sweep.done
         if len(chosen) > _LINES:  # of many unordered ones the least, the middle and the most dangerous
-            ranked = sorted(chosen, key=lambda one: (one.column("overturned").mean(), one.column("u_max_m").mean()))
+            ranked = sorted(chosen, key=lambda one: (one.column("overturned").mean(), percentile(*one.peaks(), 0.5)))
             chosen = [ranked[0], ranked[len(ranked) // 2], ranked[-1]]
         labels = _labels(sweep)
         return [Panel("", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen))]
@@ -95,34 +95,39 @@ def _left_out(sweep: Sweep, axis: str | None, panels: list[Panel]) -> str:
 
 def _opening(sweep: Sweep, figure: str) -> str:
     u, over = sweep.reference.peaks()
-    low, high = proportion_interval(int(over.sum()), over.size)
+    fallen = sweep.reference.column("overturned")
+    low, high = proportion_interval(int(fallen.sum()), fallen.size)
     return (f"[[{figure}]] shows the distribution of the largest top displacement of the column, u_max, in every setting. At "
             f"{setting_text(sweep.reference.values)} half of the {count(over.size, 'motion')} stay below "
-            f"{millimetres(percentile(u, over, 0.5))}{' mm' if np.isfinite(percentile(u, over, 0.5)) else ' (half or more overturn)'}, and "
-            f"{int(over.sum())} overturn: P(overturn) = {percent(over.mean())}, 95 % interval {interval(low, high, percent)}.")
+            f"{millimetres(percentile(u, over, 0.5))}{' mm' if np.isfinite(percentile(u, over, 0.5)) else ' (half or more are lost)' if fallen.sum() < over.sum() else ' (half or more overturn)'}, and "
+            f"{int(fallen.sum())} overturn: P(overturn) = {percent(fallen.mean())}, 95 % interval {interval(low, high, percent)}.")
 
 
 def _overturning(sweep: Sweep, gallery: Gallery) -> list:
     rows, estimates, labels = [], [], _labels(sweep)
+    off = any(run.get("slid_off") for setting in sweep.settings for run in setting.runs.values())
     for number, setting in enumerate(sweep.settings, 1):
         levels = (number, *(setting.values[axis] for axis in sweep.varied))
         if not setting.runs:
-            rows.append((*levels, setting.planned, 0, None, None, None, None, None, None, None, None, None))
+            rows.append((*levels, setting.planned, 0, *([None] if off else []), None, None, None, None, None, None, None, None, None))
             continue
         u, over = setting.peaks()
-        k, n = int(over.sum()), over.size
+        k, n = int(setting.column("overturned").sum()), over.size
         wilson, exact = proportion_interval(k, n), proportion_interval(k, n, method="exact")
-        rows.append((*levels, setting.planned, n, k, k / n, *wilson, *exact, *(percentile(u, over, share) for share in (0.16, 0.5, 0.84))))
+        slid = [int(over.sum()) - k] if off else []
+        rows.append((*levels, setting.planned, n, k, *slid, k / n, *wilson, *exact, *(percentile(u, over, share) for share in (0.16, 0.5, 0.84))))
         estimates.append(Estimate(labels[id(setting)], 100 * k / n, 100 * wilson[0], 100 * wilson[1]))
     table = Table("p_overturn", (Column("setting", "setting"), *axis_columns(sweep.varied), Column("planned", "planned"), Column("n", "run"),
                                  Column("overturned", "over\N{SOFT HYPHEN}turned", _whole),
+                                 *((Column("slid_off", "slid off", _whole),) if off else ()),
                                  Column("p_overturn", "P(overturn) [%]", lambda share: fixed(None if share is None else 100 * share, 1)),
                                  Column("wilson_low wilson_high", "Wilson [%]", percent_interval),
                                  Column("exact_low exact_high", "exact [%]", percent_interval),
                                  Column("u_max_16_m", "u₁₆ [mm]", millimetres), Column("u_max_50_m", "u₅₀ [mm]", millimetres),
                                  Column("u_max_84_m", "u₈₄ [mm]", millimetres)), rows,
                   "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and Pearson), and percentiles of u_max; “overturn” "
-                  "where that share of the runs does not stand." + (f" {TARGET_NOTE}." if gallery.paper else ""), folded=len(rows) > _ROWS)
+                  "where that share of the runs does not stand." + (" Columns that slid off their base are lost, too: distributions and percentiles, here "
+                  "and in what follows, take them with those that overturned; P(overturn) does not." if off else "") + (f" {TARGET_NOTE}." if gallery.paper else ""), folded=len(rows) > _ROWS)
     if not 2 <= len(estimates) <= _ROWS:
         return [table]
     scale = Scale(r"$P$(overturn) [%], 95 % interval (Wilson)", (0, None),

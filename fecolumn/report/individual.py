@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.ending import lost
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.scatter_matrix import Variable, scatter_matrix
 from fecolumn.report.distributions import setting_words
@@ -74,7 +75,7 @@ def _motions(sweep: Sweep) -> Table:
     rows = []
     for motion in sweep.motions:
         runs = [setting.runs[motion] for setting in sweep.done if motion in setting.runs]
-        peaks = np.array([run["u_max_m"] for run in runs if not run["overturned"]])
+        peaks = np.array([run["u_max_m"] for run in runs if not lost(run)])
         fallen = sum(bool(run["overturned"]) for run in runs)
         low, high = (float(peaks.min()), float(peaks.max())) if peaks.size else (None, None)
         rows.append((runs[0].get("motion") or motion.strip("[]'\""), len(runs), fallen, low, high, high / low if low else None))

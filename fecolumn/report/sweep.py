@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from fecolumn.files import read_json
+from fecolumn.statistics.ecdf import largest_peak
 from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE, FAILED, read_study
 
@@ -39,8 +40,9 @@ class Setting:
         return np.array([np.nan if run.get(name) is None else run[name] for run in runs.values()], float)
 
     def peaks(self, motions=None) -> tuple[np.ndarray, np.ndarray]:
-        """u_max [m] and whether the column overturned, one a motion."""
-        return self.column("u_max_m", motions), self.column("overturned", motions).astype(bool)
+        """u_max [m], nan where the column overturned or slid off its base, and whether it did, one a motion."""
+        lost = self.column("overturned", motions).astype(bool) | (self.column("slid_off", motions) == 1)
+        return np.where(lost, np.nan, self.column("u_max_m", motions)), lost
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +77,7 @@ class Sweep:
         settings: in the order of the study; those without a finished run included.
         rows: the ledger.
         analyses: number of all analyses; of a job array at work the ledger has not all of them yet.
-        limit_m: displacement at which a column counts as overturned [m].
+        limit_m: displacement that every overturned column exceeded [m]: the cap of the study, or the largest peak of those that stood.
         case: tables of one case of the study, {} where no result folder has one.
     """
 
@@ -144,7 +146,12 @@ def read_sweep(folder) -> Sweep:
             axes.setdefault(key, {})[repr(value)] = value
     case = next(filter(None, (_case(folder / "analyses" / row["id"]) for row in study.rows if row["state"] == DONE)), {})
     return Sweep(folder, study.title, {key: _ordered(list(levels.values())) for key, levels in axes.items()}, settings, study.rows, study.analyses,
-                 float(case.get("overturn", {}).get("displacement_m", 0.25)), case)
+                 float(case.get("overturn", {}).get("displacement_m", 0.0)) or _largest_peak(settings), case)
+
+
+def _largest_peak(settings) -> float:
+    found = largest_peak(*(setting.peaks() for setting in settings if setting.runs))
+    return found if found > 0 else 1.0
 
 
 def _setting(rows: list[dict]) -> Setting:

@@ -130,10 +130,11 @@ class Ledger:
         return dict(self._connection.execute("SELECT id, state FROM analysis ORDER BY place"))
 
     def counts(self) -> dict[str, int]:
-        """Number of analyses by state, and of those "overturned"."""
+        """Number of analyses by state, and of those "overturned" and "slid_off"."""
         counts = dict(self._connection.execute("SELECT state, count(*) FROM analysis GROUP BY state"))
-        counts["overturned"], = self._connection.execute(
-            "SELECT count(*) FROM analysis WHERE state = 'done' AND json_extract(summary, '$.overturned')").fetchone()
+        for outcome in ("overturned", "slid_off"):
+            counts[outcome], = self._connection.execute(
+                f"SELECT count(*) FROM analysis WHERE state = 'done' AND json_extract(summary, '$.{outcome}')").fetchone()
         return counts
 
     def rows(self) -> list[dict]:

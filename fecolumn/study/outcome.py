@@ -28,7 +28,7 @@ class Outcome(NamedTuple):
     Attributes:
         id: of the analysis. word: DONE, FAILED, RETURNED or FULL. reason: why, unless DONE.
         wall_s: wall time of the worker [s]. started: seconds since the epoch. machine: where.
-        summary: JSON of its summary where it is DONE; version and overturned are in it, too.
+        summary: JSON of its summary where it is DONE; version, overturned and slid_off are in it, too.
     """
 
     id: str
@@ -40,6 +40,7 @@ class Outcome(NamedTuple):
     summary: str | None = None
     version: str | None = None
     overturned: bool = False
+    slid_off: bool = False
 
 
 def finished(case_id: str, folder: Path, **more) -> Outcome | None:
@@ -48,5 +49,5 @@ def finished(case_id: str, folder: Path, **more) -> Outcome | None:
         summary = read_summary(folder, case_id)
     except Unreadable:
         return None
-    return Outcome(case_id, DONE, summary=json.dumps(summary), version=str(summary.get("version", "")),
-                   overturned=summary["overturned"], **{"wall_s": float(summary["wall_s"]), **more})
+    return Outcome(case_id, DONE, summary=json.dumps(summary), version=str(summary.get("version", "")), overturned=summary["overturned"],
+                   slid_off=bool(summary.get("slid_off")), **{"wall_s": float(summary["wall_s"]), **more})

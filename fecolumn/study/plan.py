@@ -20,7 +20,7 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check, digest, located, section_text
+from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check_duration, digest, finished, located, section_text
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.schema import InputError, build, merge, read_toml, shown
@@ -152,6 +152,7 @@ class _Maker:
                 self.touched.setdefault(key.partition(".")[0], []).append((place, number, key))
         self.factors_of = {name: tuple({place: None for place, _, _ in values}) for name, values in self.touched.items()}
         self.made: dict[tuple, tuple] = {}
+        self.texts: dict[tuple, str] = {}
         self.first = None
 
     def analysis(self, places: tuple[int, ...]) -> Analysis:
@@ -165,7 +166,11 @@ class _Maker:
 
     def _case(self, places) -> tuple[Case, dict[str, str]]:
         if self.first is None:  # the whole, for what stands in no section
-            case = case_from_tables(self._tables(places), self.path)
+            tables = self._tables(places)
+            case = case_from_tables(tables, self.path)
+            # as they are stated: what they leave open follows from other sections, which may differ
+            stated = {name: located(name, build(_KINDS[name], tables.get(name, {}), self.path, f"{name}."), self.path) for name in ("column", "base", "mesh")}
+            case = dataclasses.replace(case, **stated)
             self.first = ({name: getattr(case, name) for name in (*SECTIONS, "title", "output")},
                           {name: section_text(name, getattr(case, name)) for name in SECTIONS})
             if case.motion:
@@ -178,8 +183,13 @@ class _Maker:
             sections[name], text = self.made[key]
             if name in texts:
                 texts[name] = text
-        case = Case(**sections)
-        check(case, self.path)
+        case = finished(Case(**sections), self.path)
+        check_duration(case, self.path)
+        for name in ("column", "base", "mesh"):
+            if (section := getattr(case, name)) is not sections[name]:  # with sizes that it had left open
+                if (name, section) not in self.texts:
+                    self.texts[name, section] = section_text(name, section)
+                texts[name] = self.texts[name, section]
         return case, texts
 
     def _section(self, name: str, places):

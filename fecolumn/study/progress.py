@@ -22,8 +22,8 @@ class Progress:
     """
 
     def __init__(self, counts: dict[str, int], effort: float, workers: int, stream):
-        self.overturned = counts.get("overturned", 0)
-        self._total = sum(counts.values()) - self.overturned
+        self.overturned, self.slid_off = counts.get("overturned", 0), counts.get("slid_off", 0)
+        self._total = sum(counts.values()) - self.overturned - self.slid_off
         self._stream, self._tty, self._workers = stream, stream.isatty(), max(workers, 1)
         self.done, self.failed = counts.get(DONE, 0), counts.get(FAILED, 0)
         self._remaining, self._worked, self._ended, self._busy_s = effort, 0.0, 0, 0.0
@@ -34,6 +34,7 @@ class Progress:
         self.done += outcome.word == DONE
         self.failed += outcome.word == FAILED
         self.overturned += outcome.overturned
+        self.slid_off += outcome.slid_off
         self._ended += 1
         self._busy_s += outcome.wall_s or 0.0 if outcome.started is not None else 0.0
         self._worked += effort
@@ -51,7 +52,7 @@ class Progress:
             parts.append(f"{rate:.3g} a second" if rate >= 2 else f"{60 * rate:.3g} a minute")
             if self.done + self.failed < self._total:
                 parts.append(f"{_clock(elapsed_s * max(self._remaining, 0.0) / self._worked)} to go")
-        parts += [f"{self.overturned} overturned", f"{self.failed} failed"]
+        parts += [f"{self.overturned} overturned", *([f"{self.slid_off} slid off"] if self.slid_off else []), f"{self.failed} failed"]
         return ", ".join(parts + ([f"workers {100 * self.busy(elapsed_s):.0f} % busy"] if self._ended else []))
 
     def show(self) -> None:

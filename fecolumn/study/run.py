@@ -6,8 +6,10 @@ import collections
 import dataclasses
 import sqlite3
 import sys
+import warnings
 
 from fecolumn.atomic import disk_full
+from fecolumn.case import REST
 from fecolumn.study.outcome import FULL, RETURNED
 from fecolumn.study.plan import Analysis, Plan
 from fecolumn.study.pool import LocalPool
@@ -21,6 +23,8 @@ ENTRY = "fecolumn.simulation:run"
 
 # Work handed out at a time: less would keep driver and workers busy with messages, more would leave some idle at the end
 _BATCH_S, _BATCH_MOST = 0.5, 200
+# Free vibration that is reckoned with where it goes on until the column is at rest: a column of a metre or two takes seconds
+_TO_REST_S = 10.0
 _DISK_FULL = "the disk is full; free room"
 
 
@@ -86,6 +90,7 @@ def check_motions(plan: Plan) -> None:
         InputError: a motion that cannot be used, in the loader's words.
     """
     from fecolumn.motions.load import load_motion
+    from fecolumn.simulation import cut_text
 
     # factor and direction change neither length nor whether it can be used; the longest step is the most demanding
     longest_step, users = {}, {}
@@ -94,10 +99,17 @@ def check_motions(plan: Plan) -> None:
             key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
             longest_step[key] = max(longest_step.get(key, 0.0), analysis.case.integration.dt_s)
             users.setdefault(key, []).append(analysis)
+    cut = []
     for motion, dt_s in longest_step.items():
         ground = load_motion(motion, dt_s, plan.file)
         for analysis in users[motion]:
-            analysis.duration_s = analysis.case.integration.duration_s or ground.duration + motion.free_vibration_s
+            given, free = analysis.case.integration.duration_s, motion.free_vibration_s
+            analysis.duration_s = given or ground.duration + (min(_TO_REST_S, motion.rest_ceiling_s) if free == REST else free)
+            if given and given < ground.duration - dt_s:
+                cut.append((ground.duration, given))
+    if cut:
+        length, given = max(cut)
+        warnings.warn(f"{cut_text(plan.file, given, length)} ({len(cut)} of {len(plan.analyses)} analyses are cut)", stacklevel=2)
 
 
 def _work_off(store: Store, queue: collections.deque[Analysis], team: Team, progress: Progress) -> None:

@@ -10,7 +10,7 @@ from fecolumn.dynamics.corotated import Corotated
 from fecolumn.dynamics.effective import effective_factor
 from fecolumn.dynamics.rotation import rotation_matrix
 from fecolumn.dynamics.total_lagrangian import TotalLagrangian
-from fecolumn.mesh.bricks import LOWER, UPPER, boundary_quads, merge
+from fecolumn.mesh.bricks import LOWER, UPPER, boundary_faces, merge
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.specimen import SpecimenMesh
 from fecolumn.mesh.surface import nodal_areas
@@ -36,7 +36,7 @@ def tied_blocks(engine: str, lower, upper, height: float) -> Tied:
 def end_areas(body, mesh, z: float) -> np.ndarray:
     """Tributary areas (n_owned,) [m2] of a body's nodes in its end at height z [m], nil elsewhere."""
     at_end = np.any(mesh.points[mesh.cells, 2] == z, axis=1)
-    quads = boundary_quads(mesh, mesh.part[at_end][0], z, 1e-9)
+    quads = boundary_faces(mesh, mesh.part[at_end][0], z, 1e-9)
     return nodal_areas(mesh.points[quads], body.find_nodes(mesh.points[quads].reshape(-1, 3)).reshape(quads.shape), body.n_owned, 1)
 
 

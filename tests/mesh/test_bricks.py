@@ -5,15 +5,18 @@ import gmsh
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from small_specimen import small_case
+from small_specimen import TABLES, small_case
 
-from fecolumn.case import read_case
+from fecolumn.case import case_from_tables, read_case
+from fecolumn.contact.rim import Rim
 from fecolumn.mesh.base_plate import GROWTH, base_mesh, grid_lines, growing_steps
-from fecolumn.mesh.bricks import CAP, LOWER, UPPER, boundary_quads, brick_mesh, outer_faces
+from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, boundary_faces, brick_mesh, outer_faces
 from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh
-from fecolumn.mesh.gmsh_section import Annulus, extruded
+from fecolumn.mesh.gmsh_section import extruded
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
+from fecolumn.mesh.quality import exact_cap, exact_column, exact_flange, mass_properties
+from fecolumn.mesh.section import Annulus
 from fecolumn.mesh.specimen import specimen_mesh
 
 ODD_CASES = {
@@ -34,6 +37,9 @@ ODD_CASES = {
 }
 
 
+BLOCK = {"column": {"shape": "block", "length_m": 0.4, "width_m": 0.2, "height_m": 1.2}, "integration": {"duration_s": 1.0}}
+
+
 @pytest.mark.parametrize("keys", ODD_CASES.values(), ids=ODD_CASES)
 def test_every_brick_of_any_specimen_has_positive_volume_at_each_corner(keys):
     case = small_case(**keys)
@@ -49,15 +55,49 @@ def test_every_brick_of_any_specimen_has_positive_volume_at_each_corner(keys):
     assert specimen.base.points[:, 2].max() == 0
 
 
-def test_rim_points_lie_on_the_circle():
-    mesh = column_mesh(small_case())
-    radius = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
-    assert np.minimum(abs(radius - 0.05), abs(radius - 0.04)).max() < 1e-15
+@pytest.mark.parametrize("keys", [{}, {"column_wall_m": 0.05, "mesh_coarse_size_m": 0.018}], ids=["tube", "solid"])
+def test_the_rim_of_the_foot_lies_on_the_true_circle(keys):
+    specimen = specimen_mesh(small_case(**keys))
+    rim = Rim.find(specimen.body.points[specimen.foot_nodes])
+    assert rim.radius == pytest.approx(0.05, rel=1e-14)
+
+
+@pytest.mark.parametrize("keys", [{}, {"column_fine_height_m": 0.0, "mesh_coarse_size_m": 0.018}, {"column_fine_height_m": 0.3}, {"column_fine_height_m": 0.01},
+                                  {"column_wall_m": 0.05, "mesh_coarse_size_m": 0.018}], ids=["tube", "all coarse", "all fine", "one fine layer", "solid"])
+def test_a_coarse_column_has_the_weight_of_the_true_one(keys):
+    """Polygons of the true area: inscribed ones of 8 corners are a tenth too light."""
+    case = small_case(**keys)
+    found, exact = mass_properties(specimen_mesh(case).body, 7850.0), exact_column(case) + exact_cap(case)
+    assert found.mass == pytest.approx(exact.mass, rel=1e-3)
+    assert found.centre[2] == pytest.approx(exact.centre[2], rel=1e-3)
+    assert np.diag(found.inertia) == pytest.approx(np.diag(exact.inertia), rel=3e-3)
+
+
+@pytest.mark.parametrize("keys", [{}, {"inner_diameter_m": 0.06}], ids=["full", "with a hole"])
+def test_a_flange_carries_the_column_and_weighs_what_it_should(keys):
+    case = case_from_tables(TABLES | {"flange": {"outer_diameter_m": 0.16, "thickness_m": 0.012} | keys}, "flange.toml")
+    specimen = specimen_mesh(case)
+    body, exact = specimen.body, exact_flange(case) + exact_column(case) + exact_cap(case)
+    assert [(one.slave_part, one.master_part) for one in specimen.ties] == [(LOWER, FLANGE), (LOWER, UPPER), (UPPER, CAP)]
+    assert mass_properties(body, 7850.0).mass == pytest.approx(exact.mass, rel=1e-3)
+    assert body.points[:, 2].max() == pytest.approx(case.top_m, rel=1e-14)
+    assert np.hypot(*body.points[specimen.foot_nodes, :2].T).max() == pytest.approx(0.08, rel=1e-14)
+
+
+def test_a_block_has_its_own_sides_and_finer_bricks_below():
+    case = case_from_tables(BLOCK, "block.toml")
+    specimen = specimen_mesh(case)
+    assert np.ptp(specimen.body.points, axis=0) == pytest.approx([0.4, 0.2, 1.2], rel=1e-14)
+    found, exact = mass_properties(specimen.body, 7850.0), exact_column(case)
+    assert found.mass == pytest.approx(0.4 * 0.2 * 1.2 * 7850, rel=1e-12) and found.inertia == pytest.approx(exact.inertia, rel=1e-10, abs=1e-9)
+    assert len(specimen.ties) == 1
+    below, above = (len(boundary_faces(specimen.body, part, 0.1, 1e-9)) for part in (LOWER, UPPER))
+    assert below == 4 * above
 
 
 def test_tube_of_the_study_is_one_brick_thick_with_three_fine_bricks_on_a_coarse_one():
     mesh = column_mesh(read_case(Path(__file__).parents[2] / "meshes/stout.toml"))
-    foot, joint = boundary_quads(mesh, LOWER, 0, 1e-9), boundary_quads(mesh, UPPER, 0.05, 1e-9)
+    foot, joint = boundary_faces(mesh, LOWER, 0, 1e-9), boundary_faces(mesh, UPPER, 0.05, 1e-9)
     # Mean circumference 303.5 mm: 20 bricks of 15 mm, 60 of 5 mm.
     assert (len(foot), len(joint)) == (60, 20)
     assert np.sum(mesh.part == LOWER) == 60 * 10
@@ -70,7 +110,7 @@ def test_column_is_symmetric_about_both_vertical_planes():
         points = column_mesh(small_case(column_wall_m=wall, mesh_coarse_size_m=0.018)).points
         for mirrored in (points * [-1, 1, 1], points * [1, -1, 1]):
             away = cKDTree(points).query(mirrored)[0]
-            rim = np.hypot(points[:, 0], points[:, 1]) > 0.05 - 1e-9
+            rim = np.hypot(points[:, 0], points[:, 1]) > 0.045
             assert away.max() < 1e-9 and away[rim].max() < 1e-15
 
 
@@ -80,7 +120,7 @@ def test_ring_of_any_number_of_bricks_closes():
         assert len(mesh.points) == n_around * 3 * 2
         exact = n_around / 2 * np.sin(2 * np.pi / n_around) * 0.75
         for z in (0.0, 1.0):
-            quads = mesh.points[boundary_quads(mesh, UPPER, z, 1e-9)][:, :, :2]
+            quads = mesh.points[boundary_faces(mesh, UPPER, z, 1e-9)][:, :, :2]
             d = quads[:, 2:] - quads[:, :2]
             # Positive areas at top and bottom: boundary quads run counter-clockwise in plan.
             assert (d[:, 0, 0] * d[:, 1, 1] - d[:, 0, 1] * d[:, 1, 0]).sum() / 2 == pytest.approx(exact, rel=1e-12)
@@ -88,7 +128,7 @@ def test_ring_of_any_number_of_bricks_closes():
 
 def test_solid_foot_has_bricks_of_about_the_fine_size_everywhere():
     case = small_case(column_wall_m=0.05, mesh_coarse_size_m=0.018, mesh_fine_size_m=0.005)
-    quads = boundary_quads(mesh := column_mesh(case), LOWER, 0, 1e-9)
+    quads = boundary_faces(mesh := column_mesh(case), LOWER, 0, 1e-9)
     edges = np.linalg.norm(mesh.points[quads] - mesh.points[np.roll(quads, 1, axis=1)], axis=2) / 0.005
     # The O-grid's square is inscribed in the ring, so its bricks are smaller than those of the rim.
     assert edges.max() < 1.35 and edges.min() > 0.5

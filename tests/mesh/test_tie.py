@@ -25,20 +25,26 @@ def test_tied_points_follow_rigid_motion_exactly(keys):
         assert distance.max() < 1e-14
 
 
-def test_arc_points_lie_off_their_chord_before_adjustment():
+def test_the_lower_part_ends_in_the_polygon_of_the_upper_one():
     case = small_case()
     column = column_mesh(case)
-    joint = tie(column, LOWER, UPPER, 0.05, 1e-9, 0.02, "mesh")
-    off = joint.masters(column.points)[2].max()
-    # 8 upper bricks around, 32 lower ones: the farthest slave is in the middle of a chord.
-    n_upper = 8
-    assert len(joint.master_quads) == n_upper
-    assert off == pytest.approx(0.05 * (1 - np.cos(np.pi / n_upper)), rel=1e-9)
-    assert joint.masters(adjust(column, [joint]).points)[2].max() < 1e-15
+    joint = tie(column, LOWER, UPPER, 0.05, 1e-9, 1e-12, "mesh")
+    # 8 upper bricks around, 32 lower ones
+    assert len(joint.master_quads) == 8
+    assert joint.masters(column.points)[2].max() < 1e-15
+
+
+def test_points_off_the_surface_are_moved_onto_it():
+    case = small_case(cap_length_m=0.1, cap_width_m=0.1)
+    raw = merge([column_mesh(case), cap_mesh(case)])
+    joint = tie(raw, UPPER, CAP, 0.3, 1e-9, 0.01, "cap")
+    # corners of the equal-area polygon stand over the edge of a cap as wide as the column
+    assert joint.masters(raw.points)[2].max() > 1e-4
+    assert joint.masters(adjust(raw, [joint]).points)[2].max() < 1e-15
 
 
 def test_adjustment_moves_slaves_only():
-    case = small_case()
+    case = small_case(cap_length_m=0.1, cap_width_m=0.1)
     raw = merge([column_mesh(case), cap_mesh(case)])
     specimen = specimen_mesh(case)
     moved = np.flatnonzero(np.any(raw.points != specimen.body.points, axis=1))

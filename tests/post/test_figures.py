@@ -5,7 +5,7 @@ import pytest
 from synthetic_history import write_history
 
 from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import Panel, cdf_figure, overturn_text
+from fecolumn.post.cdf_figure import Panel, axis_end, cdf_figure, overturn_text
 from fecolumn.post.history_figures import History, history_figures
 from fecolumn.post.style import BLUE, PURPLE, VERMILION
 from fecolumn.schema import InputError
@@ -27,7 +27,7 @@ def _picture(file):
 
 @pytest.mark.parametrize("n, titles", [(2, ["a"]), (115, ["a", "b", "c", "d"])])
 def test_cdf_figure_shows_lines_and_bands(tmp_path, n, titles):
-    png, pdf = cdf_figure([_panel(title, n, seed) for seed, title in enumerate(titles)], 0.25, tmp_path / "cdf")
+    png, pdf = cdf_figure([_panel(title, n, seed) for seed, title in enumerate(titles)], tmp_path / "cdf")
     colours = np.unique(_picture(png)[..., :3].reshape(-1, 3).round(1), axis=0)
     assert len(colours) > 20 and pdf.read_bytes().startswith(b"%PDF")
     width, height = struct.unpack(">II", png.read_bytes()[16:24])
@@ -43,22 +43,26 @@ def _share(picture, colour, opacity=1.0) -> float:
 
 
 def test_band_is_as_large_as_the_distribution_says(tmp_path):
-    # 100 runs at 10 mm, half of them overturned: from 10 to 250 mm the band reaches 0.5 +- 0.098, a box of 96 % x 19.2 % of the axes
-    u = np.full(100, 0.01)
-    picture = _picture(cdf_figure([Panel("a", (("line", ecdf(u, np.arange(100) < 50)),))], 0.25, tmp_path / "cdf")[0])
+    # 1000 runs, half of them overturned, one of the others at 250 mm and all else at 10: from 10 to 250 mm the band reaches 0.5 +- 0.031
+    u = np.where(np.arange(1000) < 999, 0.01, 0.25)
+    picture = _picture(cdf_figure([Panel("a", (("line", ecdf(u, np.arange(1000) < 500)),))], tmp_path / "cdf")[0])
     rows, columns = np.nonzero(np.abs(picture[..., :3] - (1 - 0.2 * (1 - np.array([0, 0x72, 0xB2]) / 255))).max(axis=2) < 0.02)
     frame = np.nonzero((picture[..., :3] < 0.6).all(axis=2).sum(axis=1) > 300)[0]
-    assert np.ptp(rows) / np.ptp(frame) == pytest.approx(0.196 / 1.02, abs=0.01)
+    assert np.ptp(rows) / np.ptp(frame) == pytest.approx(0.062 / 1.02, abs=0.006)
     assert np.ptp(columns) > 0.7 * picture.shape[1]
 
 
+def test_axis_of_displacements_follows_the_data_not_a_cap():
+    assert axis_end([0.01, 0.03]) == pytest.approx(0.0324) and axis_end([]) == axis_end([0.0]) == 1.0
+
+
 def test_same_data_same_bytes(tmp_path):
-    files = [cdf_figure([_panel("a", 20, 1)], 0.25, tmp_path / name) for name in "pq"]
+    files = [cdf_figure([_panel("a", 20, 1)], tmp_path / name) for name in "pq"]
     assert all(first.read_bytes() == second.read_bytes() for first, second in zip(*files))
 
 
 def test_combination_in_which_all_overturn_is_drawn(tmp_path):
-    png, _ = cdf_figure([Panel("all", (("line", ecdf([1.0, 1.0], [True, True])),))], 0.25, tmp_path / "cdf")
+    png, _ = cdf_figure([Panel("all", (("line", ecdf([1.0, 1.0], [True, True])),))], tmp_path / "cdf")
     assert png.stat().st_size > 5000
 
 

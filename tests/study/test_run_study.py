@@ -244,6 +244,9 @@ def test_tables_count_what_failed_and_what_overturned(tmp_path):
     assert 0 < overturned < 8  # the pulses were chosen so
     assert (row["planned"], row["n"], row["overturned"]) == ("9", "8", str(overturned))
     assert float(row["p_overturn"]) == pytest.approx(overturned / 8)
+    header, *lines = [line.split(",") for line in (tmp_path / "out" / "analyses.csv").read_text().splitlines()]
+    analyses = [dict(zip(header, line)) for line in lines]
+    assert all((one["u_max_m"] == "") == (one["overturned"] != "0") for one in analyses)  # what overturned, or failed, has no peak
     assert "wall" not in ",".join(header) and "wall_s" in (tmp_path / "out" / "timing.csv").read_text()
     assert "8/9" in table_text(plan, rows)
 
@@ -274,3 +277,25 @@ def test_summaries_of_the_ledger_are_those_of_the_folders(tmp_path):
     for row in _run(write_study(tmp_path), tmp_path / "out"):
         assert row["summary"] == json.loads((tmp_path / "out" / "analyses" / row["id"] / "summary.json").read_text())
         assert row["version"] == "0" and row["wall_s"] > 0
+
+
+def test_columns_that_slide_off_are_counted_as_such_and_not_as_failures(tmp_path):
+    plan = read_plan(write_study(tmp_path, dt=[1e-3], alpha=[0], pulses=["slides 1", "slides 2", *range(6)]))
+    stream = io.StringIO()
+    rows = run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=stream)
+    assert [row["state"] for row in rows] == ["done"] * 8
+    assert "2 slid off, 0 failed" in stream.getvalue().splitlines()[-1]
+    write_tables(plan, rows, tmp_path)
+    header, line = (text.split(",") for text in (tmp_path / "table.csv").read_text().splitlines())
+    found = dict(zip(header, line))
+    fallen = sum(row["summary"]["overturned"] for row in rows)
+    assert (found["n"], found["overturned"], found["slid_off"]) == ("8", str(fallen), "2")
+    assert float(found["p_overturn"]) == pytest.approx(fallen / 8, abs=1e-6)
+    # beyond every column that stood, like one that overturned
+    standing = sorted(row["summary"]["u_max_m"] for row in rows if not row["summary"]["overturned"] and not row["summary"].get("slid_off"))
+    assert float(found["u_max_16_m"]) == pytest.approx(standing[1], rel=1e-6)
+    analyses = [dict(zip(*pair)) for text in [(tmp_path / "analyses.csv").read_text().splitlines()] for pair in [(text[0].split(","), one.split(",")) for one in text[1:]]]
+    assert [one["u_max_m"] == "" for one in analyses if one["slid_off"] == "1"] == [True, True]
+    assert "slid off" in table_text(plan, rows)
+    stored = sqlite3.connect(tmp_path / "out" / "study.sqlite").execute("SELECT count(*) FROM analysis WHERE json_extract(summary, '$.slid_off')").fetchone()
+    assert stored == (2,)

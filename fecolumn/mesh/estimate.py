@@ -1,0 +1,144 @@
+"""What a case's meshes and its analysis will take, told before anything is built."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+from fecolumn.case import Case
+from fecolumn.mesh.base_plate import base_counts
+from fecolumn.mesh.bricks import BASE, CAP, FLANGE, LOWER, PART_NAMES, UPPER
+from fecolumn.mesh.column import divisions, part_layers, section
+from fecolumn.mesh.imported import own_mesh
+from fecolumn.schema import InputError
+
+# Measured on one core of a shared two-core machine (Debian 12, MUMPS, OpenBLAS), see `tests/mesh/test_estimate.py` for the counts:
+# numbers of a Cholesky factor of n degrees of freedom, FILL n^(4/3); seconds of its making, FACTOR n^2; of a solve for each number
+# of it, SOLVE, and for one of many right-hand sides, MANY.
+FILL, FACTOR, SOLVE, MANY = 13.0, 6e-10, 1.7e-9, 0.6e-9
+# Bytes of program and libraries
+PROGRAM = 300e6
+# Size keys, and the parts that they make large
+_KEYS = {"mesh.fine_size_m": (FLANGE, LOWER, BASE), "mesh.coarse_size_m": (UPPER,), "mesh.cap_size_m": (CAP,), "mesh.base_size_m": (BASE,)}
+# A size so large that it costs nothing more [m]
+_HUGE = 1e4
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """bricks, dofs: {part: number} of elements and of degrees of freedom. foot_points: nodes of the foot. engine: of the case.
+
+    Numbers of bricks and degrees of freedom of a built column are exact; memory and times are rough.
+    """
+
+    bricks: dict[int, int]
+    dofs: dict[int, int]
+    foot_points: int
+    engine: str
+
+    @property
+    def all_bricks(self) -> int:
+        """Elements of all parts."""
+        return sum(self.bricks.values())
+
+    @property
+    def all_dofs(self) -> int:
+        """Degrees of freedom of all parts."""
+        return sum(self.dofs.values())
+
+    @property
+    def _bodies(self) -> tuple[int, int]:
+        """Degrees of freedom of the column with all that is tied to it, and of the base."""
+        base = self.dofs.get(BASE, 0)
+        return self.all_dofs - base, base
+
+    @property
+    def memory(self) -> float:
+        """Most memory [bytes] of the analysis, or of the making of its reduced model."""
+        column, base = self._bodies
+        # matrices have 81 numbers a row for bricks, twice (mass, stiffness) and a copy to factor, 12 bytes a number
+        operators = 12 * 81 * 3 * (column + base) + 8 * FILL * (column ** (4 / 3) + base ** (4 / 3))
+        columns = 3 * self.foot_points
+        wide = 5 * columns if self.engine == "full" else 4 * 120
+        return PROGRAM + operators + 8 * column * wide + 8 * 3 * columns**2
+
+    @property
+    def setup(self) -> float:
+        """Time [s] before the first step; the reduced model is made once and kept."""
+        column, base = self._bodies
+        factors = 2 if self.engine == "full" else 3
+        solves = 3 * self.foot_points * (3 if self.engine == "full" else 4)
+        return 2 + 1e-4 * (column + base) + factors * FACTOR * (column**2 + base**2) + MANY * FILL * (solves * column ** (4 / 3) + 3 * self.foot_points * base ** (4 / 3))
+
+    @property
+    def step(self) -> float:
+        """Time [s] of a step, where the column rocks."""
+        if self.engine != "full":
+            return 5e-5 + 2e-7 * self.foot_points
+        column, _ = self._bodies
+        return 5 * SOLVE * FILL * column ** (4 / 3) + 2e-7 * column
+
+    def __str__(self) -> str:
+        parts = ", ".join(f"{PART_NAMES[part]} {n:,}" for part, n in sorted(self.bricks.items()))
+        return (f"{self.all_bricks:,} elements ({parts}), {self.all_dofs:,} degrees of freedom, {self.foot_points:,} nodes in the foot; "
+                f"about {self.memory / 1e9:.1f} GB, {_span(self.setup)} to start and {1e3 * self.step:.2g} ms a step with the "
+                f"{self.engine} engine")
+
+
+def _span(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.0f} h"
+
+
+def estimate(case: Case) -> Estimate:
+    """Estimate of a case whose sizes are all known."""
+    order = case.mesh.element_order
+    bricks, nodes, foot = {}, {}, 0
+    if case.column.mesh_file:
+        own = own_mesh(case.column.mesh_file)
+        bricks[UPPER] = len(own.mesh.cells)
+        nodes[UPPER], foot = own.counts(order)
+    else:
+        for place, (part, _, _, layers) in enumerate(part_layers(case)):
+            plane = section(case, part)
+            bricks[part], nodes[part] = plane.n_cells * layers, plane.n_nodes(order) * (order * layers + 1)
+            if place == 0:
+                foot = plane.n_nodes(order)
+    for part, counts, degree in ((CAP, _cap_counts(case), order), (BASE, base_counts(case), 1)):
+        if counts:
+            bricks[part], nodes[part] = math.prod(counts), math.prod(degree * n + 1 for n in counts)
+    return Estimate(bricks, {part: 3 * n for part, n in nodes.items()}, foot, case.integration.engine)
+
+
+def _cap_counts(case: Case):
+    cap, size = case.cap, case.mesh.cap_size_m
+    return cap and tuple(divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m))
+
+
+def refuse_too_large(case: Case, file) -> None:
+    """Refuse a case of more degrees of freedom than `mesh.limit_dofs`, naming the size that makes it so and one that would fit."""
+    found, limit = estimate(case), case.mesh.limit_dofs
+    if found.all_dofs <= limit:
+        return
+    too_many = f"the meshes would have {found.all_dofs:,} degrees of freedom ({found.all_bricks:,} elements), mesh.limit_dofs allows {limit:,}"
+    dofs = {key: sum(found.dofs.get(part, 0) for part in parts) for key, parts in _KEYS.items() if not (case.column.mesh_file and UPPER in parts)}
+    if case.column.mesh_file and found.dofs[UPPER] > max(dofs.values()):
+        raise InputError(file, "column.mesh_file", case.column.mesh_file, f"{too_many}; take a coarser mesh, or a higher mesh.limit_dofs")
+    # the key whose bricks, made larger, take most away
+    key = min(dofs, key=lambda key: _with(case, key, _HUGE).all_dofs)
+    name = key.partition(".")[2]
+    low, high = getattr(case.mesh, name), _HUGE
+    if _with(case, key, high).all_dofs > limit:
+        raise InputError(file, key, low, f"{too_many}; make all sizes of [mesh] larger, or mesh.limit_dofs")
+    for _ in range(60):
+        middle = math.sqrt(low * high)
+        low, high = (low, middle) if _with(case, key, middle).all_dofs <= limit else (middle, high)
+    fits = math.ceil(high * 10 ** (2 - math.floor(math.log10(high)))) / 10 ** (2 - math.floor(math.log10(high)))
+    raise InputError(file, key, getattr(case.mesh, name), f"{too_many}; {fits:g} m would fit, or raise mesh.limit_dofs")
+
+
+def _with(case: Case, key: str, value: float) -> Estimate:
+    name = key.partition(".")[2]
+    mesh = case.mesh
+    sizes = {one: max(getattr(mesh, one), value) for one in ("coarse_size_m", "base_size_m")} if name == "fine_size_m" else {}
+    return estimate(dataclasses.replace(case, mesh=dataclasses.replace(mesh, **sizes | {name: value})))
