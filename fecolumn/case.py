@@ -332,7 +332,7 @@ def check(case: Case, file) -> None:
         for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic")):
             if (value := getattr(getattr(case, section), key)) != needed:
                 refuse(f"{section}.{key}", value, f"must be {needed} where integration.engine = {case.integration.engine!r}")
-    time = case.integration.duration_s or (case.motion.delay_s + case.motion.free_vibration_s if case.motion else 0.0)
+    time = case.integration.duration_s or (case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0)
     if time / case.integration.dt_s > MOST_STEPS:
         refuse("integration.dt_s", case.integration.dt_s, f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} steps in {time:g} s")
     if case.motion:

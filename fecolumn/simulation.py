@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.atomic import write_json
-from fecolumn.case import GRAVITY, REST, Case, check, check_duration, read_case
+from fecolumn.case import GRAVITY, REST, Case, check_duration, finished, read_case
 from fecolumn.ending import AT_REST, EDGE, OVERTURNED, REST_SHARE, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.result_folder import held
@@ -51,7 +51,7 @@ def run(case: Case | str | Path, folder, *, comm=None, file: str = "", quiet: bo
     if not isinstance(case, Case):
         raise TypeError(f"run takes a Case or the path of a case file, not {type(case).__name__}; see fecolumn.read_case")
     folder, file = Path(folder), file or "case"
-    check(case, file)
+    case = finished(case, file)
     with held(folder, case, comm, file) as claim:
         summary, damage = comm.bcast(_earlier_summary(folder, case.id) if comm.rank == 0 else None)
         if summary:

@@ -78,7 +78,7 @@ def uniform_step(time: np.ndarray, lines: list[int], dt_s: float) -> float:
     steps = np.diff(time)
     dt = (time[-1] - time[0]) / len(steps)
     if np.spacing(latest) > _RESOLVED * dt > 0:
-        raise UnusableRecord(f"times around {latest:g} s do not tell steps of {dt:g} s apart: subtract the first one")
+        raise UnusableRecord(f"times around {latest:g} s do not tell steps of {dt:.3g} s apart: subtract the first one")
     rounded = dt_s > 0 and abs(dt - dt_s) * len(steps) < 0.5 * dt_s
     worst = int(np.argmin(steps))
     if steps[worst] < 0 or (steps[worst] == 0 and not rounded):

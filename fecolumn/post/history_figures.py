@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from fecolumn.dynamics.history import read_history
+from fecolumn.files import Unreadable, read_json
 from fecolumn.post.energy_figure import energy_figure
 from fecolumn.post.path_figure import path_figure
 from fecolumn.post.specimen_outline import Outline, specimen_outline
@@ -75,13 +75,13 @@ def read_ending(folder: Path) -> Ending:
         InputError: no summary that can be read.
     """
     try:
-        summary = json.loads((folder / "summary.json").read_text())
+        summary = read_json(folder / "summary.json")
         overturned = bool(summary["overturned"])
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (Unreadable, KeyError, TypeError) as error:
         raise InputError(folder / "summary.json", "", None, f"cannot be read ({error})") from None
     try:
-        outline = specimen_outline(json.loads((folder / "case.json").read_text())["case"])
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        outline = specimen_outline(read_json(folder / "case.json")["case"])
+    except (Unreadable, KeyError, TypeError, ValueError, AttributeError):
         outline = None
     words = summary.get("outcome") or ("overturned" if overturned else "end")
     return Ending(words, overturned or words == "slid off", summary.get("u_critical_m"), outline)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import datetime
 import importlib.metadata
-import json
 import platform
 import re
 from pathlib import Path
 
 
+from fecolumn.files import Unreadable, read_json
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.notation import axis_name, level_text, number
 from fecolumn.report.sweep import Sweep
@@ -43,8 +43,8 @@ def provenance(sweep: Sweep) -> Section:
 
 def _identity(folder: Path) -> str:
     try:
-        return str(json.loads((folder / "study.json").read_text()).get("study", "not recorded"))
-    except (OSError, ValueError):
+        return str(read_json(folder / "study.json").get("study", "not recorded"))
+    except (Unreadable, AttributeError):
         return "not recorded"
 
 
