@@ -109,8 +109,9 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
     foot, areas = foot_of(case, specimen, column)
     own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, areas)
     damping = ModalDamping(column, case.integration.n_modes, ratio) if (ratio := case.material.damping_ratio) else None
+    pad = pad_of(case, areas, column.total_mass)
     base = base_of(case, column.all_X[foot]) or BasePlate(base_body(case, specimen, comm))
     return System(column, kinematics, base, foot, areas, case.contact.friction_coefficient,
                   own, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
-                  filtered=case.contact.impact == "plastic", rim=Rim.find(column.all_X[foot]), damping=damping,
-                  restitution=case.contact.restitution, rolling=case.contact.rolling_resistance, pad=pad_of(case, areas, column.total_mass))
+                  filtered=case.contact.impact == "plastic", rim=None if pad else Rim.find(column.all_X[foot]), damping=damping,
+                  restitution=case.contact.restitution, rolling=case.contact.rolling_resistance, pad=pad)
