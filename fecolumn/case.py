@@ -353,6 +353,9 @@ def check_base(case: Case, refuse) -> None:
         refuse("base.stiffness_n_m3", base.stiffness_n_m3, "must be greater than 0 N/m3 where base.kind = 'pad'")
     if case.contact.impact != "plastic":
         refuse("contact.impact", case.contact.impact, "must be plastic where base.kind = 'pad', whose springs take the place of impacts")
+    for key in ("restitution", "rolling_resistance"):
+        if value := getattr(case.contact, key):
+            refuse(f"contact.{key}", value, "must be 0 where base.kind = 'pad'; base.damping_ratio takes energy there")
 
 
 def check_duration(case: Case, file) -> None:

@@ -31,15 +31,15 @@ CHUNK = 500
 def engine_of(case, model, base, upright: bool = False) -> Engine:
     """The reduced engine of a case at its start, or in gravity equilibrium."""
     own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas) + model.relief
-    plan = case.integration
+    plan, pad = case.integration, pad_of(case, model.areas, model.mass)
 
     def begin(engine):
         return start.standing(engine) if upright else start.begin(engine, case.initial)
 
     eye = view(model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m)
     return Engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), [0.0, 0.0, -GRAVITY], case.contact.friction_coefficient, own,
-                  Rim.find(model.reference), begin, plan.max_cuts, case.material.damping_ratio, case.contact.restitution,
-                  case.contact.rolling_resistance, pad_of(case, model.areas, model.mass))
+                  None if pad else Rim.find(model.reference), begin, plan.max_cuts, case.material.damping_ratio, case.contact.restitution,
+                  case.contact.rolling_resistance, pad)
 
 
 def standing_energy(case, model, base) -> float:
