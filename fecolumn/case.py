@@ -17,6 +17,7 @@ from fecolumn.schema import InputError, Section, build, parameter, read_toml
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
+MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +98,7 @@ class Contact(Section):
     law: str = parameter("augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty"))
     friction_coefficient: float = parameter(0.3, doc="Coulomb friction coefficient", low=0, high=10)
     penalty_factor: float = parameter(100.0, doc="penalty stiffness per area as a multiple of E / fine_size_m", above=0, high=1e9)
+    interior_points: int = parameter(36, doc="contact points inside the outlines of the foot, evenly spread; all nodes on the outlines are points", low=0, high=10**6, since="0.2")
     impact: str = parameter("plastic", doc="treatment of closing contacts; none is the literal HHT scheme", choices=("plastic", "none"))
     restitution: float = parameter(0.0, doc="velocity after over before an impact; 0 is the plastic impact", low=0, high=1, since="0.2")
     rolling_resistance: float = parameter(0.0, doc="energy that a rolling rim loses per length rolled, over the contact force", low=0, high=0.1, since="0.2")
@@ -127,7 +129,7 @@ class Motion(Section):
     units: str = parameter("", doc="unit of the file's accelerations; needed where the format does not state it", choices=("", "g", "m/s2", "cm/s2", "mm/s2"))
     dt_s: float = parameter(0.0, doc="sampling step, for files that do not state it", unit="s", low=0, high=10)
     scale: float = parameter(1.0, doc="factor on the accelerations", low=-1e3, high=1e3)
-    time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", above=0, high=1e3)
+    time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", low=1e-3, high=1e3)
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
     delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1.0")
@@ -330,6 +332,9 @@ def check(case: Case, file) -> None:
         for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic")):
             if (value := getattr(getattr(case, section), key)) != needed:
                 refuse(f"{section}.{key}", value, f"must be {needed} where integration.engine = {case.integration.engine!r}")
+    time = case.integration.duration_s or (case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0)
+    if time / case.integration.dt_s > MOST_STEPS:
+        refuse("integration.dt_s", case.integration.dt_s, f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} steps in {time:g} s")
     if case.motion:
         part = case.motion.strong_part
         if len(part) != 2 or not part[0] < part[1]:
@@ -348,6 +353,9 @@ def check_base(case: Case, refuse) -> None:
         refuse("base.stiffness_n_m3", base.stiffness_n_m3, "must be greater than 0 N/m3 where base.kind = 'pad'")
     if case.contact.impact != "plastic":
         refuse("contact.impact", case.contact.impact, "must be plastic where base.kind = 'pad', whose springs take the place of impacts")
+    for key in ("restitution", "rolling_resistance"):
+        if value := getattr(case.contact, key):
+            refuse(f"contact.{key}", value, "must be 0 where base.kind = 'pad'; base.damping_ratio takes energy there")
 
 
 def check_duration(case: Case, file) -> None:

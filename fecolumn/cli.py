@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import errno
+import contextlib
 import os
 import sys
 import traceback
@@ -18,8 +18,12 @@ def main(argv=None) -> int:
 
         return doctor.main(arguments[1:])
     args = _parser().parse_args(arguments)
+    from fecolumn.atomic import disk_full
     from fecolumn.schema import InputError
 
+    for stream in (sys.stdout, sys.stderr):  # a terminal that cannot write a folder's name must not end what is at work there
+        with contextlib.suppress(AttributeError):
+            stream.reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
     try:
         code = args.command(args)
@@ -33,22 +37,25 @@ def main(argv=None) -> int:
     except KeyboardInterrupt:
         return _refuse("stopped; the same command goes on from the last checkpoint", 130)
     except Exception as error:
-        full = isinstance(error, OSError) and error.errno == errno.ENOSPC
-        if full:
+        code = 1
+        if disk_full(error):
             print("fecolumn: the disk is full; free room and run the same command again", file=sys.stderr)
+        elif isinstance(error, OSError) and error.filename is not None and error.strerror:  # of a file or folder the user named
+            code = 2
+            print(f"fecolumn: {error.filename}: cannot be read or written ({error.strerror})", file=sys.stderr)
         else:
             traceback.print_exc()
-        _abandon_other_ranks()
-        return 1
+        _abandon_other_ranks(code)
+        return code
 
 
-def _abandon_other_ranks() -> None:
+def _abandon_other_ranks(code: int) -> None:
     """End the other ranks of this command too: they would wait for this one for ever."""
     from mpi4py import MPI
 
     if MPI.COMM_WORLD.size > 1:
         sys.stderr.flush()
-        MPI.COMM_WORLD.Abort(1)
+        MPI.COMM_WORLD.Abort(code)
 
 
 def _show_warning(message, category, *_) -> None:
@@ -120,9 +127,12 @@ def _completion(args) -> int:
 
 def _mesh(args) -> int:
     from fecolumn.case import read_case
+    from fecolumn.folder import written
     from fecolumn.mesh.report import mesh_report
 
-    print(mesh_report(read_case(args.case), args.output, lambda text: print(text, file=sys.stderr, flush=True)))
+    case = read_case(args.case)
+    with written(args.output, "mesh", names=("specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt")) as draft:
+        print(mesh_report(case, draft, lambda text: print(text, file=sys.stderr, flush=True)))
     return 0
 
 

@@ -20,6 +20,7 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import math
+import pickle
 import re
 import typing
 from dataclasses import dataclass
@@ -105,7 +106,7 @@ def _lists(table, name: str, path: Path) -> dict[str, tuple]:
 def _refuse_twice(factor: Factor, path: Path) -> None:
     seen = set()
     for level in factor.levels:
-        text = repr([float(value) if isinstance(value, int) and not isinstance(value, bool) else value for value in level])
+        text = tuple(value if isinstance(value, (int, float)) and not isinstance(value, bool) else pickle.dumps(value) for value in level)
         if text in seen:
             raise InputError(path, f"{factor.table}.{factor.keys[0]}", level[0], "stands twice in the list")
         seen.add(text)
@@ -145,7 +146,7 @@ def _latin_hypercube(table, path: Path) -> Factor:
 def _refuse_range(values, key: str, path: Path) -> None:
     numbers = values[:2] if isinstance(values, list) else []
     fits = len(numbers) == 2 and values[2:] in ([], ["log"]) and all(
-        isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value) for value in numbers)
+        isinstance(value, (int, float)) and not isinstance(value, bool) and -1e300 < value < 1e300 for value in numbers)
     if not fits or not numbers[0] < numbers[1]:
         raise InputError(path, key, values, 'must be a range [low, high] or [low, high, "log"] of two rising numbers')
     if values[2:] and numbers[0] <= 0:
@@ -154,7 +155,7 @@ def _refuse_range(values, key: str, path: Path) -> None:
 
 def _drawn(share: float, values: list, kind):
     """Value at `share` in [0, 1) of a range; of whole numbers, each of the range gets the same share."""
-    low, high = values[0], values[1] + (1 if kind is int else 0)
+    low, high = float(values[0]), float(values[1] + (1 if kind is int else 0))
     value = low * (high / low) ** share if values[2:] else low + share * (high - low)
     return math.floor(value) if kind is int else float(f"{value:.6g}")
 

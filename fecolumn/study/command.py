@@ -65,7 +65,10 @@ def _run(args, share, pool) -> tuple[int, bool]:
 
     plan = read_plan(args.study)
     if args.entry is None:  # an analysis function of the user's may read motions this package does not know
+        from fecolumn.mesh.estimate import estimate_of_all
+
         check_motions(plan)
+        print(estimate_of_all(analysis.case for analysis in plan.analyses), file=sys.stderr, flush=True)
     entry, team = args.entry or ENTRY, None
     if pool is not None:
         from mpi4py import MPI
