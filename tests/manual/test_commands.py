@@ -105,8 +105,9 @@ def run(command, small):
     program, *arguments = words(command)
     if program != "fecolumn":
         return
-    if small and "-j" in arguments:
-        arguments[arguments.index("-j") + 1] = "1"
+    for option, least in (("-j", "1"), ("-n", "2")):
+        if small and option in arguments:
+            arguments[arguments.index(option) + 1] = least
     assert main(arguments) == 0, command
     if small and arguments[0] == "new":
         for name in ("case.toml", "study.toml"):
