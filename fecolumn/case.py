@@ -16,6 +16,8 @@ from fecolumn.files import is_file
 from fecolumn.schema import InputError, Section, build, parameter, read_toml
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
+REST = "rest"  # word of motion.free_vibration_s
+MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +54,7 @@ class Cap(Section):
 
 @dataclass(frozen=True, slots=True)
 class Base(Section):
-    """Elastic base plate; its bottom is held by the shaking table."""
+    """What the column stands on: an elastic plate held at its bottom, a flat of the same layer without edges, or a pad of springs and dashpots."""
 
     length_m: float | None = parameter(None, doc="length along x; left out: the foot's and three times the larger side of the foot", unit="m", above=0, high=1000)
     width_m: float | None = parameter(None, doc="length along y; left out: the foot's and three times the larger side of the foot", unit="m", above=0, high=1000)
@@ -61,6 +63,10 @@ class Base(Section):
     youngs_modulus_pa: float = parameter(200e9, doc="Young's modulus of the base", unit="Pa", above=0, high=1e15)
     poissons_ratio: float = parameter(0.3, doc="Poisson's ratio of the base", low=0, high=0.49)
     density_kg_m3: float = parameter(7850.0, doc="density of the base", unit="kg/m3", above=0, high=1e5)
+    kind: str = parameter("plate", doc="plate: elastic plate with edges; unbounded: the same layer without edges; pad: springs and dashpots per area, without edges", choices=("plate", "unbounded", "pad"), since="0.2")
+    stiffness_n_m3: float = parameter(0.0, doc="springs across a pad per area (subgrade modulus); needed for a pad", unit="N/m3", low=0, high=1e15, since="0.2")
+    shear_stiffness_n_m3: float = parameter(0.0, doc="springs along a pad per area; 0 takes 0.8 of stiffness_n_m3", unit="N/m3", low=0, high=1e15, since="0.2")
+    damping_ratio: float = parameter(0.0, doc="of the dashpots of a pad: that of the standing column's vertical mode", low=0, high=10, since="0.2")
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +76,7 @@ class Material(Section):
     youngs_modulus_pa: float = parameter(200e9, doc="Young's modulus", unit="Pa", above=0, high=1e15)
     poissons_ratio: float = parameter(0.3, doc="Poisson's ratio", low=0, high=0.49)
     density_kg_m3: float = parameter(7850.0, doc="density", unit="kg/m3", above=0, high=1e5)
+    damping_ratio: float = parameter(0.0, doc="damping ratio of each of the n_modes lowest elastic modes; rigid motion is never damped", low=0, high=0.5, since="0.2")
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +100,8 @@ class Contact(Section):
     penalty_factor: float = parameter(100.0, doc="penalty stiffness per area as a multiple of E / fine_size_m", above=0, high=1e9)
     interior_points: int = parameter(36, doc="contact points inside the outlines of the foot, evenly spread; all nodes on the outlines are points", low=0, high=10**6, since="0.2")
     impact: str = parameter("plastic", doc="treatment of closing contacts; none is the literal HHT scheme", choices=("plastic", "none"))
+    restitution: float = parameter(0.0, doc="velocity after over before an impact; 0 is the plastic impact", low=0, high=1, since="0.2")
+    rolling_resistance: float = parameter(0.0, doc="energy that a rolling rim loses per length rolled, over the contact force", low=0, high=0.1, since="0.2")
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +113,7 @@ class Integration(Section):
     engine: str = parameter("full", doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, exact static compliance of the same mesh; rigid: reduced without modes", choices=("full", "reduced", "rigid"))
     n_modes: int = parameter(30, doc="elastic modes of the reduced engine; all others respond statically", low=0, high=1000)
     kinematics: str = parameter("corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian"))
-    duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration", unit="s", low=0, high=1e5)
+    duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration, and must not stand where there is no motion", unit="s", low=0, high=1e5)
     tolerance: float = parameter(1e-7, doc="residual force at convergence as a fraction of the largest nodal force", above=0, high=1e-2)
     max_iterations: int = parameter(20, doc="iterations of a step before it is cut", low=2, high=1000)
     max_cuts: int = parameter(4, doc="halvings of a step that does not converge before the analysis fails", low=0, high=12)
@@ -120,27 +129,40 @@ class Motion(Section):
     units: str = parameter("", doc="unit of the file's accelerations; needed where the format does not state it", choices=("", "g", "m/s2", "cm/s2", "mm/s2"))
     dt_s: float = parameter(0.0, doc="sampling step, for files that do not state it", unit="s", low=0, high=10)
     scale: float = parameter(1.0, doc="factor on the accelerations", low=-1e3, high=1e3)
-    time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", above=0, high=1e3)
+    time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", low=1e-3, high=1e3)
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
-    delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1")
-    vertical: bool = parameter(False, doc="apply the vertical component where the record has one")
-    free_vibration_s: float = parameter(1.0, doc="time analysed after the motion's end", unit="s", low=0, high=1e4)
+    delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1.0")
+    vertical: bool = parameter(False, doc="apply the vertical component too; refused where the record has none")
+    free_vibration_s: float | str = parameter(1.0, doc='time analysed after the motion\'s end; "rest" goes on until the column is at rest', unit="s", low=0, high=1e4, words=(REST,))
+    rest_ceiling_s: float = parameter(60.0, doc='longest time after the motion\'s end where free_vibration_s = "rest"', unit="s", above=0, high=1e5, since="0.2.0")
+
+    @property
+    def longest_free_vibration_s(self) -> float:
+        """Time after the motion's end that is analysed at most."""
+        return self.rest_ceiling_s if self.free_vibration_s == REST else self.free_vibration_s
 
 
 @dataclass(frozen=True, slots=True)
 class Initial(Section):
     """State at t = 0."""
 
-    tilt_rad: float = parameter(0.0, doc="rigid tilt about the rim, released at rest; 0 starts from gravity equilibrium", unit="rad", low=0, high=1.5)
+    tilt_rad: float = parameter(0.0, doc="rigid tilt about the rim, unstrained; 0 starts from gravity equilibrium", unit="rad", low=0, high=1.5)
     direction_deg: float = parameter(0.0, doc="direction towards which the top leans, from x to y", unit="deg", low=-360, high=360)
+    velocity_m_s: tuple[float, ...] = parameter((0.0, 0.0, 0.0), doc="velocity [x, y, z] of the whole column relative to the base, that of its foot where it spins", unit="m/s", low=-100, high=100, since="0.2")
+    spin_rad_s: tuple[float, ...] = parameter((0.0, 0.0, 0.0), doc="angular velocity [x, y, z], right-handed: y > 0 tips the top towards +x; about the point of the rim on which the column stands or over which it tips", unit="rad/s", low=-1000, high=1000, since="0.2")
+
+    @property
+    def moves(self) -> bool:
+        """Whether the column moves at t = 0."""
+        return any(self.velocity_m_s) or any(self.spin_rad_s)
 
 
 @dataclass(frozen=True, slots=True)
 class Overturn(Section):
-    """When the analysis stops because the column falls."""
+    """When the analysis stops because the column falls: at its point of no return (`dynamics.overturning`), or earlier at a cap."""
 
-    displacement_m: float = parameter(0.25, doc="top displacement at which the column counts as overturned", unit="m", above=0, high=1e3)
+    displacement_m: float = parameter(0.0, doc="top displacement at which the column counts as overturned even short of its point of no return; 0 for none", unit="m", low=0, high=1e3)
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,6 +223,8 @@ class Case(Section):
 
 # what tells one case from another: all but title and output
 SECTIONS = tuple(field.name for field in dataclasses.fields(Case) if field.name not in ("title", "output"))
+# keys of [base] that a pad alone has
+PAD_KEYS = "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"
 _YOUNGER = {field.name for field in dataclasses.fields(Case) if field.metadata.get("since")}
 # keys that may name files
 FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
@@ -294,13 +318,47 @@ def check(case: Case, file) -> None:
     def refuse(key, value, allowed):
         raise InputError(file, key, value, allowed)
 
+    check_base(case, refuse)
+    for key in ("velocity_m_s", "spin_rad_s"):
+        if len(value := getattr(case.initial, key)) != 3:
+            refuse(f"initial.{key}", list(value), "must be three numbers: x, y, z")
+    if case.contact.impact == "none":
+        for key in ("restitution", "rolling_resistance"):
+            if value := getattr(case.contact, key):
+                refuse(f"contact.{key}", value, "must be 0 where contact.impact = 'none'")
+    if case.material.damping_ratio and case.integration.engine == "full" and case.integration.kinematics != "corotated":
+        refuse("material.damping_ratio", case.material.damping_ratio, "must be 0 where integration.kinematics is not 'corotated'")
     if case.integration.engine != "full":
         for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic")):
             if (value := getattr(getattr(case, section), key)) != needed:
                 refuse(f"{section}.{key}", value, f"must be {needed} where integration.engine = {case.integration.engine!r}")
+    time = case.integration.duration_s or (case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0)
+    if time / case.integration.dt_s > MOST_STEPS:
+        refuse("integration.dt_s", case.integration.dt_s, f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} steps in {time:g} s")
     if case.motion:
         part = case.motion.strong_part
         if len(part) != 2 or not part[0] < part[1]:
             refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
-    elif case.integration.duration_s == 0:
-        refuse("integration.duration_s", 0, "must be greater than 0 s where the case has no motion")
+
+
+def check_base(case: Case, refuse) -> None:
+    """Keys of a pad, where there is one and where there is none."""
+    base = case.base
+    if base.kind != "pad":
+        for key in PAD_KEYS:
+            if value := getattr(base, key):
+                refuse(f"base.{key}", value, f"is of a pad; base.kind = {base.kind!r} has none")
+        return
+    if not base.stiffness_n_m3:
+        refuse("base.stiffness_n_m3", base.stiffness_n_m3, "must be greater than 0 N/m3 where base.kind = 'pad'")
+    if case.contact.impact != "plastic":
+        refuse("contact.impact", case.contact.impact, "must be plastic where base.kind = 'pad', whose springs take the place of impacts")
+    for key in ("restitution", "rolling_resistance"):
+        if value := getattr(case.contact, key):
+            refuse(f"contact.{key}", value, "must be 0 where base.kind = 'pad'; base.damping_ratio takes energy there")
+
+
+def check_duration(case: Case, file) -> None:
+    """Refuse to analyse a case that does not say for how long; its mesh may still be looked at."""
+    if case.motion is None and case.integration.duration_s == 0:
+        raise InputError(file, "integration.duration_s", 0, "must be greater than 0 s where the case has no motion")

@@ -10,8 +10,9 @@ class Progress:
     """Writes t, step, tilt, contact nodes, iterations and the time left to stderr: in place on a terminal, every
     ten seconds in a log."""
 
-    def __init__(self, steps: int, dt: float, quiet: bool = False):
-        self.steps, self.dt, self.quiet = steps, dt, quiet
+    def __init__(self, steps: int, dt: float, quiet: bool = False, until_rest_from: int | None = None):
+        """`steps` to be made; from step `until_rest_from` on, where it is given, these are the most that are, and rest may come before."""
+        self.steps, self.dt, self.quiet, self._known = steps, dt, quiet, steps if until_rest_from is None else until_rest_from
         self._terminal = sys.stderr.isatty()
         self._began = self._shown = time.perf_counter()
         self._first: int | None = None
@@ -24,10 +25,11 @@ class Progress:
             self._first, self._iterations, self._counted = step - 1, record.iterations, step
         if self.quiet or now - self._shown < (0.3 if self._terminal else 10.0):
             return
-        left = (now - self._began) / (step - self._first) * (self.steps - step)
+        left = _clock((now - self._began) / (step - self._first) * (self._known - step)) if step < self._known else "until at rest"
+        end = f"{self._known * self.dt:.2f} s" if step < self._known or self._known == self.steps else f"at most {self.steps * self.dt:.2f} s"
         mean = (record.iterations - self._iterations) / max(step - self._counted, 1)
-        line = (f"t {measures['time']:8.4f} of {self.steps * self.dt:.2f} s  step {step}  tilt {measures['tilt']:.5f} rad  "
-                f"contact {measures['active_nodes']:3d} nodes  iterations {mean:.1f}/step  left {_clock(left)}")
+        line = (f"t {measures['time']:8.4f} of {end}  step {step}  tilt {measures['tilt']:.5f} rad  "
+                f"contact {measures['active_nodes']:3d} nodes  iterations {mean:.1f}/step  left {left}")
         print(("\r" + line + "\x1b[K") if self._terminal else line, end="" if self._terminal else "\n", file=sys.stderr, flush=True)
         self._shown, self._iterations, self._counted = now, record.iterations, step
 

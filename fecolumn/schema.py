@@ -20,6 +20,7 @@ from fecolumn.files import Unreadable, read_bytes
 _DEEPEST = 20
 _LONGEST_CHAIN = 50
 _LONGEST_FILE = 20_000_000  # [bytes]
+_LONGEST_WORDS = 800  # of a message, in one of its parts
 _LONGEST_TEXT = 4096  # a path's most on Linux
 
 
@@ -31,10 +32,10 @@ class InputError(ValueError):
     """
 
     def __init__(self, file, key: str, value, allowed: str):
-        self.file, self.key, self.value, self.allowed = _in_text(str(file)), key, value, allowed
+        self.file, self.key, self.value, self.allowed = _in_text(str(file)), key, value, _in_text(allowed)
         told = f" = {shown(value)}" if value is not None else ""
         self.all = (self,)
-        super().__init__(f"{self.file}: {_in_text(key)}{told}: {allowed}" if key else f"{self.file}: {allowed}")
+        super().__init__(f"{self.file}: {_in_text(key)}{told}: {self.allowed}" if key else f"{self.file}: {self.allowed}")
 
     @classmethod
     def of_several(cls, errors: list[InputError]) -> InputError:
@@ -71,11 +72,11 @@ shown = _Shown().repr
 def _in_text(words: str) -> str:
     """Words without line breaks and other control characters, so that a message stays one line; shortened where very long."""
     words = re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", lambda found: repr(found[0])[1:-1], words)
-    return words if len(words) <= 600 else f"{words[:280]}...{words[-280:]}"
+    return words if len(words) <= _LONGEST_WORDS else f"{words[:_LONGEST_WORDS // 2]} ... {words[-_LONGEST_WORDS // 2:]}"
 
 
 def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=None, high=None,
-              above=None, choices=None, since: str = "", counts: bool = True):
+              above=None, choices=None, words=(), since: str = "", counts: bool = True):
     """Dataclass field of a case section.
 
     Args:
@@ -85,10 +86,12 @@ def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=Non
         low, high: closed bounds of a number.
         above: open lower bound of a number.
         choices: the words a text key may take.
-        since: version that brought a key younger than the first results; at its default it leaves `Case.id` as it was.
+        words: words that a number's key takes in place of a number.
+        since: version that brought a key younger than its section; at its default it is no part of `Case.id`, so that older results
+            keep their names.
         counts: whether the key makes another analysis; False for what only guards or tells.
     """
-    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices, since=since, counts=counts)
+    metadata = dict(doc=doc, unit=unit, low=low, high=high, above=above, choices=choices, words=words, since=since, counts=counts)
     if isinstance(default, (list, dict)):
         raise TypeError("defaults must be immutable")
     return dataclasses.field(default=default, metadata=metadata)
@@ -96,6 +99,10 @@ def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=Non
 
 def allowed_range(metadata) -> str:
     """The allowed values of a parameter in words, with the unit."""
+    return " or ".join([_number_range(metadata), *(f'"{word}"' for word in metadata["words"])])
+
+
+def _number_range(metadata) -> str:
     unit = "" if metadata["unit"] == "-" else f" [{metadata['unit']}]"
     if metadata["choices"]:
         return "one of " + ", ".join(metadata["choices"])
@@ -115,7 +122,7 @@ def _typed(kind, value):
         try:
             return float(value)
         except OverflowError:
-            return math.copysign(math.inf, value)
+            return math.inf if value > 0 else -math.inf
     if kind is int and isinstance(value, numbers.Integral) and not isinstance(value, bool):
         return int(value)
     if kind in (str, bool) and isinstance(value, kind):
@@ -136,12 +143,15 @@ def _checked(kind, metadata, value, file, key):
         InputError: wrong type, or out of range.
     """
     if isinstance(kind, types.UnionType):
-        if value is None:
+        if value is None and types.NoneType in typing.get_args(kind):
             return None
         kind = next(k for k in typing.get_args(kind) if k is not types.NoneType)
+    if isinstance(value, str) and value in metadata["words"]:
+        return value
     typed = _typed(kind, value)
     if typed is None:
         word = _WORDS.get(kind) or "a list of " + {str: "texts", float: "numbers"}[typing.get_args(kind)[0]]
+        word = " or ".join([word, *(f'"{text}"' for text in metadata["words"])])
         raise InputError(file, key, value, f"must be {word}; {metadata['doc']}")
     for item in typed if isinstance(typed, tuple) else (typed,):
         bad = False

@@ -191,7 +191,7 @@ def check_sizes(case: Case, file) -> None:
             if cap and getattr(cap, key) < side * (1 - 1e-9):
                 named = key if column.shape == "block" else "outer_diameter_m"
                 refuse(f"cap.{key}", getattr(cap, key), f"must be at least column.{named} = {side:g} m")
-    for key, side in zip(("length_m", "width_m"), foot_sides(case)):
+    for key, side in zip(("length_m", "width_m"), foot_sides(case)) if base.kind == "plate" else ():
         least = side + 2 * base.slide_allowance_m
         if getattr(base, key) < least * (1 - 1e-9):
             refuse(f"base.{key}", getattr(base, key), f"must be at least the foot and twice slide_allowance_m, {least:g} m")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.base_top import BaseTop
+from fecolumn.contact.unbounded_base import shear_frequency
 from fecolumn.dynamics.effective import effective_factor, unit_loads
 
 
@@ -25,10 +26,9 @@ class BasePlate:
         thickness = np.ptp(body.all_X[:, 2])
         self.nodes = np.flatnonzero(body.all_X[:, 2] > top - 1e-9 * thickness)
         self.grid = BaseTop(body.all_X[self.nodes])
-        material = body.material
-        shear = material.youngs_modulus_pa / (2 * (1 + material.poissons_ratio))
         #: Lowest shear mode through the thickness [Hz].
-        self.frequency = np.sqrt(shear / material.density_kg_m3) / (4 * thickness)
+        self.frequency = shear_frequency(body.material, thickness)
+        self.dofs = 3 * body.n_nodes
         self._factor = effective_factor(body, 0.0, 1.0)
         self.slot = np.full(len(self.nodes), -1, np.int64)
         self.compliance = np.zeros((0, 0, 3, 3))

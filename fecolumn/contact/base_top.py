@@ -6,7 +6,7 @@ import numpy as np
 
 
 class OffBase(RuntimeError):
-    """A contact point has left the base plate."""
+    """A contact point has left the base plate: nothing is below it."""
 
 
 class BaseTop:
@@ -19,6 +19,9 @@ class BaseTop:
         points: (n, 3) [m] reference positions of the top's nodes in any order.
     """
 
+    #: Size of the squares by which the top follows the foot [m]; this one stays.
+    size = 0.0
+
     def __init__(self, points: np.ndarray):
         self.points = points
         self.x, self.y = (_lines(points[:, axis]) for axis in (0, 1))
@@ -28,8 +31,17 @@ class BaseTop:
         self.number = np.empty((len(self.x), len(self.y)), np.int64)
         self.number[_cell(self.x, points[:, 0]), _cell(self.y, points[:, 1])] = np.arange(len(points))
 
-    def project(self, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def at_edge(self, positions: np.ndarray, margin: float) -> bool:
+        """Whether any of the `positions` (n, 3) [m] is beyond the edge or nearer to it than `margin` [m]."""
+        return any((positions[:, axis].min() < lines[0] + margin or positions[:, axis].max() > lines[-1] - margin)
+                   for axis, lines in enumerate((self.x, self.y)))
+
+    def project(self, positions: np.ndarray, touching: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Top nodes (n, 4) and weights (n, 4) under `positions` (n, 3) [m].
+
+        Args:
+            touching: (n,) points that need the base below them, all of them if not given. Others may be beyond its edge: they get the
+                nodes there.
 
         Raises:
             OffBase: a position lies outside the plate.
@@ -37,7 +49,11 @@ class BaseTop:
         cells, local = [], []
         for axis, lines in enumerate((self.x, self.y)):
             coordinate = positions[:, axis]
-            if np.any((coordinate < lines[0]) | (coordinate > lines[-1])):
+            outside = (coordinate < lines[0]) | (coordinate > lines[-1])
+            if touching is not None:
+                coordinate, outside = np.clip(coordinate, lines[0], lines[-1]), outside & touching
+            if outside.any():
+                coordinate = positions[:, axis]
                 worst = coordinate[np.argmax(np.abs(coordinate - (lines[0] + lines[-1]) / 2))]
                 raise OffBase(f"a contact point left the base plate: {'xy'[axis]} = {worst:.4g} m, the plate ends at {lines[0]:.4g} and {lines[-1]:.4g} m")
             cell = np.clip(np.searchsorted(lines, coordinate, side="right") - 1, 0, len(lines) - 2)

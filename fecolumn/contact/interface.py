@@ -8,6 +8,7 @@ import numpy as np
 
 from fecolumn.contact.delassus import below, turned
 from fecolumn.contact.friction import ContactSolution, solve_contact
+from fecolumn.contact.pad import Pad, dashpot_work, indent
 from fecolumn.contact.rim import Rim, RimPoints
 
 # Points nearer than this, over the foot's width, join the contact problem before they touch
@@ -30,6 +31,27 @@ class Footing:
     weights: np.ndarray
 
 
+@dataclass(slots=True)
+class Spring:
+    """Compliance `own` (n, 3) [m/N] of contact law and pad at the points in a step, and how far the pad is moved before, `offset` (n, 3) [m].
+
+    give, kept: of the pad, see `contact.pad.Pad`; before: (n, 3) its indentation at the start.
+    """
+
+    own: np.ndarray
+    offset: np.ndarray
+    give: np.ndarray
+    kept: float
+    before: np.ndarray
+
+    def indented(self, forces: np.ndarray) -> np.ndarray:
+        """Indentation (n, 3) [m] of the pad at the end of the step under forces (n, 3)."""
+        after = np.zeros_like(self.before)
+        if self.before.any() or self.give.any():
+            indent(self.give, self.kept, forces, self.before, after)
+        return after
+
+
 class Interface:
     """Contact points of the column's foot on the deformed top of the base, in the table frame.
 
@@ -42,9 +64,13 @@ class Interface:
         friction: Coulomb coefficient.
         own: (n, 3) compliance of the contact law [m/N].
         rim: the foot's round rim, None to take it as the polygon of its nodes.
+        restitution: see `contact.restitution`.
+        pad: Pad below its points, None for a base without.
     """
 
-    def __init__(self, foot, reference, base, friction: float, own: np.ndarray, rim: Rim | None = None):
+    def __init__(self, foot, reference, base, friction: float, own: np.ndarray, rim: Rim | None = None,
+                 restitution: float = 0.0, pad: Pad | None = None):
+        self.restitution, self.pad = restitution, pad
         self.foot, self.reference, self.base, self.friction, self.own, self.rim = foot, reference, base, friction, own, rim
         self.size = len(reference)
         self._turned: RimPoints | None = None
@@ -54,6 +80,13 @@ class Interface:
             self._rim_number[rim.nodes] = np.arange(len(rim.nodes))
         #: Width of the foot [m], to which tolerances are related.
         self.width = float(np.ptp(reference[:, 0]))
+
+    def spring(self, dt: float, before: np.ndarray) -> Spring:
+        """What the points give alone in a step dt [s] that finds the pad indented by `before` (n, 3) [m]."""
+        if self.pad is None:
+            return Spring(self.own, np.zeros_like(self.own), np.zeros_like(self.own), 0.0, before)
+        give, kept = self.pad.give(dt)
+        return Spring(self.own + give, kept * before, give, kept, before)
 
     def place(self, points: RimPoints | None, lift=0.0) -> None:
         """Put the rim's points where `points` has them, `lift` (n_rim,) [m] above the rim there; None: on its nodes."""
@@ -124,16 +157,20 @@ class Interface:
         """Accelerations (n_owned, 3) of contact forces, or velocity jumps of contact impulses (n, 3)."""
         return self.foot.acceleration(self.at_nodes(forces) @ rotation) @ rotation.T
 
-    def project(self, positions: np.ndarray) -> Footing:
-        """Base nodes under positions (n, 3); raises OffBase outside the plate."""
-        return Footing(*self.base.grid.project(positions))
+    def project(self, positions: np.ndarray, forces: np.ndarray | None = None) -> Footing:
+        """Base nodes under positions (n, 3); raises OffBase where a point that touches is outside the plate.
 
-    def static_compliance(self, active: np.ndarray, rotation: np.ndarray, footing: Footing) -> np.ndarray:
-        """Compliance (3 k, 3 k) of the active points that follows the forces at once: foot's rest, base, contact law."""
+        Points touch that are low or bear one of the forces (n, 3); all of them without forces.
+        """
+        touching = None if forces is None else (positions[:, 2] < NEAR * self.width) | (forces[:, 2] > 0)
+        return Footing(*self.base.grid.project(positions, touching))
+
+    def static_compliance(self, active: np.ndarray, rotation: np.ndarray, footing: Footing, own: np.ndarray | None = None) -> np.ndarray:
+        """Compliance (3 k, 3 k) of the active points that follows the forces at once: foot's rest, base, and `own` (n, 3) of the points alone, the contact law's if not given."""
         nodes = footing.nodes[active]
         self.base.need(nodes.ravel())
         W = self.turned(self.foot.static, active, rotation) + below(self.base.compliance, self.base.slot[nodes], footing.weights[active])
-        W[np.diag_indices(len(W))] += self.own[active].ravel()
+        W[np.diag_indices(len(W))] += (self.own if own is None else own)[active].ravel()
         at, on_rim = self._rim_points(active)
         if len(at):
             rows = 3 * at[:, None] + np.arange(3)
@@ -178,17 +215,29 @@ class Interface:
             moved[loaded[at]] += np.einsum("kab,kb->ka", self._evened(on_rim, rotation, footing), forces[loaded[at]])
         return moved
 
-    def solve(self, active, compliance, moved, anchors, forces) -> tuple[np.ndarray, ContactSolution]:
+    def stored(self, forces: np.ndarray, given: np.ndarray, indented: np.ndarray) -> float:
+        """Strain energy [J] of base, foot's static rest and contact law by `static_displacement` given (n, 3), and of an indented pad."""
+        energy = np.sum(forces * (given + self.own * forces))
+        if self.pad is not None:
+            energy += np.sum(self.pad.stiffness * indented**2)
+        return float(energy) / 2
+
+    def pad_loss(self, spring: Spring, forces: np.ndarray, indented: np.ndarray) -> float:
+        """Energy [J] that the pad's dashpots take in a step."""
+        return 0.0 if self.pad is None else dashpot_work(self.pad.stiffness, spring.give, spring.kept, forces, spring.before, indented)
+
+    def solve(self, active, compliance, moved, anchors, forces, spring: Spring) -> tuple[np.ndarray, ContactSolution]:
         """New contact forces (n, 3) [N] and the solver's record.
 
         Args:
             active: (k,) points of the problem; the others carry no force.
             compliance: (3 k, 3 k) dynamic and static compliance [m/N].
-            moved: (n, 3) positions relative to the base under the present forces, without the contact law's own give [m].
+            moved: (n, 3) positions relative to the base under the present forces, without what the points give alone [m].
             anchors: (n, 2) horizontal positions at which the points stick [m].
             forces: (n, 3) present forces, the first guess [N].
+            spring: what the points give alone.
         """
-        q = moved[active] + self.own[active] * forces[active]
+        q = moved[active] + spring.own[active] * forces[active] + spring.offset[active]
         q[:, :2] -= anchors[active]
         q -= (compliance @ forces[active].ravel()).reshape(-1, 3)
         solution = solve_contact(compliance, q, self.friction, forces[active], SOLVED * self.width)

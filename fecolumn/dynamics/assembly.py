@@ -7,12 +7,16 @@ import numpy as np
 from fecolumn.case import GRAVITY, Case
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.law import interface_compliance
+from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
+from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded_base
 from fecolumn.dynamics.body import Body
 from fecolumn.dynamics.corotated import Corotated
+from fecolumn.dynamics.damping import ModalDamping
 from fecolumn.dynamics.footprint import Footprint, footprint, relief
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
+from fecolumn.mesh.base_plate import levels
 from fecolumn.mesh.bricks import boundary_faces, outline_edges
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.mesh.surface import face_basis, face_points, nodal_areas
@@ -65,6 +69,22 @@ def base_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
     return Body(comm, specimen.base, case.base, 1, held)
 
 
+def base_of(case: Case, reference: np.ndarray) -> UnboundedBase | None:
+    """The base below a foot at (n, 3) [m] where it has no edges; None for a plate. A pad's own part is rigid: its springs are the Pad.
+
+    Raises:
+        InputError: a layer too thick for its bricks.
+    """
+    if case.base.kind == "pad":
+        return rigid_base(reference)
+    if case.base.kind == "unbounded":
+        try:
+            return unbounded_base(case.mesh.fine_size_m, levels(case), case.base, reference)
+        except ValueError as error:
+            raise InputError("mesh", "base.thickness_m", case.base.thickness_m, str(error)) from None
+    return None
+
+
 def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> Footprint:
     """Contact points of the foot, in an order that does not depend on the partition."""
     mesh = specimen.body
@@ -91,8 +111,12 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
         kinematics = TotalLagrangian(column)
     else:
         kinematics = Corotated(column)
-    foot, base = foot_of(case, specimen, column), BasePlate(base_body(case, specimen, comm))
+    foot = foot_of(case, specimen, column)
+    base = base_of(case, column.all_X[foot.nodes]) or BasePlate(base_body(case, specimen, comm))
     own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas) + relief(column, base, foot)
+    damping = ModalDamping(column, case.integration.n_modes, ratio) if (ratio := case.material.damping_ratio) else None
+    pad = pad_of(case, foot.areas, column.total_mass)
     return System(column, kinematics, base, foot, case.contact.friction_coefficient,
                   own, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
-                  filtered=case.contact.impact == "plastic", rim=Rim.find(column.all_X[foot.nodes]))
+                  filtered=case.contact.impact == "plastic", rim=None if pad else Rim.find(column.all_X[foot.nodes]), damping=damping,
+                  restitution=case.contact.restitution, rolling=case.contact.rolling_resistance, pad=pad)

@@ -5,16 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 #: State terms, then accumulated terms, in the order they are written.
-TERMS = ("kinetic", "strain", "gravity", "base_work", "friction", "impact", "contact", "algorithmic", "closure")
+TERMS = ("kinetic", "strain", "gravity", "base_work", "friction", "impact", "contact", "algorithmic", "damping", "rolling",
+         "closure")
 
 
 class Ledger:
     """Energy in the table frame [J].
 
-    kinetic + strain + gravity = start + base_work + friction + impact + contact + algorithmic + closure
+    kinetic + strain + gravity = start + base_work + friction + impact + contact + algorithmic + damping + rolling + closure
 
-    base_work is the work of the base motion's inertia forces; friction, impact, contact and algorithmic are what these
-    add, so a loss is negative. Each is computed from forces and displacements of the step, independent of the state's
+    base_work is the work of the base motion's inertia forces; friction, impact, contact, algorithmic (HHT), damping (of elastic
+    modes, and the dashpots of a pad) and rolling (resistance of the rim) are what these add, so a loss is negative. Each is computed from forces and displacements of the step, independent of the state's
     energy; closure is what is left over, the error of solver and bookkeeping.
     """
 

@@ -1,4 +1,4 @@
-"""State at t = 0: gravity equilibrium of the standing column, or a rigid tilt released at rest."""
+"""State at t = 0: gravity equilibrium of the standing column, or a rigid tilt; at rest, or with a velocity and a spin."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
     forces = np.zeros((interface.size, 3))
     factors = PSEUDO_INERTIA, 1.0
     for _ in range(max_iterations):
-        stage = Stage(target=x, load=load, start=x, scale=1.0, anchors=anchors, forces=forces, rotation=np.eye(3))
+        stage = Stage(target=x, load=load, start=x, scale=1.0, anchors=anchors, forces=forces,
+                      spring=interface.spring(np.inf, np.zeros_like(forces)), rotation=np.eye(3))
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
         if outcome.stop is not Stop.CONVERGED:
             raise RuntimeError(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
@@ -45,22 +46,56 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
     return State(
         time=0.0, x=x, v=np.zeros_like(x), a=-push, contact_a=push, internal=outcome.internal, strain=outcome.strain,
         rotation=outcome.rotation, forces=forces, anchors=anchors, relative=outcome.relative,
-        static=outcome.static, ground=np.zeros(3))
+        static=outcome.static, ground=np.zeros(3), indent=stage.spring.indented(forces))
+
+
+def leaning(foot, round_rim: bool, tilt: float, direction: float) -> tuple[np.ndarray, np.ndarray, float]:
+    """Rotation (3, 3) of a column that leans by `tilt` [rad] towards `direction` [rad], the point (3,) [m] of the foot's circle about
+    which it is turned, and the lift [m] that then puts its lowest point on the base; foot: (n, 3) nodes."""
+    turn = rotation_matrix(tilt * np.array([-np.sin(direction), np.cos(direction), 0.0]))
+    pivot = np.array([np.cos(direction), np.sin(direction), 0.0]) * np.linalg.norm(foot[:, :2], axis=1).max()
+    # a round rim stands on the pivot itself, between nodes
+    return turn, pivot, 0.0 if round_rim else -((foot - pivot) @ turn.T + pivot)[:, 2].min()
+
+
+def spun(foot, round_rim: bool, tilt: float, direction: float, spin) -> tuple[np.ndarray, np.ndarray]:
+    """Points (3,) [m] about which a column at t = 0 turns, by the horizontal and by the vertical part of its `spin` (3,) [rad/s].
+
+    Both are the point of the foot (nodes (n, 3) [m]) on which a tilted column stands, so that it neither slips nor strikes. An upright one tips over
+    the point of its foot towards which the spin leans it, and spins about its axis.
+    """
+    upright = tilt == 0
+    if upright:
+        direction = np.arctan2(-spin[0], spin[1])
+    turn, pivot, lift = leaning(foot, round_rim, tilt, direction)
+    ahead = foot[:, :2] @ pivot[:2]
+    # a foot with corners stands on one, or on the edge between two
+    edge = foot[ahead > ahead.max() - 1e-9 * pivot[:2] @ pivot[:2]].mean(axis=0)
+    toe = pivot if round_rim else (edge - pivot) @ turn.T + pivot + [0.0, 0.0, lift]
+    return toe, np.zeros(3) if upright else toe
+
+
+def begin(system, initial) -> State:
+    """The state that the [initial] section of a case describes."""
+    tilt, direction, spin = initial.tilt_rad, np.radians(initial.direction_deg), np.array(initial.spin_rad_s)
+    state = tilted(system, tilt, direction) if tilt else standing(system)
+    if initial.moves:
+        tip, axis = spun(system.interface.reference, system.interface.rim is not None, tilt, direction, spin)
+        level = spin * [1.0, 1.0, 0.0]
+        state.v = initial.velocity_m_s + np.cross(level, state.x - tip) + np.cross(spin - level, state.x - axis)
+    return state
 
 
 def tilted(system, tilt: float, direction: float) -> State:
     """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest point on the base."""
     column, interface = system.column, system.interface
     interface.place(None)
-    turn = rotation_matrix(tilt * np.array([-np.sin(direction), np.cos(direction), 0.0]))
-    foot = interface.reference
-    pivot = np.array([np.cos(direction), np.sin(direction), 0.0]) * np.linalg.norm(foot[:, :2], axis=1).max()
-    # a round rim stands on the pivot itself, between nodes
-    lift = 0.0 if interface.rim else -((foot - pivot) @ turn.T + pivot)[:, 2].min()
+    turn, pivot, lift = leaning(interface.reference, interface.rim is not None, tilt, direction)
     x = (column.X - pivot) @ turn.T + pivot + [0.0, 0.0, lift]
     rotation, internal, strain = system.kinematics.internal(x)
     relative = interface.dynamic_position(x, rotation)
     fall = np.tile(system.gravity, (len(x), 1))
     return State(
         time=0.0, x=x, v=np.zeros_like(x), a=fall, contact_a=np.zeros_like(x), internal=internal, strain=strain, rotation=rotation,
-        forces=np.zeros((interface.size, 3)), anchors=relative[:, :2].copy(), relative=relative, static=0.0, ground=np.zeros(3))
+        forces=np.zeros((interface.size, 3)), anchors=relative[:, :2].copy(), relative=relative, static=0.0, ground=np.zeros(3),
+        indent=np.zeros((interface.size, 3)))

@@ -43,6 +43,11 @@ class HHT:
         return 1 / (self.beta * self.dt**2)
 
     @property
+    def rate_factor(self) -> float:
+        """Velocity that a displacement of the end of the step brings, gamma / (beta dt) [1/s]."""
+        return self.gamma / (self.beta * self.dt)
+
+    @property
     def stiffness_factor(self) -> float:
         """Factor of the stiffness in the effective matrix, 1 + alpha."""
         return 1 + self.alpha

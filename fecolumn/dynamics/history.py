@@ -42,6 +42,10 @@ class History:
         """Columns by name, first axis time."""
         return {name: np.asarray(values) for name, values in self._columns.items()}
 
+    def last(self) -> dict:
+        """The last row by column."""
+        return {name: values[-1] for name, values in self._columns.items()}
+
     def write(self, path: Path, attributes: dict, every: int = 1) -> None:
         """Write one row in `every`, and the last; a reader sees the old file or the new one, never a part."""
         def fill(file):

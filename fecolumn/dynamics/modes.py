@@ -61,3 +61,11 @@ def free_modes(body, count: int, tolerance: float = 1e-10) -> Modes:
     solver.destroy(), stiffness.destroy(), shape.destroy()
     order = np.argsort(frequencies)
     return Modes(np.array(frequencies)[order], np.array(shapes)[order])
+
+
+def elastic_modes(body, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies (count,) [rad/s] and shapes (count, n_owned, 3) of unit modal mass of the lowest elastic modes."""
+    if not count:
+        return np.zeros(0), np.zeros((0, body.n_owned, 3))
+    modes = free_modes(body, count + 6)
+    return 2 * np.pi * modes.frequencies[6:], modes.shapes[6:]

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
+from fecolumn.dynamics.free_body import rigid_fields
+from fecolumn.dynamics.overturning import STANDS, fallen, stance
 from fecolumn.dynamics.rotation import tilt_angle, twist_angle
 from fecolumn.mesh.bricks import boundary_faces
 from fecolumn.mesh.surface import face_points, nodal_areas
-
-#: Tilt beyond the critical one, as a factor, at which a column that is still falling counts as lost.
-LOST = 1.5
 
 
 def top_of(column, specimen) -> tuple[np.ndarray, np.ndarray]:
@@ -33,14 +30,13 @@ class Observer:
     and to the unstrained upright position.
     """
 
-    def __init__(self, system, specimen, overturn_displacement: float):
-        self.system, self.limit = system, overturn_displacement
-        column = system.column
+    def __init__(self, system, specimen, cap: float):
+        self.system, column = system, system.column
         self._top, self._weights = top_of(column, specimen)
-        radius = np.linalg.norm(column.all_X[system.foot_nodes, :2] - column.center[:2], axis=1).max()
-        #: Tilt (slenderness) at which the centre of mass stands over the rim [rad].
-        self.critical_tilt = math.atan2(radius, column.center[2])
-        self.last_tilt = 0.0
+        foot = column.all_X[system.foot_nodes] - column.center
+        self.stance = stance(foot, rigid_fields(column)[2][3:, 3:], system.weight, system.interface.friction, cap)
+        #: (3,) [m] of the top's centre from the centre of mass.
+        self.top_arm = self._weights @ column.all_X[self._top] - column.center
 
     def measure(self, state) -> dict:
         """Measures of a state by the names of the history file, in SI units."""
@@ -54,9 +50,17 @@ class Observer:
             slide=foot[:2], contact_force=state.forces.sum(axis=0), active_nodes=int((state.forces[:, 2] > 0).sum()),
             penetration=max(0.0, -float(state.relative[:, 2].min())), ground=state.ground)
 
-    def overturned(self, measures: dict) -> bool:
-        """The top met the overturn displacement, or the tilt is past the point of no return and still grows."""
-        growing = measures["tilt"] > self.last_tilt
-        self.last_tilt = measures["tilt"]
-        return bool(np.hypot(*measures["u_top"][:2]) >= self.limit
-                    or (measures["tilt"] > LOST * self.critical_tilt and growing))
+    def fallen(self, state, measures: dict, steepest: float) -> int:
+        """As `overturning.fallen`; on all ranks together."""
+        top = float(np.hypot(*measures["u_top"][:2]))
+        if top < self.stance.cap and measures["tilt"] <= self.stance.critical:
+            return STANDS
+        return fallen(self.stance, state.rotation.copy(), self._spin(state), measures["contact_force"], top, float(steepest))
+
+    def _spin(self, state) -> np.ndarray:
+        """Angular velocity (3,) [rad/s] in the column's frame, of the rigid body with the angular momentum of the column."""
+        column = self.system.column
+        momentum = column.apply(column.mass, state.v)
+        center = column.sum(column.node_mass @ state.x) / column.total_mass
+        angular = column.sum(np.cross(state.x - center, momentum).sum(axis=0))
+        return np.linalg.solve(self.stance.inertia, state.rotation.T @ angular)

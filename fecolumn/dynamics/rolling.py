@@ -1,10 +1,13 @@
-"""Rolling on a round rim: where its contact points are in a step."""
+"""Rolling on a round rim: where its contact points are in a step, and what resists."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 import numpy as np
+
+from fecolumn._compiled import njit
+from fecolumn.dynamics.free_body import rigid_fields
 
 # Tilt below which the points stay where they are on the rim: circle and polygon are then nanometres apart [rad]
 FLAT = 1e-4
@@ -69,13 +72,15 @@ def rolled(system, state, dt: float, rolls: bool = True):
 
     slots, taken = rim.nodes, rim.nodes[numbers]
     forces, anchors, relative = state.forces.copy(), state.anchors.copy(), state.relative.copy()
+    indent = state.indent.copy()
     forces[slots], anchors[slots], relative[slots] = state.forces[taken], state.anchors[taken], state.relative[taken]
+    indent[slots] = state.indent[taken]
     shift = now - before[numbers]
     shift[near, 2] = (start - before[numbers])[near, 2] if leaps else 0.0
     anchors[slots] += shift[:, :2]
     relative[slots] += shift
     interface.place(new, _lifted(n, near, lift))
-    return replace(state, forces=forces, anchors=anchors, relative=relative, rim_angle=angle, rim_lift=lift)
+    return replace(state, forces=forces, anchors=anchors, relative=relative, indent=indent, rim_angle=angle, rim_lift=lift)
 
 
 def _near(points, n: int) -> np.ndarray:
@@ -88,3 +93,50 @@ def _lifted(n: int, near: np.ndarray, lift) -> np.ndarray:
     lifts = np.zeros(n)
     lifts[near] = lift
     return lifts
+
+
+@njit
+def rolling_moment(rotation, spin, load, radius, coefficient, inverse, dt):
+    """Moment (3,) [N m] in the column's frame by which a rim resists to roll: it takes coefficient * load per length rolled.
+
+    With d the way down seen from the column and s its part along the foot's plane, the lowest point runs along the rim by the angle a.w dt, w the
+    spin and a = (dz dx / s^2, dz dy / s^2, -1). The moment is -coefficient load radius sign(a.w) a: to first order a load that acts
+    coefficient radius / s ahead of the lowest point, at most the radius. It does not turn the rolling round within the step.
+
+    Args:
+        rotation: (3, 3) column to table. spin: (3,) in the column's frame [rad/s]. load: normal contact force [N]. radius: of the rim [m].
+        inverse: (3, 3) of the inertia about the centre of mass [1/(kg m2)].
+    """
+    moment, x, y, z = np.zeros(3), -rotation[2, 0], -rotation[2, 1], -rotation[2, 2]
+    sine = np.hypot(x, y)
+    if sine < FLAT or load <= 0.0:
+        return moment
+    along = np.array([z * x / sine**2, z * y / sine**2, -1.0])
+    rate = along[0] * spin[0] + along[1] * spin[1] + along[2] * spin[2]
+    yielding = 0.0
+    for a in range(3):
+        for b in range(3):
+            yielding += along[a] * inverse[a, b] * along[b]
+    size = min(min(coefficient, sine) * load * radius, abs(rate) / (yielding * dt))
+    for a in range(3):
+        moment[a] = -size * np.sign(rate) * along[a]
+    return moment
+
+
+class Resistance:
+    """Rolling resistance of the rim of a body in full order: a moment on its rigid motion, which strains nothing.
+
+    Args:
+        body: Body. rim: Rim of its foot. coefficient: energy lost per length rolled over the contact force [-].
+    """
+
+    def __init__(self, body, rim, coefficient: float):
+        self._body, self._rim, self._coefficient = body, rim, coefficient
+        fields, momentum, masses = rigid_fields(body)
+        self._turns, self._momenta, self._inverse = fields[:, 3:], momentum[:, 3:], np.linalg.inv(masses[3:, 3:])
+
+    def acceleration(self, state, dt: float) -> np.ndarray:
+        """Acceleration (n_owned, 3) [m/s2] in a step of `dt` [s] from a state."""
+        spin = self._inverse @ self._body.sum(self._momenta.T @ (state.v @ state.rotation).ravel())
+        moment = rolling_moment(state.rotation, spin, state.forces[:, 2].sum(), self._rim.radius, self._coefficient, self._inverse, dt)
+        return (self._turns @ (self._inverse @ moment)).reshape(-1, 3) @ state.rotation.T

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.contact.base_top import OffBase
-from fecolumn.contact.interface import NEAR, Footing
+from fecolumn.contact.interface import NEAR, Footing, Spring
 from fecolumn.dynamics.rotation import polar_rotation
 
 # Lengths over the foot's width: points of the foot that are not in the contact problem may not sink deeper than this,
@@ -24,20 +24,22 @@ class Stop(enum.Enum):
     ITERATIONS = "no convergence within max_iterations"
     CONTACT = "the contact problem did not converge"
     DIVERGED = "the residual grew without bound"
-    OFF_BASE = "the column left the base plate"
+    OFF_BASE = "the foot reached the edge of the base plate"
 
 
 @dataclass(slots=True)
 class Stage:
-    """What an implicit stage asks for: m M (x - target) + s f(x) = load + scale U r.
+    """What an implicit stage asks for: m M (x - target) + s [f(x) + C (velocity + rate (x - target))] = load + scale U r.
 
     target: (n_owned, 3) where the column would go without internal forces at the end [m].
     load: (n_owned, 3) effective forces known beforehand [N].
     start: (n_owned, 3) first guess of the positions [m].
     scale: effective force per contact force.
     anchors: (n, 2) stick positions [m]. forces: (n, 3) first guess of the contact forces [N].
+    spring: what the contact points give alone.
     rotation: (3, 3) of the column at the start. Contact forces act on the column in the rotation halfway, so that their
         work over a turn of the column by t is that of the foot's path up to t^3.
+    velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target [m/s]; None where nothing is damped.
     """
 
     target: np.ndarray
@@ -46,13 +48,15 @@ class Stage:
     scale: float
     anchors: np.ndarray
     forces: np.ndarray
+    spring: Spring
     rotation: np.ndarray
+    velocity: np.ndarray | None = None
 
 
 @dataclass(slots=True)
 class Outcome:
     """Positions, internal forces and strain energy of the column, contact forces and kinematics, the energy `static` [J]
-    of base, foot's static rest and penalty springs, and the record."""
+    of base, foot's static rest, penalty springs and pad, and the record."""
 
     stop: Stop
     x: np.ndarray
@@ -92,9 +96,11 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         rotation, internal, strain = system.kinematics.internal(x)
         halfway = polar_rotation(rotation + stage.rotation)
         residual = operators.mass_factor * column.apply(column.mass, stage.target - x) + stage.load - operators.stiffness_factor * internal
+        if stage.velocity is not None:
+            residual -= operators.stiffness_factor * system.damping.force(stage.velocity + operators.rate_factor * (x - stage.target), rotation)
         position = interface.dynamic_position(x, rotation)
         try:
-            footing = interface.project(position)
+            footing = interface.project(position, forces)
         except OffBase as error:
             return ended(Stop.OFF_BASE, str(error))
         total = residual + scale * interface.load(forces, halfway)
@@ -104,7 +110,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         if iteration:
             given = interface.static_displacement(forces, rotation, footing)
             relative = position + given
-            static_energy = float(np.sum(forces * (given + interface.own * forces))) / 2
+            static_energy = interface.stored(forces, given, stage.spring.indented(forces))
             sunk = relative[:, 2] < -PENETRATION * interface.width
             sunk[active] = False
             if size <= max(tolerance, system.rounding(operators.mass_factor) / reference) and not sunk.any():
@@ -124,10 +130,10 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         position = interface.dynamic_position(x, rotation)
         active = np.flatnonzero((position[:, 2] < NEAR * interface.width) | (forces[:, 2] > 0) | sunk)
         dynamic = scale * interface.turned(operators.response.compliance, active, along)
-        static = interface.static_compliance(active, rotation, footing)
+        static = interface.static_compliance(active, rotation, footing, stage.spring.own)
         moved = position + interface.static_displacement(forces, rotation, footing)
         old = forces
-        forces, solution = interface.solve(active, dynamic + static, moved, stage.anchors, old)
+        forces, solution = interface.solve(active, dynamic + static, moved, stage.anchors, old, stage.spring)
         contact_iterations += solution.iterations + solution.sweeps
         if solution.residual > CONTACT_TOLERANCE * interface.width:
             return ended(Stop.CONTACT, f"contact residual {solution.residual:.2e} m")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.contact.interface import ImpactUnsolved
+from fecolumn.contact.restitution import returned_share
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.rolling import rolled
 from fecolumn.dynamics.stage import Stage, Stop, equilibrate
@@ -99,12 +100,18 @@ class Stepper:
         state, booked = rolled(system, start, hht.dt, rolls), dict(self.ledger.work)
         dt, al, be, ga = hht.dt, hht.alpha, hht.beta, hht.gamma
         F0, F1 = system.load(state.ground), system.load(ground)
+        spring = interface.spring(dt, state.indent)
+        damping, resistance = system.damping, system.resistance
+        damped = damping.force(state.v, state.rotation) if damping else 0.0
+        turned = resistance.acceleration(state, dt) if resistance else 0.0
+        resisted = column.apply(column.mass, turned) if resistance else 0.0
         stage = Stage(
             target=state.x + dt * state.v + dt**2 * (0.5 - be) * state.a,
-            load=(1 + al) * F1 - al * F0 + al * state.internal,
+            load=(1 + al) * F1 - al * F0 + al * (state.internal + damped) + resisted / (2 * be),
             start=system.kinematics.predicted(state.x, dt * state.v + dt**2 / 2 * (state.a + state.contact_a)),
-            scale=1 / (2 * be) if self.plastic else 1.0, anchors=state.anchors, forces=state.forces, rotation=state.rotation)
-        operators = system.operators(hht.mass_factor, hht.stiffness_factor)
+            scale=1 / (2 * be) if self.plastic else 1.0, anchors=state.anchors, forces=state.forces, spring=spring, rotation=state.rotation,
+            velocity=state.v + dt * (1 - ga) * state.a if damping else None)
+        operators = system.operators(hht.mass_factor, hht.stiffness_factor, hht.rate_factor)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
         self.record.iterations += outcome.iterations
         self.record.contact_iterations += outcome.contact_iterations
@@ -115,31 +122,37 @@ class Stepper:
         R, forces = outcome.halfway, outcome.forces
         after = State(
             time=state.time + dt, x=outcome.x, v=state.v, a=state.a, contact_a=state.contact_a, internal=outcome.internal,
-            strain=outcome.strain, rotation=outcome.rotation, forces=forces, anchors=self._anchors(state, outcome),
-            relative=outcome.relative, static=outcome.static, ground=np.array(ground, float), rim_angle=state.rim_angle,
-            rim_lift=state.rim_lift)
+            strain=outcome.strain, rotation=outcome.rotation, forces=forces, anchors=self._anchors(state, outcome, spring),
+            relative=outcome.relative, static=outcome.static, ground=np.array(ground, float), indent=spring.indented(forces),
+            rim_angle=state.rim_angle, rim_lift=state.rim_lift)
         push = interface.load(forces, R)
         if self.plastic:
-            w = interface.acceleration(forces, R)
-            worked = push
+            w = interface.acceleration(forces, R) + turned
+            worked = push + resisted
         else:
             w = np.zeros_like(state.x)
             worked = (1 - ga) * interface.load(state.forces, R) + ga * push
         after.contact_a = w
         after.a = hht.mass_factor * (after.x - stage.target) - w / (2 * be)
         after.v = state.v + dt * ((1 - ga) * state.a + ga * after.a + w)
-        contact_work = self._book(state, after, hht, F0 + F1, worked)
+        if damping:
+            # of the velocity without what of the contact's impulse has not moved the column yet; the same at alpha = 0
+            damped = damped + damping.force(after.v - dt * al**2 / (4 * be) * w, after.rotation)
+        contact_work = self._book(state, after, hht, F0 + F1, worked, damped, resisted, spring)
         if self.plastic and rolls and state is not start and contact_work > CREATED * system.weight * interface.width:
             # several points of the rim carry while it rolls fast: they stay for this step
             self.ledger.work.update(booked)
             return self._hht_step(start, ground, hht, rolls=False)
+        if interface.pad is not None:
+            # its springs bring a landing foot to rest in their own time: there is no impact
+            return after
         landing = (state.forces[:, 2] <= 0) & (state.relative[:, 2] > OPEN * interface.width) & (forces[:, 2] > 0)
         if self.plastic:
             turning = self._turning(state, after, dt)
             # few points of many turn where a standing foot slips in part: that is elastic, not motion
             if landing.any() or 2 * forces[turning, 2].sum() > forces[:, 2].sum() > 0:
                 try:
-                    self._impact(state, after, dt, outcome.footing, landing, turning, contact_work)
+                    self._impact(state, after, hht, outcome.footing, landing, turning, contact_work)
                 except ImpactUnsolved as error:
                     raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: {error}") from None
         return after
@@ -162,16 +175,20 @@ class Stepper:
         moves = dt * np.linalg.norm(start, axis=1) > SLIDE * self.system.interface.width
         return touching & moves & (slid & ~slips | against & (state.forces[:, 2] > 0))
 
-    def _anchors(self, state, outcome) -> np.ndarray:
-        """Where the points stick from now on: a slipping penalty spring keeps its elastic part."""
-        elastic = self.system.interface.own[:, :2] * outcome.forces[:, :2]
+    def _anchors(self, state, outcome, spring) -> np.ndarray:
+        """Where the points stick from now on: a slipping spring of penalty or pad keeps its elastic part."""
+        elastic = spring.own[:, :2] * outcome.forces[:, :2] + spring.offset[:, :2]
         here = outcome.relative[:, :2] + elastic
         moved = (np.linalg.norm(here - state.anchors, axis=1) > STUCK * self.system.interface.width) | (outcome.forces[:, 2] <= 0)
         return np.where(moved[:, None], here, state.anchors)
 
-    def _book(self, state, after, hht, load_sum, worked) -> float:
+    def _book(self, state, after, hht, load_sum, worked, damped, resisted, spring) -> float:
         """Energy of an HHT step; returns the work of contact [J]. From the identity
-        dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean = (1-ga) a0 + ga a1."""
+        dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean = (1-ga) a0 + ga a1.
+
+        damped: sum of the damping forces at both ends, resisted: rolling resistance, part of `worked`, each (n_owned, 3) [N] or 0;
+        spring: of the step.
+        """
         column, step = self.system.column, after.x - state.x
         mean = column.apply(column.mass, (1 - hht.gamma) * state.a + hht.gamma * after.a)
         total = mean + worked if self.plastic else mean
@@ -179,24 +196,27 @@ class Stepper:
         algorithmic = column.dot(step, smooth - (load_sum - state.internal - after.internal) / 2)
         algorithmic -= hht.dt**2 * hht.alpha**2 / 4 * column.dot(after.a - state.a, total)
         carried = column.sum(np.einsum("cna,na->c", column.unit_loads, step))
-        contact = column.dot(step, worked) + after.static - state.static
+        damping = -column.dot(step, damped) / 2 if self.system.damping else 0.0
+        rolling = column.dot(step, resisted) if self.system.resistance else 0.0
+        contact = column.dot(step, worked) - rolling + after.static - state.static
+        dashpots = self.system.interface.pad_loss(spring, after.forces, after.indent)
         touching = after.forces[:, 2] > 0
         slip = np.where(touching[:, None], after.anchors - state.anchors, 0.0)
         friction = float(np.sum(after.forces[:, :2] * slip))
-        landing = touching & (state.forces[:, 2] <= 0)
+        landing = touching & (state.forces[:, 2] <= 0) & (self.system.interface.pad is None)
         landed = float(after.forces[landing, 2] @ (after.relative - state.relative)[landing, 2])
-        self.ledger.add(base_work=-np.dot((state.ground + after.ground) / 2, carried), algorithmic=algorithmic,
-                        friction=friction, impact=landed, contact=contact - friction - landed)
+        self.ledger.add(base_work=-np.dot((state.ground + after.ground) / 2, carried), algorithmic=algorithmic - damping,
+                        friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots, rolling=rolling)
         return contact
 
-    def _impact(self, state, after, dt, footing, landing, turning, contact_work) -> None:
+    def _impact(self, state, after, hht, footing, landing, turning, contact_work) -> None:
         """Replace the impulses of the step by those of a plastic impact; changes the velocities of `after`.
 
         The points of the foot that held the column before carry it until the moment of impact, all together from then on:
         two projections, without which the weight's impulse of the whole step would act at the new contact. Where a long step
         would gain energy by them, because its positions know the new contact only, a single projection is made, or none.
         """
-        interface, column, R = self.system.interface, self.system.column, after.rotation
+        interface, column, R, dt = self.system.interface, self.system.column, after.rotation, hht.dt
         before = np.flatnonzero(state.forces[:, 2] > 0)
         union = np.flatnonzero((after.forces[:, 2] > 0) | (state.forces[:, 2] > 0))
         held = np.searchsorted(union, before)
@@ -225,9 +245,19 @@ class Stepper:
                 break
         if taken > 0 and not lands:
             return
+        if lands and interface.restitution and taken < 0:
+            velocity = start + share * (end - start)
+            velocity[union] += (mobility @ carried[union].ravel()).reshape(-1, 3)
+            blow, third = interface.impact(union, compliance, velocity, impulses)
+            self.record.contact_iterations += third.iterations + third.sweeps
+            returned = interface.acceleration(blow, R)
+            arrived = np.sum(blow * interface.dynamic_velocity(after.v + jump, R))
+            jump += returned_share(interface.restitution, taken, arrived, np.sum(blow * interface.dynamic_velocity(returned, R))) * returned
         gained = column.dot(after.v + jump / 2, column.apply(column.mass, jump))
         self.ledger.add(**{"impact" if lands else "friction": gained})
         after.v = after.v + jump
+        if self.system.damping:
+            after.a = after.a - hht.stiffness_factor * self.system.damping.acceleration(jump, R)
         self.record.impacts += lands
 
     @staticmethod

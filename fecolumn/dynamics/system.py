@@ -8,8 +8,10 @@ import numpy as np
 
 from fecolumn.contact.foot import FilteredFoot, PlainFoot, Response
 from fecolumn.contact.interface import Interface
+from fecolumn.dynamics.damping import DampedFactor
 from fecolumn.dynamics.effective import Factor, effective_factor
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.rolling import Resistance
 
 
 @dataclass(slots=True)
@@ -22,8 +24,8 @@ class State:
     internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (3, 3) mean rotation.
     forces: (n, 3) contact forces on the foot [N]; anchors: (n, 2) where its points stick [m];
     relative: (n, 3) position of its points relative to the base, the third column the gap [m];
-    static: strain energy of base, foot's static rest and penalty springs [J].
-    ground: (3,) acceleration of the base [m/s2].
+    static: strain energy of base, foot's static rest, penalty springs and pad [J].
+    ground: (3,) acceleration of the base [m/s2]. indent: (n, 3) indentation of the pad at the points [m]; see `contact.pad`.
     rim_angle: where the round rim's lowest contact point is [rad], nan while the foot touches with its nodes only; rim_lift: (5,)
         how far it and its neighbours are above the rim there [m].
     """
@@ -41,6 +43,7 @@ class State:
     relative: np.ndarray
     static: float
     ground: np.ndarray
+    indent: np.ndarray
     rim_angle: float = np.nan
     rim_lift: np.ndarray = field(default_factory=lambda: np.zeros(5))
 
@@ -55,7 +58,8 @@ class Operators:
 
     mass_factor: float
     stiffness_factor: float
-    factor: Factor
+    rate_factor: float
+    factor: Factor | DampedFactor
     response: Response
     rotation: np.ndarray
 
@@ -68,16 +72,17 @@ class System:
         kinematics: Corotated or TotalLagrangian of the column.
         base: BasePlate.
         foot: Footprint, the column nodes that may touch.
-        friction, own: of the Interface.
+        friction, own, pad: of the Interface.
         gravity: (3,) [m/s2].
         hht: time integration whose step decides the filter of the contact.
         filtered: contact by FilteredFoot, as the plastic impact law needs it, or PlainFoot.
-        rim: of the Interface.
+        rim, restitution: of the Interface.
+        damping: ModalDamping of the column, or None. rolling: coefficient of the rim's `rolling.Resistance` [-].
     """
 
     def __init__(self, column, kinematics, base, foot, friction, own, gravity, hht: HHT, filtered=True,
-                 rim=None):
-        self.column, self.kinematics, self.base = column, kinematics, base
+                 rim=None, damping=None, restitution: float = 0.0, rolling: float = 0.0, pad=None):
+        self.column, self.kinematics, self.base, self.damping = column, kinematics, base, damping
         self.footprint, self.foot_nodes, self.areas = foot, foot.nodes, foot.areas
         self.gravity, self.hht = np.asarray(gravity, float), hht
         self.weight = column.total_mass * np.linalg.norm(self.gravity)
@@ -86,35 +91,38 @@ class System:
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)
         response = FilteredFoot(column, foot.nodes, factor, hht.mass_factor, hht.stiffness_factor) if filtered \
             else PlainFoot(column, foot.nodes)
-        self.interface = Interface(response, column.all_X[foot.nodes], base, friction, own, rim)
-        self._add(hht.mass_factor, hht.stiffness_factor, factor, np.eye(3))
+        self.interface = Interface(response, column.all_X[foot.nodes], base, friction, own, rim, restitution, pad)
+        self._add(hht.mass_factor, hht.stiffness_factor, hht.rate_factor, factor, np.eye(3))
+        self.rolling, self.resistance = rolling, Resistance(column, rim, rolling) if rim and rolling else None
 
     def _factor(self, mass_factor, stiffness_factor, tangent=None) -> Factor:
         self.factorizations += 1
         return effective_factor(self.column, mass_factor, stiffness_factor, tangent)
 
-    def _add(self, mass_factor, stiffness_factor, factor, rotation) -> Operators:
-        operators = Operators(mass_factor, stiffness_factor, factor, Response(self.interface.foot, factor), rotation)
-        self._operators[mass_factor, stiffness_factor] = operators
+    def _add(self, mass_factor, stiffness_factor, rate_factor, factor, rotation) -> Operators:
+        if self.damping and rate_factor:
+            factor = self.damping.damped(factor, mass_factor, stiffness_factor, rate_factor)
+        operators = Operators(mass_factor, stiffness_factor, rate_factor, factor, Response(self.interface.foot, factor), rotation)
+        self._operators[mass_factor, stiffness_factor, rate_factor] = operators
         return operators
 
-    def operators(self, mass_factor: float, stiffness_factor: float) -> Operators:
-        """Operators of mass_factor M + stiffness_factor K, built once."""
-        known = self._operators.get((mass_factor, stiffness_factor))
-        return known or self._add(mass_factor, stiffness_factor, self._factor(mass_factor, stiffness_factor), np.eye(3))
+    def operators(self, mass_factor: float, stiffness_factor: float, rate_factor: float = 0.0) -> Operators:
+        """Operators of mass_factor M + stiffness_factor (K + rate_factor C), C the damping, built once."""
+        factors = mass_factor, stiffness_factor, rate_factor
+        return self._operators.get(factors) or self._add(*factors, self._factor(mass_factor, stiffness_factor), np.eye(3))
 
     def refresh(self, old: Operators, x: np.ndarray) -> Operators:
         """Operators with the column's tangent at positions x; only where the kinematics has one."""
         tangent = self.kinematics.tangent(x)
-        factors = old.mass_factor, old.stiffness_factor
+        factors = old.mass_factor, old.stiffness_factor, old.rate_factor
         self.forget(*factors)
-        fresh = self._add(*factors, self._factor(*factors, tangent), self.kinematics.rotation(x))
+        fresh = self._add(*factors, self._factor(*factors[:2], tangent), self.kinematics.rotation(x))
         tangent.destroy()
         return fresh
 
-    def forget(self, mass_factor: float, stiffness_factor: float) -> None:
+    def forget(self, mass_factor: float, stiffness_factor: float, rate_factor: float = 0.0) -> None:
         """Free the operators of a stage."""
-        self._operators.pop((mass_factor, stiffness_factor)).factor.destroy()
+        self._operators.pop((mass_factor, stiffness_factor, rate_factor)).factor.destroy()
 
     def rounding(self, mass_factor: float) -> float:
         """Nodal force [N] that rounding leaves: internal and inertial forces are matrix times (position - position)."""

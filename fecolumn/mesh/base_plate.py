@@ -21,17 +21,25 @@ def base_mesh(case: Case) -> BrickMesh:
 
     Squares of `fine_size_m` cover the footprint and the slide allowance; outside and downwards the bricks grow
     geometrically to `base_size_m`. Contact finds the brick below a point from the grid lines alone, so the mesh is
-    a strict tensor-product grid (see `swept_grid` for its numbering).
+    a strict tensor-product grid (see `swept_grid` for its numbering). A base without edges has no bricks.
     """
+    if case.base.kind != "plate":
+        return BrickMesh(np.zeros((0, 3)), np.zeros((0, 8), np.int64), np.zeros(0, np.int8))
     base, fine, largest = case.base, case.mesh.fine_size_m, case.mesh.base_size_m
     x, y = (_symmetric_line(side + 2 * base.slide_allowance_m, length, fine, largest)
             for side, length in zip(foot_sides(case), (base.length_m, base.width_m)))
-    z = -_growing_line(fine, base.thickness_m, fine, largest)[::-1]
-    return swept_grid(x, y, z, BASE)
+    return swept_grid(x, y, levels(case)[::-1], BASE)
 
 
-def base_counts(case: Case) -> tuple[int, int, int]:
-    """Bricks of the base along x, y and z, told without making it."""
+def levels(case: Case) -> np.ndarray:
+    """Levels (n,) of the base's nodes from 0 at the top, falling [m]."""
+    return -_growing_line(case.mesh.fine_size_m, case.base.thickness_m, case.mesh.fine_size_m, case.mesh.base_size_m)
+
+
+def base_counts(case: Case) -> tuple[int, int, int] | None:
+    """Bricks of the base along x, y and z, told without making it; None of a base without edges."""
+    if case.base.kind != "plate":
+        return None
     base, fine, largest = case.base, case.mesh.fine_size_m, case.mesh.base_size_m
     x, y = (_symmetric_count(side + 2 * base.slide_allowance_m, length, fine, largest)
             for side, length in zip(foot_sides(case), (base.length_m, base.width_m)))

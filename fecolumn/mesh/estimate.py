@@ -50,7 +50,8 @@ class Estimate:
     @property
     def _bodies(self) -> tuple[int, int]:
         """Degrees of freedom of the column with all that is tied to it, and of the base."""
-        return self.all_dofs - self.dofs[BASE], self.dofs[BASE]
+        base = self.dofs.get(BASE, 0)
+        return self.all_dofs - base, base
 
     @property
     def memory(self) -> float:

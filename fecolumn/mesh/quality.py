@@ -141,7 +141,8 @@ def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
     parts = {name: _part(body, mask) for name, mask in kept.items() if mask.any()}
     exact = {"flange": exact_flange, "column": exact_column, "cap": exact_cap}
     rows = [Row("smallest Jacobian of the body", "m3", float(corner_jacobians(body).min()))]
-    rows += [Row(f"smallest scaled Jacobian of the {name}", "-", float(scaled_jacobian(mesh).min())) for name, mesh in (*parts.items(), ("base", base))]
+    shown = {**parts, "base": base} if len(base.cells) else parts
+    rows += [Row(f"smallest scaled Jacobian of the {name}", "-", float(scaled_jacobian(mesh).min())) for name, mesh in shown.items()]
 
     found = {name: mass_properties(mesh, density) for name, mesh in parts.items()}
     closed = {name: None if own and name == "column" else exact[name](case) for name in parts}
@@ -156,8 +157,9 @@ def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
         reach = min(foot.max(axis=0).min(), -foot.min(axis=0).max())
         rows += [Row("tilt with the centre of mass over the foot's nearest side", "rad", float(np.arctan2(reach, whole.centre[2])))]
     plate = case.base
-    rows += [Row("base: volume", "m3", mass_properties(base, plate.density_kg_m3).volume,
-                 plate.length_m * plate.width_m * plate.thickness_m)]
+    if len(base.cells):
+        rows += [Row("base: volume", "m3", mass_properties(base, plate.density_kg_m3).volume,
+                     plate.length_m * plate.width_m * plate.thickness_m)]
     return tuple(rows)
 
 

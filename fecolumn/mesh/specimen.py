@@ -22,7 +22,7 @@ class SpecimenMesh:
 
     Attributes:
         body: flange, lower column, upper column and cap in one mesh, slaves already on their master surfaces.
-        base: base plate, a tensor-product grid with its top at z = 0.
+        base: base plate, a tensor-product grid with its top at z = 0; without bricks where the base has no edges.
         ties: slaves and masters, as point numbers of the body.
         foot_nodes: (n_foot,) point numbers of the body in the plane z = 0, sorted.
     """

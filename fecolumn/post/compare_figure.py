@@ -8,14 +8,15 @@ import numpy as np
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from fecolumn.post.cdf_figure import axis_end
 from fecolumn.post.style import BLACK, BLUE, GREY, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
 from fecolumn.statistics.bands import dkw, dkw_distance
 from fecolumn.statistics.ecdf import censored, ecdf, proportion_interval
 
-_STRIP = 0.09  # beyond the overturn displacement, where overturned runs are drawn; as a share of the axis
+_STRIP = 0.09  # beyond the axes' ends, where overturned runs are drawn; as a share of the axis
 
 
-def compare_figure(a: tuple, b: tuple, labels: tuple[str, str], *, paired: bool, limit_m: float, correlation: float | None, path) -> list[Path]:
+def compare_figure(a: tuple, b: tuple, labels: tuple[str, str], *, paired: bool, correlation: float | None, path) -> list[Path]:
     """Write the figure as PNG and PDF.
 
     Left, both CDFs with the pointwise 95 % band of Greenwood of each (shaded) and the simultaneous one of b, the reference
@@ -25,17 +26,17 @@ def compare_figure(a: tuple, b: tuple, labels: tuple[str, str], *, paired: bool,
         a, b: u_max [m] and overturned, (n,) each; with the same motion at the same place where paired.
         labels: of a and b.
         paired: whether the right panel is drawn.
-        limit_m: overturn displacement, where the axes end [m].
         correlation: R, written into the right panel; None or nan writes none.
         path: file name without suffix.
     """
+    limit_mm = 1e3 * axis_end(peak for sample in (a, b) for peak in ecdf(*sample).x)
     with styled():
         figure = new_figure(PAGE_WIDTH_IN if paired else PAGE_WIDTH_IN / 2, 3.75)
         figure.get_layout_engine().set(w_pad=0.06)
         grid = figure.subplots(1, 2 if paired else 1, squeeze=False)[0]
-        _distributions(grid[0], a, b, labels, 1e3 * limit_m)
+        _distributions(grid[0], a, b, labels, limit_mm)
         if paired:
-            _pairs(grid[1], censored(*a), censored(*b), labels, 1e3 * limit_m, correlation)
+            _pairs(grid[1], censored(*a), censored(*b), labels, limit_mm, correlation)
         return save(figure, path)
 
 
@@ -76,12 +77,12 @@ def _pairs(axes, a, b, labels, limit_mm: float, correlation) -> None:
               label=f"overturns in one: {one.sum()}")
     axes.plot(x[both][:1], y[both][:1], "s", color=BLACK, markersize=4.5, zorder=3, label=f"overturns in both: {both.sum()}")
     ticks = [tick for tick in MaxNLocator(5).tick_values(0, limit_mm) if 0 <= tick < 0.97 * limit_mm]
-    names = [f"{tick:g}" for tick in ticks] + ["overturn"]
+    if not (both | one).any():  # no strip for what is not there
+        end, fallen = limit_mm, []
+    names = [f"{tick:g}" for tick in ticks] + (["over-\nturned"] if np.size(fallen) else [])
     axes.set(xlim=(0, end), ylim=(0, end), aspect="equal", xlabel=rf"$u_{{\max}}$ [mm], {labels[1]}", ylabel=rf"$u_{{\max}}$ [mm], {labels[0]}")
-    axes.set_xticks([*ticks, fallen], names)
-    axes.set_yticks([*ticks, fallen], names)
-    for label in axes.get_yticklabels()[-1:]:
-        label.set(rotation=90, verticalalignment="center")
+    axes.set_xticks([*ticks, *np.atleast_1d(fallen)], names)
+    axes.set_yticks([*ticks, *np.atleast_1d(fallen)], names)
     axes.grid(False)
     if correlation is not None and np.isfinite(correlation):
         axes.text(0.04, 0.86, f"$R$ = {correlation:.2f}".replace("-", "\N{MINUS SIGN}"), transform=axes.transAxes, verticalalignment="top")

@@ -24,7 +24,7 @@ class FieldWriter:
     Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and continued.
 
     Args:
-        column: Body. plate: BasePlate.
+        column: Body. plate: BasePlate, None for a base without bricks, which is not shown.
         foot: Footprint, the column nodes that may touch and those that they stand for.
         specimen: SpecimenMesh of both.
     """
@@ -32,10 +32,10 @@ class FieldWriter:
     def __init__(self, folder: Path, column, plate, foot, specimen):
         self.folder, self.specimen = folder, specimen
         self.column, self.plate, self.foot = column, plate, foot
-        base = plate.body
-        self._nodes = [_vertex_nodes(body) for body in (column, base)]
+        bodies = (column, plate.body) if plate else (column,)
+        self._nodes = [_vertex_nodes(body) for body in bodies]
         self._offset = len(specimen.body.points)
-        self._stress = {body: _StressField(body) for body in (column, base)}
+        self._stress = {body: _StressField(body) for body in bodies}
         self._pressure_points = self._points_of_foot()
         if column.comm.rank == 0:
             folder.mkdir(parents=True, exist_ok=True)
@@ -65,9 +65,11 @@ class FieldWriter:
             positions, forces: (n, 3) of the contact points [m, N]; at_nodes: (n, 3) these forces on the foot's nodes.
         """
         column, plate = self.column, self.plate
-        sunk = plate.displacement(*plate.grid.project(positions), -forces)
-        displacement = [gather_all(column, x - column.X), gather_all(plate.body, sunk)]
-        stress = [self._stress[column].values(local), self._stress[plate.body].values(sunk)]
+        displacement, stress = [gather_all(column, x - column.X)], [self._stress[column].values(local)]
+        if plate:
+            sunk = plate.displacement(*plate.grid.project(positions, forces[:, 2] > 0), -forces)
+            displacement.append(gather_all(plate.body, sunk))
+            stress.append(self._stress[plate.body].values(sunk))
         if column.comm.rank:
             return
         pressure = np.zeros(self._offset + len(self.specimen.base.points))

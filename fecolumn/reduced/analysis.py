@@ -11,14 +11,16 @@ from fecolumn._compiled import compiled
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
 from fecolumn.contact.law import interface_compliance
+from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.overturning import STANDS
 from fecolumn.dynamics.stepper import StepFailed
 from fecolumn.progress import Progress
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced import start
 from fecolumn.reduced.cache import load_model
-from fecolumn.reduced.observe import COLUMNS, view
+from fecolumn.reduced.observe import COLUMNS, lost, view
 from fecolumn.reduced.run import Engine, advance
 from fecolumn.simulation import CHECKPOINT, Analysis, AnalysisFailed
 
@@ -26,18 +28,26 @@ from fecolumn.simulation import CHECKPOINT, Analysis, AnalysisFailed
 CHUNK = 500
 
 
-def engine_of(case, model, base) -> Engine:
-    """The reduced engine of a case at its start."""
+def engine_of(case, model, base, upright: bool = False) -> Engine:
+    """The reduced engine of a case at its start, or in gravity equilibrium."""
     own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas) + model.relief
-    plan, initial = case.integration, case.initial
+    plan, pad = case.integration, pad_of(case, model.areas, model.mass)
 
     def begin(engine):
-        if initial.tilt_rad:
-            return start.tilted(engine, initial.tilt_rad, np.radians(initial.direction_deg))
-        return start.standing(engine)
+        return start.standing(engine) if upright else start.begin(engine, case.initial)
 
-    return Engine(model, base, view(model, case.overturn.displacement_m), HHT(plan.dt_s, plan.alpha_hht), [0.0, 0.0, -GRAVITY],
-                  case.contact.friction_coefficient, own, Rim.find(model.reference), begin, plan.max_cuts)
+    eye = view(model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m)
+    return Engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), [0.0, 0.0, -GRAVITY], case.contact.friction_coefficient, own,
+                  None if pad else Rim.find(model.reference), begin, plan.max_cuts, case.material.damping_ratio, case.contact.restitution,
+                  case.contact.rolling_resistance, pad)
+
+
+def standing_energy(case, model, base) -> float:
+    """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained column, where there is none."""
+    try:
+        return engine_of(case, model, base, upright=True).mechanical()
+    except RuntimeError:
+        return 0.0
 
 
 class ReducedAnalysis(Analysis):
@@ -46,15 +56,17 @@ class ReducedAnalysis(Analysis):
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
         self.model, self.base, self.model_folder = load_model(case, self.say)
-        self.warn_of_base(self.base.frequency, file)
+        self.warn_of_base(self.base.frequency, pad_of(case, self.model.areas, self.model.mass), file)
         if not compiled(advance):
-            self.say("compiling the reduced engine, once on this machine: a minute or two")
+            self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
         self.engine = engine_of(case, self.model, self.base)
+        self.began = time.perf_counter()  # what was made and compiled so far was so for all analyses
+        self.stance, self.top_arm = self.engine.eye.stance, self.model.top_arm
         self.fields = self._fields() if self.field_steps else None
-        if (folder / CHECKPOINT).is_file():
-            self._resume()
+        if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.scalars[motions.TIME]:.4f} s")
         else:
+            self.standing_j = standing_energy(case, self.model, self.base) if case.initial.tilt_rad else self.engine.mechanical()
             self.engine.motion.ground[:] = self.ground(0)
             self._note(self.engine.row()[None])
             if self.fields:
@@ -66,19 +78,23 @@ class ReducedAnalysis(Analysis):
         return ReducedFields(self.folder / "fields", self.case, self.model, self.model_folder)
 
     def run(self, stop) -> dict:
-        """Step to the end, to the overturning or until `stop` says so; the summary."""
+        """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
-        progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet)
-        saved, overturned = time.perf_counter(), False
+        progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet, until_rest_from=self.motion_steps if self.until_rest else None)
+        saved, over, off = time.perf_counter(), False, None
         try:
-            while self.step < self.steps and not overturned:
-                began, count = time.perf_counter(), min(CHUNK, self.steps - self.step)
+            while self.step < self.steps and not over:
+                began, made_s, count = time.perf_counter(), self.base.made_s, min(CHUNK, self.steps - self.step)
+                if self.step < self.motion_steps:
+                    count = min(count, self.motion_steps - self.step)
                 if self.fields:
                     count = min(count, self.field_steps - self.step % self.field_steps)
-                grounds = np.array([self.ground(self.step + k) for k in range(1, count + 1)])
-                rows, overturned = engine.advance(grounds)
+                steps = range(self.step + 1, self.step + count + 1)
+                rows, over = engine.advance(np.array([self.ground(k) for k in steps]), np.array([self.steepest(k) for k in steps]), self.rest_j)
                 self.step += len(rows)
-                self.stepping_s += time.perf_counter() - began
+                made_s = self.base.made_s - made_s
+                self.began += made_s
+                self.stepping_s += time.perf_counter() - began - made_s
                 self._note(rows)
                 last = rows[-1]
                 progress.show(self.step, dict(time=last[0], tilt=last[4], active_nodes=int(last[11])), engine.record)
@@ -88,16 +104,19 @@ class ReducedAnalysis(Analysis):
                 if ended or time.perf_counter() - saved > cadence.checkpoint_every_s:
                     self._save()
                     saved = time.perf_counter()
-                if ended and self.step < self.steps and not overturned:
+                if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
             self._note(engine.made)
             self.step += len(engine.made)
-            self._save()
-            raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+            off = self.slid_off(failure, self.base, engine.motion.center + self.model.arms @ engine.motion.rotation.T)
+            if off is None:
+                self._save()
+                raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
         finally:
             progress.end()
-        return self.finish(overturned, self.model.dofs + self.base.dofs, engine.record, 0)
+        fallen = lost(engine.eye, engine.motion, engine.row(), self.steepest(self.step)) if over else STANDS
+        return self.finish(off or self.ending(fallen, engine.motion.rotation), self.model.dofs + self.base.dofs, engine.record, 0)
 
     def _note(self, rows: np.ndarray) -> None:
         columns, place = {}, 0
@@ -112,18 +131,20 @@ class ReducedAnalysis(Analysis):
         arrays = {f"motion.{name}": values for name, values in engine.motion._asdict().items()}
         # with its bed, so that an analysis that was interrupted goes on to the last digit as if it had not been
         arrays |= {f"bed.{name}": values for name, values in engine.bed._asdict().items()}
-        arrays |= dict(ledger=engine.ledger, counts=engine.counts, last_tilt=engine.last_tilt)
+        arrays |= dict(ledger=engine.ledger, counts=engine.counts)
         content = io.BytesIO()
         np.savez(content, **arrays, **self.to_resume())
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
-    def _resume(self) -> None:
+    def _take(self, saved: dict) -> None:
         engine = self.engine
-        with np.load(self.folder / CHECKPOINT) as file:
-            saved = {name: file[name] for name in file.files}
-        for prefix, target in (("motion", engine.motion), ("bed", engine.bed)):
-            for name, values in target._asdict().items():
-                values[...] = saved[f"{prefix}.{name}"]
-        engine.ledger[:], engine.counts[:], engine.last_tilt[:] = saved["ledger"], saved["counts"], saved["last_tilt"]
+        targets = {f"{prefix}.{name}": values for prefix, target in (("motion", engine.motion), ("bed", engine.bed))
+                   for name, values in target._asdict().items()}
+        targets |= dict(ledger=engine.ledger, counts=engine.counts)
+        for name, values in targets.items():
+            if saved[name].shape != values.shape or not np.can_cast(saved[name].dtype, values.dtype):
+                raise ValueError(f"{name} does not fit")
         self.resumed(saved)
+        for name, values in targets.items():
+            values[...] = saved[name]

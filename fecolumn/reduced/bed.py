@@ -17,10 +17,12 @@ from fecolumn.reduced.compliance import add_below, assemble
 
 # The place of a foot: rotation [rad], and horizontal way over the foot's width, within which its bed is taken as the same
 TURN, WAY = 1e-4, 5e-5
+# On a pad, where nearly all of the compliance is that of its springs and the base the same everywhere, any way and this rotation [rad]
+SOFT_TURN = 5e-3
 
 
 class Bed(NamedTuple):
-    """Compliance W of all points and its inverse, the static part without the contact law's own, all (3 n, 3 n); rho, rho_all: (n,)
+    """Compliance W of all points and its inverse, the static part without what the points give alone, all (3 n, 3 n); rho, rho_all: (n,)
     stiffness of a point alone and with all others, for the laws [N/m]; center: (3,), rotation: (3, 3), key: (3,) in which it holds: rim angle, half of the scheme, 1 where it is made."""
 
     W: np.ndarray
@@ -46,13 +48,13 @@ def fits(bed, column, points, half, center, rotation):
     if not (bed.key[0] == angle or np.isnan(bed.key[0]) and np.isnan(angle)):
         return False
     # the foot is a column's height below the centre
-    for a in range(2):
+    for a in range(0 if column.soft else 2):
         moved = center[a] - bed.center[a] + (rotation[a, 2] - bed.rotation[a, 2]) * points.arms[0, 2]
         if abs(moved) > WAY * column.width:
             return False
     for a in range(3):
         for b in range(3):
-            if abs(rotation[a, b] - bed.rotation[a, b]) > TURN:
+            if abs(rotation[a, b] - bed.rotation[a, b]) > (SOFT_TURN if column.soft else TURN):
                 return False
     return True
 
@@ -63,15 +65,15 @@ def make(bed, column, plate, scheme, points, footing, center, rotation):
     n = len(bed.rho)
     everyone = np.arange(n)
     assemble(column, points, points.arms, everyone, rotation, 0.0, column.static, bed.static)
-    add_below(column, plate, footing, everyone, bed.static, 1.0)
+    add_below(scheme.own, plate, footing, everyone, bed.static, 1.0)
     assemble(column, points, points.arms, everyone, rotation, scheme.half, scheme.elastic, bed.W)
-    add_below(column, plate, footing, everyone, bed.W, 1.0)
+    add_below(scheme.own, plate, footing, everyone, bed.W, 1.0)
     bed.inverse[:] = np.linalg.inv(bed.W)
     for i in range(n):
         bed.rho[i] = 3 / (bed.W[3 * i, 3 * i] + bed.W[3 * i + 1, 3 * i + 1] + bed.W[3 * i + 2, 3 * i + 2])
         bed.rho_all[i] = 3 / np.abs(bed.W[3 * i:3 * i + 3]).sum()
         for a in range(3):
-            bed.static[3 * i + a, 3 * i + a] -= column.own[i, a]
+            bed.static[3 * i + a, 3 * i + a] -= scheme.own[i, a]
             for j in range(3 * n):
                 mean = (bed.inverse[3 * i + a, j] + bed.inverse[j, 3 * i + a]) / 2
                 bed.inverse[3 * i + a, j] = mean

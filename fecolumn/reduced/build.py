@@ -6,19 +6,11 @@ import numpy as np
 
 from fecolumn.dynamics.effective import blocks, unit_loads
 from fecolumn.dynamics.free_body import FreeBody
-from fecolumn.dynamics.modes import free_modes
+from fecolumn.dynamics.modes import elastic_modes
 from fecolumn.reduced.model import ColumnModel
 
 # Unit forces solved for at once: bounds the memory, 3 n_nodes x BATCH numbers a block
 BATCH = 120
-
-
-def elastic_modes(body, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies (count,) [rad/s] and shapes (count, n_owned, 3) of unit modal mass of the lowest elastic modes."""
-    if not count:
-        return np.zeros(0), np.zeros((0, body.n_owned, 3))
-    modes = free_modes(body, count + 6)
-    return 2 * np.pi * modes.frequencies[6:], modes.shapes[6:]
 
 
 def column_model(body, foot_nodes, areas, top_nodes, top_weights, n_modes: int, relief=None) -> tuple[ColumnModel, np.ndarray]:

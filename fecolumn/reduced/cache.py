@@ -15,6 +15,7 @@ import json
 import os
 import shutil
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,7 @@ import numpy as np
 from fecolumn._compiled import cache_folder
 from fecolumn.case import Case, section_table
 from fecolumn.contact.base_top import BaseTop
+from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base
 from fecolumn.lock import alone
 from fecolumn.reduced.model import ColumnModel
 
@@ -38,11 +40,12 @@ class KnownBase:
 
     How far it is known depends on where the column went, its numbers do not: each reach is found once as a whole, and kept on disk.
 
-    Attributes as of `contact.base_plate.BasePlate`: grid, slot, compliance (blocks), frequency. dofs: of its mesh.
+    Attributes as of `contact.base_plate.BasePlate`: grid, slot, compliance (blocks), frequency. dofs: of its mesh. made_s: wall time spent
+    on reaches that no analysis had needed before [s].
     """
 
     def __init__(self, folder: Path, make):
-        self._folder, self._make, self._reach = folder, make, 0
+        self._folder, self._make, self._reach, self.made_s = folder, make, 0, 0.0
         with np.load(folder / "base.npz") as file:
             self.grid, self.frequency, self.dofs = BaseTop(file["points"]), float(file["frequency"]), int(file["dofs"])
             self._foot, self._allowance = file["foot"], float(file["allowance"])
@@ -53,9 +56,11 @@ class KnownBase:
         while (self.slot[wanted] < 0).any():
             self._reach += 1
             if not self._file("known").is_file():
+                began = time.perf_counter()
                 with alone(self._folder):
                     if not self._file("known").is_file():
                         self._extend()
+                self.made_s += time.perf_counter() - began
             self._open()
 
     def _file(self, name: str) -> Path:
@@ -90,8 +95,20 @@ def _keep_base(plate, file) -> None:
 def model_key(case: Case) -> str:
     """Name of the model of a case: what of the case its mesh and operators are made from."""
     tables = {name: section_table(name, getattr(case, name)) for name in ("column", "flange", "cap", "base", "material", "mesh")}
+    # a pad's springs are no part of the model, and a flat has no edges
+    if case.base.kind == "pad":
+        tables["base"] = "pad"
+    elif case.base.kind == "unbounded":
+        for key in ("length_m", "width_m", "slide_allowance_m"):
+            del tables["base"][key]
+    tables["material"].pop("damping_ratio", None)  # no operator has it
     tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT, interior=case.contact.interior_points)
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
+
+
+def model_folder(case: Case) -> Path:
+    """Where the model of a case is kept, or will be."""
+    return cache_folder() / f"model-{model_key(case)}"
 
 
 def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBase, Path]:
@@ -100,7 +117,7 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
     Args:
         say: told when a model has to be made, which takes up to a minute.
     """
-    folder = cache_folder() / f"model-{model_key(case)}"
+    folder = model_folder(case)
     if not folder.is_dir():
         with alone(folder):  # of the workers of a study that start at once, one makes it
             if not folder.is_dir():
@@ -108,11 +125,22 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
                 _make(case, folder)
     with np.load(folder / "column.npz") as file:
         values = {name: file[name] if file[name].ndim else file[name].item() for name in file.files}
-    return ColumnModel(**values).with_modes(case.n_modes), KnownBase(folder, lambda: make_bodies(case)[1]), folder
+    model = ColumnModel(**values).with_modes(case.n_modes)
+    return model, _open_base(case, folder, model.reference), folder
+
+
+def _open_base(case: Case, folder: Path, reference):
+    """The base of a model: KnownBase or UnboundedBase."""
+    if case.base.kind == "plate":
+        return KnownBase(folder, lambda: make_bodies(case)[1])
+    if case.base.kind == "pad":
+        return rigid_base(reference)
+    with np.load(folder / "base.npz") as file:
+        return UnboundedBase(float(file["size"]), file["response"], reference, float(file["frequency"]))
 
 
 def make_bodies(case: Case):
-    """The column's Body and the BasePlate of a case, and the specimen's mesh."""
+    """The column's Body and the BasePlate of a case, None where the base has no edges; and the specimen's mesh."""
     from mpi4py import MPI
 
     from fecolumn.contact.base_plate import BasePlate
@@ -120,29 +148,35 @@ def make_bodies(case: Case):
     from fecolumn.mesh.specimen import specimen_mesh
 
     specimen = specimen_mesh(case)
-    return column_body(case, specimen, MPI.COMM_SELF), BasePlate(base_body(case, specimen, MPI.COMM_SELF)), specimen
+    plate = BasePlate(base_body(case, specimen, MPI.COMM_SELF)) if case.base.kind == "plate" else None
+    return column_body(case, specimen, MPI.COMM_SELF), plate, specimen
 
 
 def _make(case: Case, folder: Path) -> None:
-    from fecolumn.dynamics.assembly import foot_of
+    from fecolumn.dynamics.assembly import base_of, foot_of
     from fecolumn.dynamics.footprint import relief
     from fecolumn.dynamics.observer import top_of
     from fecolumn.reduced.build import column_model
 
     body, plate, specimen = make_bodies(case)
     foot = foot_of(case, specimen, body)
-    model, fields = column_model(body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES), relief(body, plate, foot))
-    allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
-    plate.need(_under(plate.grid.points, model.reference, allowance))
+    below = plate or base_of(case, body.all_X[foot.nodes])
+    model, fields = column_model(body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES), relief(body, below, foot))
+    if plate:
+        allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
+        plate.need(_under(plate.grid.points, model.reference, allowance))
+        base = dict(points=plate.grid.points, frequency=plate.frequency, dofs=plate.dofs, foot=model.reference, allowance=allowance)
+    else:
+        base = dict(size=below.grid.size, response=below.response, frequency=below.frequency)
     folder.parent.mkdir(parents=True, exist_ok=True)
     partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     partial.chmod(0o755)
     try:
-        base = dict(points=plate.grid.points, frequency=plate.frequency, dofs=3 * plate.body.n_nodes, foot=model.reference, allowance=allowance)
         for name, values in (("column", {field.name: getattr(model, field.name) for field in dataclasses.fields(model)}), ("base", base)):
             with open(partial / f"{name}.npz", "wb") as file:
                 np.savez(file, **values)
-        _keep_base(plate, lambda name: partial / f"{name}-0.npy")
+        if plate:
+            _keep_base(plate, lambda name: partial / f"{name}-0.npy")
         np.save(partial / "fields.npy", fields)
         os.replace(partial, folder)
     except OSError:

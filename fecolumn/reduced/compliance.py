@@ -93,14 +93,14 @@ def turn_block(rotation, block, half):
 
 
 @njit
-def add_below(column, plate, footing, active, W, factor):
-    """Add factor times the compliance of base, contact law and uneven rim of the active points to W (3 k, 3 k)."""
+def add_below(own, plate, footing, active, W, factor):
+    """Add factor times the compliance of base, uneven rim and `own` (n, 3) of the points alone of the active points to W (3 k, 3 k)."""
     k = len(active)
     add_interpolated(plate.compliance, footing.slots, footing.weights, active, factor, W)
     for i in range(k):
         p = active[i]
         for a in range(3):
-            W[3 * i + a, 3 * i + a] += factor * column.own[p, a]
+            W[3 * i + a, 3 * i + a] += factor * own[p, a]
             for b in range(3):
                 W[3 * i + a, 3 * i + b] += factor * footing.even[p, a, b]
         for j in range(i + 1, k):
@@ -135,7 +135,7 @@ def even(column, points, plate, footing, rotation, i):
 
 @njit
 def static_displacement(column, points, plate, footing, rotation, forces, near, given):
-    """given (n, 3): displacement of the near points (mask) relative to the base that follows the forces at once; without the law's own."""
+    """given (n, 3): displacement of the near points (mask) relative to the base that follows the forces at once; without what the points give alone."""
     n, loaded, told = len(forces), 0, 0
     given[:] = 0.0
     for i in range(n):

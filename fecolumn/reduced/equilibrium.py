@@ -7,16 +7,17 @@ import numpy as np
 from fecolumn._compiled import njit
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.interface import SOLVED
+from fecolumn.contact.pad import indent
 from fecolumn.dynamics.rolling import FLAT
 from fecolumn.dynamics.stage import CONTACT_TOLERANCE, PENETRATION
 from fecolumn.reduced import bed as beds
 from fecolumn.reduced.compliance import add_below, assemble, even, static_displacement
-from fecolumn.reduced.bed import TURN, WAY
+from fecolumn.reduced.bed import SOFT_TURN, TURN, WAY
 from fecolumn.reduced.motion import STATIC, follow, point_positions
 from fecolumn.reduced.plate import ON, UNKNOWN, project
 
-# Ways a step can end; FAR_BASE asks for more of the base's compliance, OVERTURNED ends the analysis
-OK, FAR_BASE, OFF_BASE, CONTACT, ITERATIONS, IMPACT, OVERTURNED = range(7)
+# Ways a step can end; FAR_BASE asks for more of the base's compliance, ENDED ends the analysis
+OK, FAR_BASE, OFF_BASE, CONTACT, ITERATIONS, IMPACT, ENDED = range(7)
 # Gap, over the foot's width, below which a point takes part in the contact problem: tighter than in the full-order engine, since all that
 # a point costs here grows with it, and one that is missed shows below the base and is taken in; up to CLOSE it is told its static displacement
 NEAR, CLOSE = 2e-5, 4e-5
@@ -29,17 +30,17 @@ N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_FAST, N_ASSEMBLED = range(6)
 
 
 @njit
-def law_residual(column, points, relative, forces, active, rho, slack):
+def law_residual(column, scheme, points, relative, forces, active, rho, slack):
     """Largest violation of the contact laws [m] among the active points (mask); see `friction.natural_residual`.
 
-    slack: (n, 3) gets slips and gaps [m], with the give of the contact law's own compliance.
+    slack: (n, 3) gets slips and gaps [m], with the give of contact law and pad.
     """
-    worst, mu = 0.0, column.friction
+    worst, mu, kept = 0.0, column.friction, scheme.kept
     for i in range(len(active)):
         r0, r1, r2 = forces[i, 0], forces[i, 1], forces[i, 2]
-        s0 = relative[i, 0] + column.own[i, 0] * r0 - points.anchors[i, 0]
-        s1 = relative[i, 1] + column.own[i, 1] * r1 - points.anchors[i, 1]
-        s2 = relative[i, 2] + column.own[i, 2] * r2
+        s0 = relative[i, 0] + scheme.own[i, 0] * r0 + kept * points.indent[i, 0] - points.anchors[i, 0]
+        s1 = relative[i, 1] + scheme.own[i, 1] * r1 + kept * points.indent[i, 1] - points.anchors[i, 1]
+        s2 = relative[i, 2] + scheme.own[i, 2] * r2 + kept * points.indent[i, 2]
         slack[i, 0], slack[i, 1], slack[i, 2] = s0, s1, s2
         if not active[i]:
             continue
@@ -61,6 +62,8 @@ def settled(column, points, start, free_center, advance):
         turn = max(turn, abs(advance[a]))
         if a < 2:
             way = max(way, abs(free_center[a] - start.center[a]))
+    if column.soft:
+        return turn < SOFT_TURN / 5
     flat = np.hypot(start.rotation[2, 0], start.rotation[2, 1]) < FLAT
     return flat and turn < TURN / 5 and way < WAY * column.width / 5
 
@@ -75,7 +78,7 @@ def equilibrate(column, plate, scheme, points, footing, bed, start, free_center,
     Args:
         start: Motion at the start; points bring the first guess of the forces and the anchors.
         free_center, free_modal, advance: see `motion.follow`.
-        end: gets center, rotation, modal, elastic, forces, relative, static energy.
+        end: gets center, rotation, modal, elastic, forces, relative, indent, static energy.
     Returns: a way to end.
     """
     n, mu, tight = len(points.forces), column.friction, SHARP * SOLVED * column.width
@@ -133,16 +136,19 @@ def equilibrate(column, plate, scheme, points, footing, bed, start, free_center,
                     even(column, points, plate, footing, end.rotation, i)
                     evened[i] = True
             assemble(column, points, points.arms, listed, end.rotation, scheme.half, scheme.elastic, W)
-            add_below(column, plate, footing, listed, W, 1.0)
+            add_below(scheme.own, plate, footing, listed, W, 1.0)
             record[N_ASSEMBLED] += 1
             for j in range(count):
                 rho[listed[j]] = 3 / (W[3 * j, 3 * j] + W[3 * j + 1, 3 * j + 1] + W[3 * j + 2, 3 * j + 2])
-        residual = law_residual(column, points, relative, forces, active, rho, slack)
+        residual = law_residual(column, scheme, points, relative, forces, active, rho, slack)
         if residual <= SOLVED * column.width:
             energy = 0.0
+            if column.soft:
+                indent(scheme.give, scheme.kept, forces, points.indent, end.indent)
             for i in range(n):
                 for a in range(3):
                     energy += forces[i, a] * (given[i, a] + column.own[i, a] * forces[i, a])
+                    energy += column.springs[i, a] * end.indent[i, a] ** 2
             end.scalars[STATIC] = energy / 2
             return OK
         if in_bed:

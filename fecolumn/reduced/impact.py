@@ -7,6 +7,7 @@ import numpy as np
 from fecolumn._compiled import njit
 from fecolumn.contact.friction import FEW, iterate
 from fecolumn.contact.interface import IMPACT_TOLERANCE
+from fecolumn.contact.restitution import returned_share
 from fecolumn.dynamics.stepper import SLIDE, YIELD
 from fecolumn.reduced.compliance import add_below, assemble, even
 from fecolumn.reduced.equilibrium import IMPACT, N_CONTACT, N_IMPACTS, OK
@@ -58,7 +59,7 @@ def collide(column, plate, scheme, points, footing, start, end, landing, turns, 
     for i in union:
         even(column, points, plate, footing, end.rotation, i)
     assemble(column, points, arms, union, end.rotation, 0.0, column.static, compliance)
-    add_below(column, plate, footing, union, compliance, 1.0)
+    add_below(scheme.own, plate, footing, union, compliance, 1.0)
     assemble(column, points, arms, union, end.rotation, 1.0, column.mobility, mobility)
     compliance *= YIELD * 2 / dt**2
     compliance += mobility
@@ -79,7 +80,8 @@ def collide(column, plate, scheme, points, footing, start, end, landing, turns, 
     for i in range(m):
         for j in range(m):
             inner[3 * i:3 * i + 3, 3 * j:3 * j + 3] = compliance[3 * before[i]:3 * before[i] + 3, 3 * before[j]:3 * before[j] + 3]
-    changed, jump, taken = np.zeros((k, 3)), np.zeros((k, 3)), 0.0
+    changed, jump, taken, share = np.zeros((k, 3)), np.zeros((k, 3)), 0.0, 0.0
+    carried = second = np.zeros((k, 3))
     for attempt in range(2 if lands and moment > 0 else 1):
         share = moment if attempt == 0 else 0.0
         carried = np.zeros((k, 3))
@@ -101,8 +103,16 @@ def collide(column, plate, scheme, points, footing, start, end, landing, turns, 
             break
     if taken > 0 and not lands:
         return OK
+    if lands and column.restitution > 0.0 and taken < 0.0:
+        velocity = early + share * (free - early) + (mobility @ carried.ravel()).reshape(k, 3)
+        blow, solved = _impulses(compliance, velocity, column.friction, second, record)
+        if not solved:
+            return IMPACT
+        returned = (mobility @ blow.ravel()).reshape(k, 3)
+        given_back = returned_share(column.restitution, taken, np.sum(blow * (late + jump)), np.sum(blow * returned))
+        changed = changed + given_back * blow
     before_jump = kinetic(column, end)
-    _push(column, points, arms, union, changed, end)
+    _push(column, scheme, points, arms, union, changed, end)
     ledger[HIT if lands else FRICTION] += kinetic(column, end) - before_jump
     record[N_IMPACTS] += lands
     return OK
@@ -126,7 +136,7 @@ def _impulses(mobility, velocity, mu, guess, record):
 
 
 @njit
-def _push(column, points, arms, union, impulses, motion):
+def _push(column, scheme, points, arms, union, impulses, motion):
     """Velocity jump by impulses (k, 3) at the union's points."""
     R, all_impulses, moment = motion.rotation, np.zeros_like(points.forces), np.zeros(3)
     for j in range(len(union)):
@@ -145,6 +155,8 @@ def _push(column, points, arms, union, impulses, motion):
     modal = np.empty_like(motion.modal)
     modal_forces(column, points, R, all_impulses, modal)
     motion.modal_rate[:] += modal
+    # the damping that HHT remembers is that of the new rates
+    motion.modal_acceleration[:] -= (1 + scheme.alpha) * column.damping * modal
 
 
 @njit

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fecolumn.contact.pad import Pad
 from fecolumn.contact.rim import Rim
 
 
@@ -57,7 +58,10 @@ class Column(NamedTuple):
     With F = 2 s - s^2, s = 1 / (1 + beta (1 + alpha) w^2 dt^2) of each mode (`contact.foot`): pushes: (n, 3, m) F phi, by which
     contact forces drive modes and modes move the foot; static: (3 n, 3 n) = flexibility - sum F^2 phi phi / w^2, the memoryless
     rest; mobility: (3 n, 3 n) = sum F^2 phi phi, velocity per impulse of the modes.
+    own: (n, 3) [m/N] of the contact law at each point; springs: (n, 3) [N/m] and relaxation [s] of a pad (`contact.pad`), soft: whether there is one.
     rim: (n_rim,) foot nodes on the circle, none if the foot is not round; on_rim: (n,) their numbers there, -1 off the rim.
+    damping: (m,) [1/s] damping force on a mode over its rate, 2 zeta w. restitution: see `contact.restitution`. rolling: see
+    `dynamics.rolling.rolling_moment`.
     """
 
     mass: float
@@ -70,17 +74,25 @@ class Column(NamedTuple):
     static: np.ndarray
     mobility: np.ndarray
     own: np.ndarray
+    springs: np.ndarray
+    relaxation: float
+    soft: bool
     friction: float
     width: float
     rim: np.ndarray
     on_rim: np.ndarray
     rim_first: float
     rim_sector: float
+    rim_radius: float
+    damping: np.ndarray
+    restitution: float
+    rolling: float
 
 
 class Scheme(NamedTuple):
-    """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (m,) s of each mode,
-    elastic: (3 n, 3 n) [m/N] modal and static compliance of the foot within a step."""
+    """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (m,) s of each mode, here with its damping,
+    elastic: (3 n, 3 n) [m/N] modal and static compliance of the foot within a step.
+    own: (n, 3) [m/N] of contact law and pad at each point; give, kept: of the pad, see `contact.pad.Pad`."""
 
     dt: float
     half: float
@@ -89,38 +101,49 @@ class Scheme(NamedTuple):
     gamma: float
     shrink: np.ndarray
     elastic: np.ndarray
+    own: np.ndarray
+    give: np.ndarray
+    kept: float
 
 
-def step_column(model: ColumnModel, hht, gravity, friction: float, own: np.ndarray, rim: Rim | None) -> Column:
-    """The column as steps of `hht` see it; further arguments as of `contact.interface.Interface`."""
+def step_column(model: ColumnModel, hht, gravity, friction: float, own: np.ndarray, rim: Rim | None, damping_ratio: float = 0.0,
+                restitution: float = 0.0, rolling: float = 0.0, pad: Pad | None = None) -> Column:
+    """The column as steps of `hht` see it; further arguments as of `contact.interface.Interface` and `dynamics.system.System`."""
     squares = model.frequencies**2
     shrink = 1 / (1 + squares * hht.stiffness_factor / hht.mass_factor)
     pushes = model.shapes * (2 * shrink - shrink**2)
     nodes = rim.nodes if rim else np.zeros(0, np.int64)
     on_rim = np.full(len(model.arms), -1)
     on_rim[nodes] = np.arange(len(nodes))
+    springs = pad.stiffness if pad else np.zeros_like(model.arms)
     return Column(
         mass=float(model.mass), inertia=np.ascontiguousarray(model.inertia), inverse=np.linalg.inv(model.inertia), gravity=np.array(gravity, float),
         arms=np.ascontiguousarray(model.arms), squares=squares, pushes=pushes, static=_flat(model.flexibility) - _modal(pushes, 1 / squares),
-        mobility=_modal(pushes, np.ones_like(squares)), own=np.ascontiguousarray(own, float), friction=float(friction),
+        mobility=_modal(pushes, np.ones_like(squares)), own=np.ascontiguousarray(own, float),
+        springs=np.ascontiguousarray(springs, float), relaxation=pad.relaxation if pad else 0.0, soft=pad is not None, friction=float(friction),
         width=float(np.ptp(model.arms[:, 0])), rim=nodes.astype(np.int64), on_rim=on_rim, rim_first=rim.first if rim else 0.0,
-        rim_sector=rim.sector if rim else 1.0)
+        rim_sector=rim.sector if rim else 1.0, rim_radius=rim.radius if rim else 0.0, damping=2 * damping_ratio * model.frequencies,
+        restitution=float(restitution), rolling=float(rolling) if rim else 0.0)
 
 
 def scheme(column: Column, hht) -> Scheme:
     """Coefficients of a step of `hht`; the filter of the contact stays that of the column."""
-    half = hht.dt**2 / 2
-    return _scheme(column, hht.dt, half, hht.alpha, hht.beta, hht.gamma, column.squares * hht.stiffness_factor / hht.mass_factor)
+    half, stiffness = hht.dt**2 / 2, column.squares * hht.stiffness_factor / hht.mass_factor
+    stiffness = stiffness + column.damping * hht.rate_factor * hht.stiffness_factor / hht.mass_factor
+    return _scheme(column, hht.dt, half, hht.alpha, hht.beta, hht.gamma, stiffness)
 
 
 def resting_scheme(column: Column, pseudo_inertia: float) -> Scheme:
     """Coefficients of a proximal step towards equilibrium: (pseudo_inertia M + K) x = pseudo_inertia M x0 + F + U r."""
-    return _scheme(column, 0.0, 1 / pseudo_inertia, 0.0, 0.25, 0.5, column.squares / pseudo_inertia)
+    return _scheme(column, np.inf, 1 / pseudo_inertia, 0.0, 0.25, 0.5, column.squares / pseudo_inertia)
 
 
 def _scheme(column, dt, half, alpha, beta, gamma, stiffness) -> Scheme:
     shrink = 1 / (1 + stiffness)
-    return Scheme(dt, half, alpha, beta, gamma, shrink, column.static + half * _modal(column.pushes, shrink))
+    give, kept = np.zeros_like(column.own), 0.0
+    if column.soft:
+        give, kept = Pad(column.springs, column.relaxation).give(dt)
+    return Scheme(dt, half, alpha, beta, gamma, shrink, column.static + half * _modal(column.pushes, shrink), column.own + give, give, kept)
 
 
 def _modal(shapes: np.ndarray, factors: np.ndarray) -> np.ndarray:

@@ -19,8 +19,8 @@ class Motion(NamedTuple):
     rotation: (3, 3) column to table; spin: (3,) angular velocity in the column's frame [rad/s].
     modal, modal_rate, modal_acceleration: (m,) of the modes, the last one without contact.
     elastic: (n, 3) filtered displacement of the foot's nodes in the column's frame [m].
-    forces, anchors, relative: (n, 3), (n, 2), (n, 3) as in `dynamics.system.State`. ground: (3,) acceleration of the base.
-    scalars: (8,) time [s]; strain energy of base, foot's static rest and penalty springs [J]; place of the rim's lowest contact
+    forces, anchors, relative, indent: (n, 3), (n, 2), (n, 3), (n, 3) as in `dynamics.system.State`. ground: (3,) acceleration of the base.
+    scalars: (8,) time [s]; strain energy of base, foot's static rest, penalty springs and pad [J]; place of the rim's lowest contact
     point [rad], nan while the foot touches with its nodes only; from RIM_LIFT on the lift of it and its neighbours [m].
     """
 
@@ -36,6 +36,7 @@ class Motion(NamedTuple):
     forces: np.ndarray
     anchors: np.ndarray
     relative: np.ndarray
+    indent: np.ndarray
     ground: np.ndarray
     scalars: np.ndarray
 
@@ -43,17 +44,19 @@ class Motion(NamedTuple):
 def at_rest(n: int, m: int) -> Motion:
     """A motion of n foot nodes and m modes with zeros everywhere but an upright rotation."""
     return Motion(*(np.zeros(3) for _ in range(3)), np.eye(3), np.zeros(3), *(np.zeros(m) for _ in range(3)), np.zeros((n, 3)),
-                  np.zeros((n, 3)), np.zeros((n, 2)), np.zeros((n, 3)), np.zeros(3), np.array([0.0, 0.0, np.nan, *np.zeros(5)]))
+                  np.zeros((n, 3)), np.zeros((n, 2)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(3), np.array([0.0, 0.0, np.nan, *np.zeros(5)]))
 
 
 class Sway(NamedTuple):
     """What the contact does to the column in a step, for the ledger: turn (3,) [rad] in the column's frame, moment: (3,) [N m] there,
-    conjugate to the turn; modal: (m,) forces on the modes; halfway: (3, 3) rotation in the middle of the step."""
+    conjugate to the turn; modal: (m,) forces on the modes; halfway: (3, 3) rotation in the middle of the step; resistance: (3,) part of
+    the moment by which a rim resists to roll."""
 
     turn: np.ndarray
     moment: np.ndarray
     modal: np.ndarray
     halfway: np.ndarray
+    resistance: np.ndarray
 
 
 @njit
@@ -71,6 +74,7 @@ def copy(source, target):
     target.forces[:] = source.forces
     target.anchors[:] = source.anchors
     target.relative[:] = source.relative
+    target.indent[:] = source.indent
     target.ground[:] = source.ground
     target.scalars[:] = source.scalars
 
@@ -121,14 +125,14 @@ def foot_displacement(pushes, modal, target):
 
 
 @njit
-def turning(inertia, inverse, advance, rotation, half, spread, turn, moment, halfway):
+def turning(inertia, inverse, advance, rotation, half, spread, resistance, turn, moment, halfway):
     """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its moment M, in the column's frame.
 
     Energy-momentum conserving (Simo and Wong 1991): with M = sinc(|Th|/2) sum (Rh A) x r, Th . M is the work of the forces on the path
     of rigid arms A.
 
     Args:
-        advance: (3,) dt times the spin at the start. spread: (3, 3) sum of A r^T, r in the table frame.
+        advance: (3,) dt times the spin at the start. spread: (3, 3) sum of A r^T, r in the table frame. resistance: (3,) added to M.
         turn: first guess, and the result. moment, halfway: results; the moment in the column's frame at the start.
     """
     momentum = np.empty(3)
@@ -146,7 +150,7 @@ def turning(inertia, inverse, advance, rotation, half, spread, turn, moment, hal
             m1 += halfway[2, a] * spread[a, 0] - halfway[0, a] * spread[a, 2]
             m2 += halfway[0, a] * spread[a, 1] - halfway[1, a] * spread[a, 0]
         for i in range(3):
-            moment[i] = sinc * (rotation[0, i] * m0 + rotation[1, i] * m1 + rotation[2, i] * m2)
+            moment[i] = sinc * (rotation[0, i] * m0 + rotation[1, i] * m1 + rotation[2, i] * m2) + resistance[i]
         b0, b1, b2 = momentum[0] + half * moment[0], momentum[1] + half * moment[1], momentum[2] + half * moment[2]
         # exp(-Th) b
         square = x * x + y * y + z * z
@@ -191,7 +195,8 @@ def follow(column, scheme, points, start, free_center, free_modal, advance, forc
             total[a] += forces[i, a]
     for a in range(3):
         end.center[a] = free_center[a] + scheme.half * total[a] / column.mass
-    turning(column.inertia, column.inverse, advance, start.rotation, scheme.half, spread, sway.turn, sway.moment, sway.halfway)
+    turning(column.inertia, column.inverse, advance, start.rotation, scheme.half, spread, sway.resistance, sway.turn, sway.moment,
+            sway.halfway)
     turn_by(start.rotation, sway.turn, end.rotation)
     modal_forces(column, points, sway.halfway, forces, sway.modal)
     for k in range(m):

@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.dynamics.observer import LOST
+from fecolumn.dynamics.overturning import STANDS, Stance, fallen, stance
 from fecolumn.reduced.ledger import kinetic, strain, weight_energy
 from fecolumn.reduced.motion import TIME
 
@@ -16,27 +16,27 @@ from fecolumn.reduced.motion import TIME
 COLUMNS = (("time", 1), ("u_top", 3), ("tilt", 1), ("twist", 1), ("slide", 2), ("contact_force", 3), ("active_nodes", 1), ("penetration", 1),
            ("ground", 3), ("iterations", 1), *((f"energy/{term}", 1) for term in TERMS))
 WIDTH = sum(count for _, count in COLUMNS)
+#: Place of the energy terms in a row.
+ENERGY = WIDTH - len(TERMS)
 
 
 class View(NamedTuple):
     """What is watched: center: (3,) of mass in the reference configuration; top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape
-    (3, m): means over top and foot; limit: top displacement [m] that counts as overturned; critical: tilt over the rim [rad]."""
+    (3, m): means over top and foot; stance: when it is lost."""
 
     center: np.ndarray
     top_arm: np.ndarray
     top_shape: np.ndarray
     foot_arm: np.ndarray
     foot_shape: np.ndarray
-    limit: float
-    critical: float
+    stance: Stance
 
 
-def view(model, overturn_displacement: float) -> View:
-    """The view of a ColumnModel."""
+def view(model, weight: float, friction: float, cap: float = 0.0) -> View:
+    """The view of a ColumnModel of a weight [N] on a base of a coefficient of friction; cap as of `overturning.stance`."""
     share = model.areas / model.areas.sum()
-    radius = np.linalg.norm(model.arms[:, :2], axis=1).max()
     return View(np.asarray(model.center, float), model.top_arm, np.ascontiguousarray(model.top_shape), share @ model.arms,
-                np.einsum("i,iam->am", share, model.shapes), float(overturn_displacement), float(np.arctan2(radius, model.center[2])))
+                np.einsum("i,iam->am", share, model.shapes), stance(model.arms, model.inertia, weight, friction, cap))
 
 
 @njit
@@ -52,7 +52,7 @@ def _displacement(arm, shape, center, motion, axis):
 
 @njit
 def observe(column, eye, motion, ledger, iterations, row):
-    """Fill a row (WIDTH,); returns tilt [rad] and horizontal displacement of the top [m]."""
+    """Fill a row (WIDTH,)."""
     R, forces = motion.rotation, motion.forces
     row[:] = 0.0
     row[0] = motion.scalars[TIME]
@@ -76,11 +76,14 @@ def observe(column, eye, motion, ledger, iterations, row):
         closure -= ledger[k]
         if k:
             row[19 + k] = ledger[k]
-    row[25] = closure
-    return row[4], np.hypot(row[1], row[2])
+    row[WIDTH - 1] = closure
 
 
 @njit
-def lost(eye, tilt, top, last_tilt):
-    """As Observer.overturned."""
-    return top >= eye.limit or (tilt > LOST * eye.critical and tilt > last_tilt)
+def lost(eye, motion, row, steepest):
+    """As `overturning.fallen`, of a motion and its row."""
+    top = np.hypot(row[1], row[2])
+    # what is short of both its cap and its critical tilt stands: most steps, at no cost
+    if top < eye.stance.cap and row[4] <= eye.stance.critical:
+        return STANDS
+    return fallen(eye.stance, motion.rotation, motion.spin, row[8:11], top, steepest)

@@ -14,13 +14,14 @@ ON, OFF, UNKNOWN = range(3)
 
 class Plate(NamedTuple):
     """Top of the base: grid lines x, y [m]; number: (n_x, n_y) of its nodes; slot: (n_top,) of a node in `compliance`, -1 where it is not
-    known yet; compliance: (3 k, 3 k) [m/N]."""
+    known yet; compliance: (3 k, 3 k) [m/N]. size: of the squares [m] by which an unbounded base follows the foot, 0 for a plate that stays."""
 
     x: np.ndarray
     y: np.ndarray
     number: np.ndarray
     slot: np.ndarray
     compliance: np.ndarray
+    size: float
 
 
 class Footing(NamedTuple):
@@ -35,7 +36,7 @@ def plate_of(base) -> Plate:
     """The plate of a `contact.base_plate.BasePlate` as far as it is known."""
     k = len(base.compliance)
     flat = np.ascontiguousarray(base.compliance.transpose(0, 2, 1, 3)).reshape(3 * k, 3 * k)
-    return Plate(base.grid.x, base.grid.y, base.grid.number, base.slot.copy(), flat)
+    return Plate(base.grid.x, base.grid.y, base.grid.number, base.slot.copy(), flat, base.grid.size)
 
 
 def no_footing(n: int) -> Footing:
@@ -45,11 +46,17 @@ def no_footing(n: int) -> Footing:
 @njit
 def project(plate, positions, wanted, footing):
     """Find the nodes under the wanted points (mask) at positions (n, 3): ON, OFF the plate, or UNKNOWN compliance."""
-    answer = ON
+    answer, dx, dy = ON, 0.0, 0.0
+    if plate.size > 0:
+        # as MovingTop.project
+        for i in range(len(positions)):
+            dx += positions[i, 0] / len(positions)
+            dy += positions[i, 1] / len(positions)
+        dx, dy = plate.size * np.rint(dx / plate.size), plate.size * np.rint(dy / plate.size)
     for i in range(len(wanted)):
         if not wanted[i]:
             continue
-        x, y = positions[i, 0], positions[i, 1]
+        x, y = positions[i, 0] - dx, positions[i, 1] - dy
         if not (plate.x[0] <= x <= plate.x[-1] and plate.y[0] <= y <= plate.y[-1]):
             return OFF
         a = min(np.searchsorted(plate.x, x, side="right") - 1, len(plate.x) - 2)

@@ -16,7 +16,7 @@ class Points(NamedTuple):
     """Contact points of a step in their slots, and what they bring from the step before.
 
     carriers, weights: (n, 4) foot nodes that carry each point, the first `count` (n,) of them; arms: (n, 3) of the points;
-    lift: (n,) height given to points of the rim; forces, anchors, relative: those of the start, rolled along.
+    lift: (n,) height given to points of the rim; forces, anchors, relative, indent: those of the start, rolled along.
     angle: (1,) place of the rim's lowest contact point; rim_lift: (5,) of it and its neighbours.
     """
 
@@ -28,6 +28,7 @@ class Points(NamedTuple):
     forces: np.ndarray
     anchors: np.ndarray
     relative: np.ndarray
+    indent: np.ndarray
     angle: np.ndarray
     rim_lift: np.ndarray
 
@@ -37,7 +38,7 @@ def node_points(arms: np.ndarray) -> Points:
     n = len(arms)
     carriers, weights = np.repeat(np.arange(n)[:, None], 4, axis=1), np.zeros((n, 4))
     weights[:, 0] = 1.0
-    return Points(carriers, weights, np.ones(n, np.int64), arms.copy(), np.zeros(n), np.zeros((n, 3)), np.zeros((n, 2)), np.zeros((n, 3)),
+    return Points(carriers, weights, np.ones(n, np.int64), arms.copy(), np.zeros(n), np.zeros((n, 3)), np.zeros((n, 2)), np.zeros((n, 3)), np.zeros((n, 3)),
                   np.array([np.nan]), np.zeros(2 * REACH + 1))
 
 
@@ -79,13 +80,14 @@ def place(column, points, angle):
 
 @njit
 def roll(column, motion, dt, rolls, points):
-    """Place the points of the step `dt` that begins, and bring forces, anchors and relative positions to them; see `rolled`.
+    """Place the points of the step `dt` that begins, and bring forces, anchors, relative positions and indentations to them; see `rolled`.
 
     Returns: whether they rolled.
     """
     points.forces[:] = motion.forces
     points.anchors[:] = motion.anchors
     points.relative[:] = motion.relative
+    points.indent[:] = motion.indent
     n, sector = len(column.rim), column.rim_sector
     before = motion.scalars[RIM_ANGLE]
     points.rim_lift[:] = motion.scalars[RIM_LIFT:]
@@ -144,6 +146,7 @@ def roll(column, motion, dt, rolls, points):
         i, taken = column.rim[k], column.rim[number]
         for a in range(3):
             points.forces[i, a] = motion.forces[taken, a]
+            points.indent[i, a] = motion.indent[taken, a]
             points.relative[i, a] = motion.relative[taken, a] + now[k, a] - old[number, a]
         for a in range(2):
             points.anchors[i, a] = motion.anchors[taken, a] + now[k, a] - old[number, a]

@@ -1,11 +1,10 @@
-"""Motion at t = 0: gravity equilibrium of the standing column, or a rigid tilt released at rest; as `dynamics.gravity`."""
+"""Motion at t = 0: gravity equilibrium of the standing column, or a rigid tilt, with velocity and spin; as `dynamics.gravity`."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.gravity import PSEUDO_INERTIA, REST
-from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.dynamics.gravity import PSEUDO_INERTIA, REST, leaning, spun
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.equilibrium import FAR_BASE, OK
 from fecolumn.reduced.model import resting_scheme
@@ -54,14 +53,22 @@ def tilted(engine, tilt: float, direction: float) -> motions.Motion:
     """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest point on the base."""
     column, model = engine.column, engine.model
     motion = motions.at_rest(len(model.arms), len(model.frequencies))
-    turn = rotation_matrix(tilt * np.array([-np.sin(direction), np.cos(direction), 0.0]))
-    foot = model.reference
-    pivot = np.array([np.cos(direction), np.sin(direction), 0.0]) * np.linalg.norm(foot[:, :2], axis=1).max()
-    # a round rim stands on the pivot itself, between nodes
-    lift = 0.0 if len(column.rim) else -((foot - pivot) @ turn.T + pivot)[:, 2].min()
+    turn, pivot, lift = leaning(model.reference, len(column.rim) > 0, tilt, direction)
     motion.center[:] = turn @ (model.center - pivot) + pivot + [0.0, 0.0, lift]
     motion.rotation[:] = turn
     motion.acceleration[:] = column.gravity
     point_positions(engine.points, motion, motion.relative)
     motion.anchors[:] = motion.relative[:, :2]
+    return motion
+
+
+def begin(engine, initial) -> motions.Motion:
+    """The motion that the [initial] section of a case describes."""
+    tilt, direction, spin = initial.tilt_rad, np.radians(initial.direction_deg), np.array(initial.spin_rad_s)
+    motion = tilted(engine, tilt, direction) if tilt else standing(engine)
+    if initial.moves:
+        tip, axis = spun(engine.model.reference, len(engine.column.rim) > 0, tilt, direction, spin)
+        level = spin * [1.0, 1.0, 0.0]
+        motion.velocity[:] = initial.velocity_m_s + np.cross(level, motion.center - tip) + np.cross(spin - level, motion.center - axis)
+        motion.spin[:] = motion.rotation.T @ spin
     return motion

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
+from fecolumn.dynamics.rolling import rolling_moment
 from fecolumn.dynamics.stepper import CREATED, OPEN, STUCK
 from fecolumn.reduced.equilibrium import OK, equilibrate
 from fecolumn.reduced.impact import collide, turning_points
@@ -27,7 +28,8 @@ def step(column, plate, scheme, points, footing, bed, start, ground, end, sway, 
         ledger[:] = booked
         roll(column, start, dt, False, points)
         answer, contact_work = _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record)
-    if answer != OK:
+    if answer != OK or column.soft:
+        # the springs of a pad bring a landing foot to rest in their own time: there is no impact
         return answer
     n = len(end.forces)
     landing = np.zeros(n, np.bool_)
@@ -61,11 +63,25 @@ def _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway
     for k in range(m):
         memory = (0.5 - be) * start.modal_acceleration[k] + be * al * column.squares[k] * start.modal[k]
         free_modal[k] = start.modal[k] + dt * start.modal_rate[k] + dt**2 * memory
+        if column.damping[k] > 0.0:
+            way, rate = _foreseen(scheme, start, k)
+            free_modal[k] += column.damping[k] * dt * (be * dt * (al * start.modal_rate[k] - (1 + al) * rate) + (1 + al) * scheme.gamma * way)
+    sway.resistance[:] = 0.0
+    if column.rolling > 0.0:
+        load = total_force(points.forces)[2]
+        sway.resistance[:] = rolling_moment(start.rotation, start.spin, load, column.rim_radius, column.rolling, column.inverse, dt)
     answer = equilibrate(column, plate, scheme, points, footing, bed, start, free_center, free_modal, dt * start.spin, end, sway, record)
     if answer != OK:
         return answer, 0.0
     _finish(column, scheme, points, start, ground, end, sway)
     return OK, book(column, scheme, points, start, end, sway, ledger)
+
+
+@njit
+def _foreseen(scheme, start, k):
+    """Coordinate and rate of a mode at the end of the step without new accelerations: as Stage.target and Stage.velocity."""
+    dt, before = scheme.dt, start.modal_acceleration[k]
+    return start.modal[k] + dt * (start.modal_rate[k] + dt * (0.5 - scheme.beta) * before), start.modal_rate[k] + dt * (1 - scheme.gamma) * before
 
 
 @njit
@@ -89,11 +105,15 @@ def _finish(column, scheme, points, start, ground, end, sway):
     orthonormal(end.rotation)
     for k in range(len(end.modal)):
         end.modal_acceleration[k] = column.squares[k] * (al * start.modal[k] - (1 + al) * end.modal[k])
+        if column.damping[k] > 0.0:
+            way, rate = _foreseen(scheme, start, k)
+            rate += ga / (scheme.beta * dt) * (end.modal[k] - way)
+            end.modal_acceleration[k] += column.damping[k] * (al * start.modal_rate[k] - (1 + al) * rate)
         rate = (1 - ga) * start.modal_acceleration[k] + ga * end.modal_acceleration[k] + sway.modal[k]
         end.modal_rate[k] = start.modal_rate[k] + dt * rate
     for i in range(len(end.forces)):
-        x = end.relative[i, 0] + column.own[i, 0] * end.forces[i, 0]
-        y = end.relative[i, 1] + column.own[i, 1] * end.forces[i, 1]
+        x = end.relative[i, 0] + scheme.own[i, 0] * end.forces[i, 0] + scheme.kept * points.indent[i, 0]
+        y = end.relative[i, 1] + scheme.own[i, 1] * end.forces[i, 1] + scheme.kept * points.indent[i, 1]
         stuck = end.forces[i, 2] > 0 and np.hypot(x - points.anchors[i, 0], y - points.anchors[i, 1]) <= STUCK * column.width
         end.anchors[i, 0] = points.anchors[i, 0] if stuck else x
         end.anchors[i, 1] = points.anchors[i, 1] if stuck else y

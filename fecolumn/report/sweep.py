@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -10,6 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from fecolumn.files import read_json
+from fecolumn.report.notation import ALL, setting_text
+from fecolumn.statistics.ecdf import largest_peak
 from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE, FAILED, read_study
 
@@ -39,8 +41,9 @@ class Setting:
         return np.array([np.nan if run.get(name) is None else run[name] for run in runs.values()], float)
 
     def peaks(self, motions=None) -> tuple[np.ndarray, np.ndarray]:
-        """u_max [m] and whether the column overturned, one a motion."""
-        return self.column("u_max_m", motions), self.column("overturned", motions).astype(bool)
+        """u_max [m], nan where the column overturned or slid off its base, and whether it did, one a motion."""
+        lost = self.column("overturned", motions).astype(bool) | (self.column("slid_off", motions) == 1)
+        return np.where(lost, np.nan, self.column("u_max_m", motions)), lost
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,12 +73,12 @@ class Sweep:
     """A study read for its report.
 
     Attributes:
-        title: of the study.
+        folder: of the study. title: of it.
         axes: levels of each axis that is not the motion, numbers rising, others as they stand in the study.
         settings: in the order of the study; those without a finished run included.
         rows: the ledger.
         analyses: number of all analyses; of a job array at work the ledger has not all of them yet.
-        limit_m: displacement at which a column counts as overturned [m].
+        limit_m: displacement that every overturned column exceeded [m]: the cap of the study, or the largest peak of those that stood.
         case: tables of one case of the study, {} where no result folder has one.
     """
 
@@ -110,14 +113,23 @@ class Sweep:
         equals = chosen or [s for s in self.done if len(s.runs) == most]
         return equals[0] if chosen else equals[len(equals) // 2]
 
+    def at(self, values: dict) -> str:
+        """Words such as "at Δt = 0.001 s"."""
+        words = self.words(values)
+        return f"in {ALL}" if words == ALL else f"at {words}"
+
+    def words(self, values: dict) -> str:
+        """Values of the axes that vary, such as "Δt = 0.001 s, α = −0.2"; those of one value alone are told once, at the top."""
+        return setting_text({axis: values[axis] for axis in self.varied if axis in values})
+
     def lines(self, axis: str) -> list[Line]:
         """Every line along an axis with at least two levels that have runs of common motions."""
         groups: dict[str, list[Setting]] = {}
         for setting in self.done:
-            others = {key: value for key, value in setting.values.items() if key != axis}
+            others = {key: setting.values[key] for key in self.varied if key != axis}
             groups.setdefault(repr(others), []).append(setting)
         order = {repr(level): place for place, level in enumerate(self.axes[axis])}
-        lines = [Line(axis, {key: value for key, value in group[0].values.items() if key != axis},
+        lines = [Line(axis, {key: group[0].values[key] for key in self.varied if key != axis},
                       tuple(sorted(group, key=lambda s: order[repr(s.values[axis])]))) for group in groups.values()]
         return [line for line in lines if len(line.settings) > 1 and line.motions()]
 
@@ -144,7 +156,12 @@ def read_sweep(folder) -> Sweep:
             axes.setdefault(key, {})[repr(value)] = value
     case = next(filter(None, (_case(folder / "analyses" / row["id"]) for row in study.rows if row["state"] == DONE)), {})
     return Sweep(folder, study.title, {key: _ordered(list(levels.values())) for key, levels in axes.items()}, settings, study.rows, study.analyses,
-                 float(case.get("overturn", {}).get("displacement_m", 0.25)), case)
+                 float(case.get("overturn", {}).get("displacement_m", 0.0)) or _largest_peak(settings), case)
+
+
+def _largest_peak(settings) -> float:
+    found = largest_peak(*(setting.peaks() for setting in settings if setting.runs))
+    return found if found > 0 else 1.0
 
 
 def _setting(rows: list[dict]) -> Setting:
@@ -161,11 +178,13 @@ def _ordered(levels: list) -> list:
 
 def read_tables(folder: Path) -> dict:
     """Tables of the case an analysis was run with."""
-    return json.loads((folder / "case.json").read_text())["case"]
+    return read_json(folder / "case.json")["case"]
 
 
 def _case(folder: Path) -> dict:
     try:
-        return read_tables(folder)
-    except (OSError, ValueError, KeyError, TypeError):
+        tables = read_tables(folder)
+        float(tables.get("overturn", {}).get("displacement_m", 0.25))
+        return tables if all(isinstance(table, (dict, str, type(None))) for table in tables.values()) else {}
+    except (ValueError, KeyError, TypeError, AttributeError):
         return {}

@@ -14,8 +14,8 @@ def add_arguments(parser) -> None:
     parser.add_argument("b", metavar="B", help="the reference, in the same form")
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for comparison.csv, pairs.csv and the figure")
     parser.add_argument("--unpaired", action="store_true", help="do not match runs by motion")
-    parser.add_argument("--cap-mm", type=float, default=250.0, metavar="MM",
-                        help="displacement of an overturned run in R, and end of the figure's axes (default: %(default)g mm)")
+    parser.add_argument("--cap-mm", type=float, default=None, metavar="MM",
+                        help="displacement of an overturned run in R, such as 250 of Katsamakas and Vassiliou (default: the largest peak of those that stood)")
     parser.add_argument("--seed", type=int, default=0, help="of the permutations (default: %(default)s)")
 
 
@@ -25,24 +25,29 @@ def main(args) -> int:
     Raises:
         InputError: A or B cannot be used.
     """
+    from fecolumn.folder import written
     from fecolumn.schema import InputError
     from fecolumn.statistics.compare import compare
+    from fecolumn.statistics.ecdf import largest_peak
     from fecolumn.statistics.sample import read_sample
 
-    if not (math.isfinite(args.cap_mm) and args.cap_mm > 0):
+    if args.cap_mm is not None and not (math.isfinite(args.cap_mm) and args.cap_mm > 0):
         raise InputError("fecolumn compare", "--cap-mm", args.cap_mm, "must be greater than 0 [mm]")
     if args.seed < 0:
         raise InputError("fecolumn compare", "--seed", args.seed, "must be at least 0")
     a, b = read_sample(args.a), read_sample(args.b)
     a, b, paired, notes = matched(a, b, args.unpaired)
-    result = compare(a.u_max, a.overturned, b.u_max, b.overturned, paired=paired, cap_m=1e-3 * args.cap_mm, seed=args.seed)
+    cap_mm = args.cap_mm or 1e3 * largest_peak((a.u_max, a.overturned), (b.u_max, b.overturned))
+    result = compare(a.u_max, a.overturned, b.u_max, b.overturned, paired=paired, cap_m=1e-3 * cap_mm, seed=args.seed)
     names = _names(a, b)
     print(f"A  {a.source}: {names[0]}\nB  {b.source}: {names[1]}  (reference)")
     print("\n".join(notes) + "\n")
-    print(comparison_text(result, a, b, args.cap_mm))
+    print(comparison_text(result, a, b, cap_mm))
     if args.output:
-        for file in _write(Path(args.output), result, a, b, paired, args.cap_mm):
-            print(f"wrote {file}")
+        with written(args.output, "compare") as draft:
+            files = _write(draft, result, a, b, paired)
+        for file in files:
+            print(f"wrote {Path(args.output) / file.name}")
     return 0
 
 
@@ -79,7 +84,7 @@ def comparison_text(result, a, b, cap_mm: float) -> str:
         table = contingency(a.overturned, b.overturned)
         of_both += [tested("same motions: D, settings swapped", f"{result.ks:.3f}", result.paired_p),
                     tested("overturns in A alone / B alone", f"{table[1, 0]} / {table[0, 1]}", result.mcnemar_p),
-                    [f"correlation R, cap {cap_mm:g} mm", _defined(result.correlation), "", ""]]
+                    [f"correlation R, cap {cap_mm:.4g} mm", _defined(result.correlation), "", ""]]
     of_both.append(["median error e50 = |A - B| / B", _defined(result.e50), "", ""])
     text = f"{_columns(of_each)}\n\n{_columns(of_both)}"
     if result.paired_p is not None:
@@ -88,11 +93,10 @@ def comparison_text(result, a, b, cap_mm: float) -> str:
     return text
 
 
-def _write(folder: Path, result, a, b, paired: bool, cap_mm: float) -> list[Path]:
+def _write(folder: Path, result, a, b, paired: bool) -> list[Path]:
     from fecolumn.atomic import write_csv
     from fecolumn.post.compare_figure import compare_figure
 
-    folder.mkdir(parents=True, exist_ok=True)
     files = [folder / "comparison.csv"]
     values = [[key, "" if value is None else value] for key, value in dataclasses.asdict(result).items()]
     write_csv(files[0], [["quantity", "value"], *values])
@@ -101,7 +105,7 @@ def _write(folder: Path, result, a, b, paired: bool, cap_mm: float) -> list[Path
         u = [["" if fallen else f"{value:.6e}" for value, fallen in zip(sample.u_max, sample.overturned)] for sample in (a, b)]
         write_csv(files[1], [["motion", "u_max_a_m", "overturned_a", "u_max_b_m", "overturned_b"],
                              *zip(a.motions, u[0], a.overturned.astype(int), u[1], b.overturned.astype(int))])
-    return files + compare_figure((a.u_max, a.overturned), (b.u_max, b.overturned), _labels(a, b), paired=paired, limit_m=1e-3 * cap_mm,
+    return files + compare_figure((a.u_max, a.overturned), (b.u_max, b.overturned), _labels(a, b), paired=paired,
                                   correlation=result.correlation, path=folder / "comparison")
 
 

@@ -52,7 +52,7 @@ class Comparison:
     p_overturn_b: float
 
 
-def compare(u_a, overturned_a, u_b, overturned_b, *, paired: bool, cap_m: float = 0.25, seed: int = 0,
+def compare(u_a, overturned_a, u_b, overturned_b, *, paired: bool, cap_m: float | None = None, seed: int = 0,
             resamples: int = RESAMPLES) -> Comparison:
     """Compare ensemble a with ensemble b, the reference.
 
@@ -60,7 +60,7 @@ def compare(u_a, overturned_a, u_b, overturned_b, *, paired: bool, cap_m: float 
         u_a, u_b: (n_a,) and (n_b,) [m] peak displacement; ignored where the run overturned.
         overturned_a, overturned_b: (n_a,) and (n_b,) True where the column overturned.
         paired: whether both hold the same motions, each at the same place.
-        cap_m: displacement of an overturned run in the correlation [m].
+        cap_m: displacement of an overturned run in the correlation [m]; the largest peak of those that stood unless given.
         seed: of the permutations.
         resamples: permutations; the smallest p of all but the exact tests is 1 / (resamples + 1).
 

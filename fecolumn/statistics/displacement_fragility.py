@@ -9,7 +9,7 @@ from scipy.special import log_ndtr, ndtr
 
 from fecolumn.statistics.bands import normal_quantile
 from fecolumn.statistics.binary_regression import DegenerateData, maximize
-from fecolumn.statistics.ecdf import censored
+from fecolumn.statistics.ecdf import censored, largest_peak
 from fecolumn.statistics.fragility import Probability, log_columns
 
 
@@ -55,7 +55,7 @@ class DisplacementFragility:
         return Probability(ndtr(eta), ndtr(eta - reach), ndtr(eta + reach))
 
 
-def displacement(im, u_max, overturned, cap_m: float = 0.25) -> DisplacementFragility:
+def displacement(im, u_max, overturned, cap_m: float | None = None) -> DisplacementFragility:
     """Lognormal regression of u_max on intensity, overturned runs censored at the right (Tobin 1958, Econometrica 26).
 
     In the form of Olsen (1978, Econometrica 46), c / sigma and 1 / sigma, the likelihood is concave.
@@ -64,7 +64,8 @@ def displacement(im, u_max, overturned, cap_m: float = 0.25) -> DisplacementFrag
         im: (n, k) or (n,) positive intensities.
         u_max: (n,) [m] positive; ignored where the run overturned.
         overturned: (n,) True where the column overturned.
-        cap_m: overturn displacement of the case [m].
+        cap_m: displacement that every overturned run exceeded [m], overturn.displacement_m of a study that has one; the largest peak of
+            those that stood unless given.
 
     Raises:
         DegenerateData: too few runs that stood, or intensities that do not vary among them.
@@ -73,7 +74,8 @@ def displacement(im, u_max, overturned, cap_m: float = 0.25) -> DisplacementFrag
     x, u, overturned = log_columns(im), censored(u_max, overturned), np.asarray(overturned, bool)
     if len(x) != u.size:
         raise ValueError(f"im of {len(x)} runs and u_max of {u.size}: must have one length")
-    if (u <= 0).any() or not cap_m > 0:
+    cap_m = largest_peak((u_max, overturned)) if cap_m is None else cap_m
+    if (u <= 0).any() or cap_m <= 0:
         raise ValueError("displacements must be positive; a run that never moves has no logarithm")
     p, stood = x.shape[1], x[~overturned]
     if len(stood) < p + 1 or np.linalg.matrix_rank(stood) < p:

@@ -94,6 +94,15 @@ def censored(u_max, overturned) -> np.ndarray:
     return np.where(np.asarray(overturned, bool), math.inf, np.asarray(u_max, float))
 
 
+def largest_peak(*samples) -> float:
+    """Largest peak [m] of the runs that stood, over samples of (u_max, overturned); nan where none stood.
+
+    What overturned is beyond it: the least that may be said of how far it went, and where axes end.
+    """
+    peaks = [peak for u_max, overturned in samples for peak in _standing(u_max, overturned)[0]]
+    return float(max(peaks, default=math.nan))
+
+
 def _standing(u_max, overturned) -> tuple[np.ndarray, int]:
     """Peaks of the runs that stood, and the size of the whole sample."""
     u_max, overturned = np.asarray(u_max, float), np.asarray(overturned, bool)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.ending import lost
 from fecolumn.schema import InputError
 from fecolumn.statistics.experiment import read_maxima
 
@@ -22,8 +23,8 @@ class Sample:
         title: of the study, or the file's name.
         choice: value of each axis that was chosen, by its dotted key.
         motions: (n,) name of each run's motion, all different.
-        u_max: (n,) [m]; of no meaning where the run overturned.
-        overturned: (n,) bool.
+        u_max: (n,) [m]; nan where the run overturned or slid off its base.
+        overturned: (n,) bool; or slid off: either way the peak is beyond what was seen.
         missing: analyses of the choice that are not done.
     """
 
@@ -91,9 +92,10 @@ def _of_study(folder: str, choice: dict) -> Sample:
     if not done:
         raise InputError(folder, "", None, f"none of the {len(rows)} analyses chosen is done")
     motions = tuple(_motion_name(row["axes"], ENSEMBLE_AXES) for row in done)
-    u_max, overturned = ([row["summary"][name] for row in done] for name in ("u_max_m", "overturned"))
+    u_max, overturned = [row["summary"]["u_max_m"] for row in done], [lost(row["summary"]) for row in done]
     shown = {key: rows[0]["axes"][key] for key in choice}
-    return Sample(folder, study.title, shown, motions, np.array(u_max, float), np.array(overturned, bool), len(rows) - len(done))
+    u_max = np.where(overturned, np.nan, np.array(u_max, float))
+    return Sample(folder, study.title, shown, motions, u_max, np.array(overturned, bool), len(rows) - len(done))
 
 
 def _motion_name(axes: dict, ensemble_axes) -> str:

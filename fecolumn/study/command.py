@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import textwrap
 
 
 def add_arguments(parser) -> None:
@@ -96,11 +97,14 @@ def _show(plan, rows: list[dict], folder, share) -> int:
     if share:
         print(f"{plan.title}: share {share[0]} of {share[1]}: {done}; when all shares are, the command without --array-index makes the tables")
     else:
+        from fecolumn.study.conclusion import conclusion
         from fecolumn.study.table import table_text, write_figure, write_tables  # matplotlib and scipy only now
 
         write_tables(plan, rows, folder)
         files = write_figure(plan, rows, folder)
         print(f"{plan.title}: {done}\n{table_text(plan, rows)}")
+        if said := conclusion(plan, rows):
+            print(textwrap.fill(said, 110))
         print("\n".join(f"wrote {file}" for file in [os.path.join(folder, "table.csv"), *files]))
     failed = [row for row in rows if row["state"] == FAILED]
     for row in failed:

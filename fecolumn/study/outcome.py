@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import errno
 import json
 from pathlib import Path
 from typing import NamedTuple
 
+from fecolumn.files import Unreadable
+from fecolumn.summary import read_summary
+
 #: Words of an outcome. RETURNED: it was never begun, because its worker ended; FULL: the disk is, and nobody can go on.
 DONE, FAILED, RETURNED, FULL = "done", "failed", "returned", "full"
-
-# of the disk, of the user's quota, of the size a file may have
-_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 class Task(NamedTuple):
@@ -29,7 +28,7 @@ class Outcome(NamedTuple):
     Attributes:
         id: of the analysis. word: DONE, FAILED, RETURNED or FULL. reason: why, unless DONE.
         wall_s: wall time of the worker [s]. started: seconds since the epoch. machine: where.
-        summary: JSON of its summary where it is DONE; version and overturned are in it, too.
+        summary: JSON of its summary where it is DONE; version, overturned and slid_off are in it, too.
     """
 
     id: str
@@ -41,24 +40,14 @@ class Outcome(NamedTuple):
     summary: str | None = None
     version: str | None = None
     overturned: bool = False
+    slid_off: bool = False
 
 
 def finished(case_id: str, folder: Path, **more) -> Outcome | None:
     """DONE where the result folder holds a valid summary of this very analysis, else None."""
     try:
-        summary = json.loads((folder / "summary.json").read_text())
-    except (OSError, ValueError):
+        summary = read_summary(folder, case_id)
+    except Unreadable:
         return None
-    if not isinstance(summary, dict) or summary.get("case_id") != case_id:
-        return None
-    return Outcome(case_id, DONE, summary=json.dumps(summary), version=summary.get("version"),
-                   overturned=bool(summary.get("overturned")), **{"wall_s": summary.get("wall_s"), **more})
-
-
-def disk_full(error: BaseException | None) -> bool:
-    """Whether a full disk, a quota or a limit on the size of files is behind an error."""
-    while error is not None:
-        if isinstance(error, OSError) and error.errno in _FULL:
-            return True
-        error = error.__cause__ or error.__context__
-    return False
+    return Outcome(case_id, DONE, summary=json.dumps(summary), version=str(summary.get("version", "")),
+                   overturned=summary["overturned"], slid_off=bool(summary.get("slid_off")), **{"wall_s": float(summary["wall_s"]), **more})

@@ -6,11 +6,15 @@ import collections
 import dataclasses
 import sqlite3
 import sys
+import warnings
 
-from fecolumn.study.outcome import FULL, RETURNED, disk_full
+from fecolumn.atomic import disk_full
+from fecolumn.case import REST
+from fecolumn.study.outcome import FULL, RETURNED
 from fecolumn.study.plan import Analysis, Plan
 from fecolumn.study.pool import LocalPool
-from fecolumn.study.progress import Progress
+from fecolumn.study.preparation import preparation
+from fecolumn.study.progress import Progress, analysis_s
 from fecolumn.study.store import FAILED, RUNNING, Store
 from fecolumn.study.team import StudyError, Team
 
@@ -20,6 +24,8 @@ ENTRY = "fecolumn.simulation:run"
 
 # Work handed out at a time: less would keep driver and workers busy with messages, more would leave some idle at the end
 _BATCH_S, _BATCH_MOST = 0.5, 200
+# Free vibration that is reckoned with where it goes on until the column is at rest: a column of a metre or two takes seconds
+_TO_REST_S = 10.0
 _DISK_FULL = "the disk is full; free room"
 
 
@@ -55,9 +61,9 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
                 store.ledger.plan_again(state=FAILED)
             drive(store, team or LocalPool(workers, entry, plan.file), stream)
             return store.rows()
-    except sqlite3.OperationalError as error:
+    except sqlite3.DatabaseError as error:
         full = "full" in str(error) or "disk I/O" in str(error)
-        raise StudyError(_DISK_FULL if full else f"the ledger cannot be written ({error})") from None
+        raise StudyError(_DISK_FULL if full else f"the ledger of {folder} cannot be written ({error})") from None
     except OSError as error:
         if disk_full(error):
             raise StudyError(_DISK_FULL) from None
@@ -85,6 +91,7 @@ def check_motions(plan: Plan) -> None:
         InputError: a motion that cannot be used, in the loader's words.
     """
     from fecolumn.motions.load import load_motion
+    from fecolumn.simulation import cut_text
 
     # factor and direction change neither length nor whether it can be used; the longest step is the most demanding
     longest_step, users = {}, {}
@@ -93,10 +100,17 @@ def check_motions(plan: Plan) -> None:
             key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
             longest_step[key] = max(longest_step.get(key, 0.0), analysis.case.integration.dt_s)
             users.setdefault(key, []).append(analysis)
+    cut = []
     for motion, dt_s in longest_step.items():
         ground = load_motion(motion, dt_s, plan.file)
         for analysis in users[motion]:
-            analysis.duration_s = analysis.case.integration.duration_s or ground.duration + motion.free_vibration_s
+            given, free = analysis.case.integration.duration_s, motion.free_vibration_s
+            analysis.duration_s = given or ground.duration + (min(_TO_REST_S, motion.rest_ceiling_s) if free == REST else free)
+            if given and given < ground.duration - dt_s:
+                cut.append((ground.duration, given))
+    if cut:
+        length, given = max(cut)
+        warnings.warn(f"{cut_text(plan.file, given, length)} ({len(cut)} of {len(plan.analyses)} analyses are cut)", stacklevel=2)
 
 
 def _work_off(store: Store, queue: collections.deque[Analysis], team: Team, progress: Progress) -> None:
@@ -120,7 +134,7 @@ def _work_off(store: Store, queue: collections.deque[Analysis], team: Team, prog
             progress.count(outcome, analysis.effort)
             pace.note(outcome, analysis)
         store.ledger.commit_now_and_then()
-        progress.show()
+        progress.show("" if progress.ended or store.entry != ENTRY else preparation(given.values()))
 
 
 class _Pace:
@@ -131,7 +145,7 @@ class _Pace:
 
     def note(self, outcome, analysis: Analysis) -> None:
         if outcome.started is not None:
-            s = outcome.wall_s / analysis.effort
+            s = analysis_s(outcome) / analysis.effort
             self._s_per_effort = s if self._s_per_effort is None else 0.8 * self._s_per_effort + 0.2 * s
 
     def seconds(self, analysis: Analysis) -> float:

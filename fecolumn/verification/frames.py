@@ -67,7 +67,7 @@ class MovingInterface(Interface):
     """
 
     def __init__(self, still: Interface):
-        super().__init__(still.foot, still.reference, still.base, still.friction, still.own, still.rim)
+        super().__init__(still.foot, still.reference, still.base, still.friction, still.own, still.rim, still.restitution, still.pad)
         self.position, self.velocities = np.zeros(3), []
 
     def dynamic_position(self, x, rotation):

@@ -10,6 +10,7 @@ from fecolumn.contact.base_plate import BasePlate
 from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.body import Body
 from fecolumn.dynamics.corotated import Corotated
+from fecolumn.dynamics.damping import ModalDamping
 from fecolumn.dynamics.footprint import Footprint
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
@@ -30,6 +31,8 @@ COARSE = {
     "integration": {"duration_s": 1.0, "alpha_hht": 0.0},
 }
 
+# Modes of a block that are damped
+DAMPED = 30
 # Of `shaking`: amplitudes of x, y, z [m/s2], and sign and angular frequencies [rad/s] of its two tones
 AMPLITUDES = np.array([8.0, 6.0, 0.0])
 TONES = ((1, np.array([30.0, 31.0, 1.0])), (-1, np.array([75.0, 73.0, 1.0])))
@@ -62,7 +65,7 @@ def box(x, y, z) -> BrickMesh:
 
 def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, material: Material | None = None,
                  base_material: Material | None = None, friction: float = 0.3, gravity=(0.0, 0.0, -9.80665), filtered: bool = True,
-                 order: int = 1, foot_height: float = 0.0) -> System:
+                 order: int = 1, foot_height: float = 0.0, damping_ratio: float = 0.0, restitution: float = 0.0) -> System:
     """A body of bricks over a base of bricks.
 
     Args:
@@ -71,6 +74,7 @@ def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, mat
         base: tensor-product grid with its top at z = 0, held at its bottom.
         material, base_material: steel unless given.
         filtered: contact as the plastic impact law needs it; False for the literal HHT (Stepper's impact "none").
+        damping_ratio: of the DAMPED lowest elastic modes.
     """
     comm = MPI.COMM_SELF
     steel = Material(youngs_modulus_pa=200e9, poissons_ratio=0.3, density_kg_m3=7850.0)
@@ -86,4 +90,4 @@ def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, mat
 
     plate = BasePlate(Body(comm, base, base_material or material or steel, 1, held))
     return System(body, kinematics, plate, Footprint.of_all(body.find_nodes(mesh.points[points]), areas), friction, np.zeros((len(points), 3)),
-                  gravity, hht, filtered=filtered)
+                  gravity, hht, filtered=filtered, damping=ModalDamping(body, DAMPED, damping_ratio) if damping_ratio else None, restitution=restitution)

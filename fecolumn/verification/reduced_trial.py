@@ -66,7 +66,7 @@ class Reduction:
         motion.modal_rate[:], motion.modal_acceleration[:] = modal(state.v @ rotation), modal(state.a @ rotation)
         foot_displacement(engine.column.pushes, motion.modal, motion.elastic)
         motion.forces[:], motion.anchors[:], motion.relative[:] = state.forces, state.anchors, state.relative
-        motion.ground[:] = state.ground
+        motion.ground[:], motion.indent[:] = state.ground, state.indent
         motion.scalars[TIME], motion.scalars[STATIC] = state.time, state.static
         motion.scalars[RIM_ANGLE], motion.scalars[RIM_LIFT:] = state.rim_angle, state.rim_lift
         return motion
@@ -80,13 +80,13 @@ class Expanded:
         copy(motion, self._motion)
         self.time, self.static = float(motion.scalars[TIME]), float(motion.scalars[STATIC])
         own = self._motion
-        self.rotation, self.forces, self.anchors, self.relative, self.ground = own.rotation, own.forces, own.anchors, own.relative, own.ground
+        self.rotation, self.forces, self.anchors, self.relative, self.ground, self.indent = own.rotation, own.forces, own.anchors, own.relative, own.ground, own.indent
 
     def copy(self) -> State:
         """A full-order State of these fields, to start another trial from; without internal forces, which a projection does not ask for."""
         still, scalars = np.zeros_like(self.x), self._motion.scalars
         return State(self.time, self.x.copy(), self.v.copy(), self.a.copy(), still, still, 0.0, self.rotation.copy(), self.forces.copy(),
-                     self.anchors.copy(), self.relative.copy(), self.static, self.ground.copy(), float(scalars[RIM_ANGLE]), scalars[RIM_LIFT:].copy())
+                     self.anchors.copy(), self.relative.copy(), self.static, self.ground.copy(), self.indent.copy(), float(scalars[RIM_ANGLE]), scalars[RIM_LIFT:].copy())
 
     def _modal(self, coordinates) -> np.ndarray:
         return np.tensordot(coordinates, self._reduction.shapes, axes=1)
@@ -128,8 +128,9 @@ class ReducedTrial(Trial):
         def begin(engine):
             return starts.standing(engine) if first is None else self.reduction.projected(engine, first, system)
 
-        self.engine = Engine(self.reduction.model, system.base, view(self.reduction.model, np.inf), system.hht, system.gravity, interface.friction,
-                             interface.own, interface.rim, begin)
+        eye = view(self.reduction.model, system.weight, interface.friction)
+        self.engine = Engine(self.reduction.model, system.base, eye, system.hht, system.gravity, interface.friction, interface.own, interface.rim, begin, 4,
+                             system.damping.ratio if system.damping else 0.0, interface.restitution, system.rolling, interface.pad)
         self.state = self.start = self._state()
 
     def _state(self) -> Expanded:

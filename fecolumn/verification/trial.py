@@ -25,7 +25,7 @@ def afloat(system, displacement, velocity, acceleration, height: float) -> State
     relative = system.interface.dynamic_position(x, rotation)
     return State(time=0.0, x=x, v=np.array(velocity, float), a=np.array(acceleration, float), contact_a=np.zeros_like(x), internal=internal,
                  strain=strain, rotation=rotation, forces=np.zeros((system.interface.size, 3)), anchors=relative[:, :2].copy(),
-                 relative=relative, static=0.0, ground=np.zeros(3))
+                 relative=relative, static=0.0, ground=np.zeros(3), indent=np.zeros((system.interface.size, 3)))
 
 
 class Trial:

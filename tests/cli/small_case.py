@@ -30,7 +30,7 @@ def write_motion(path, seconds=0.5, scale=0.4):
 
 def write_case(folder, duration=0.2, extra=""):
     """Path of a case file in `folder` with its motion beside it."""
-    write_motion(folder / "motion.csv")
+    write_motion(folder / "motion.csv", min(duration, 0.5))
     path = folder / "case.toml"
     path.write_text(f'extends = "{SPECIMEN}"\n{MESH}\n[motion]\nsource = "motion.csv"\n'
                     f"[integration]\nduration_s = {duration}\nalpha_hht = -0.05\n{extra}")

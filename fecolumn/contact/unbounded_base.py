@@ -1,0 +1,94 @@
+"""A base without edges: a layer of the base plate's thickness and material that goes on for ever."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.contact.base_top import BaseTop
+from fecolumn.contact.layer import layer_response
+
+# Rows of nodes around the foot of which the compliance is known from the start: a cell, and the foot's place within one
+ROWS = 3
+
+
+class UnboundedBase:
+    """Static compliance of a layer's top, the same wherever the column goes.
+
+    It answers as `contact.base_plate.BasePlate` does. Its nodes are those of a window that follows the foot by whole bricks: all
+    bricks are equal, so that the window may move at any time and nothing changes.
+
+    Args:
+        size: of a brick in plan [m]. response: of `layer_response`. reference: (n, 3) the foot's nodes [m].
+        frequency: lowest of the layer [Hz].
+    """
+
+    body, dofs = None, 0
+
+    def __init__(self, size: float, response: np.ndarray, reference: np.ndarray, frequency: float):
+        self.response, self.frequency = response, frequency
+        self.grid = MovingTop(size, reference)
+        self.slot = np.full(len(self.grid.points), -1, np.int64)
+        self.known = np.zeros(0, np.int64)
+        distance = np.linalg.norm(reference[:, :2] - reference[:, :2].mean(axis=0), axis=1)
+        away, reach = np.linalg.norm(self.grid.points[:, :2], axis=1), ROWS * size
+        self.need(np.flatnonzero((away <= distance.max() + reach) & (away >= distance.min() - reach)))
+
+    def need(self, wanted: np.ndarray) -> None:
+        """Make sure that the compliance holds the nodes `wanted` of the window."""
+        new = np.unique(wanted[self.slot[wanted] < 0])
+        if not len(new):
+            return
+        self.slot[new] = np.arange(len(self.known), len(self.known) + len(new))
+        self.known = np.concatenate([self.known, new])
+        lines, middle = len(self.grid.y), len(self.response) // 2
+        i, j = np.divmod(self.known, lines)
+        #: Blocks (k, k, 3, 3) [m/N] of the known nodes.
+        self.compliance = np.ascontiguousarray(self.response[middle + i[:, None] - i, middle + j[:, None] - j])
+
+
+class MovingTop(BaseTop):
+    """Equal squares under the foot, moved along with it by whole squares."""
+
+    def __init__(self, size: float, reference: np.ndarray):
+        count = window(size, reference)
+        lines = size * np.arange(-count, count + 1)
+        x, y = np.meshgrid(lines, lines, indexing="ij")
+        super().__init__(np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1))
+        self.size = size
+
+    def project(self, positions: np.ndarray, touching: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Nodes (n, 4) of the window and weights (n, 4) under all points of the foot at `positions` (n, 3) [m]."""
+        moved = np.zeros(3)
+        moved[:2] = self.size * np.round(positions[:, :2].mean(axis=0) / self.size)
+        return super().project(positions - moved, touching)
+
+    def at_edge(self, positions: np.ndarray, margin: float) -> bool:
+        return False
+
+
+def window(size: float, reference: np.ndarray) -> int:
+    """Squares to each side of the foot's middle that hold the foot (n, 3) however it is turned."""
+    return int(np.ceil(np.linalg.norm(reference[:, :2] - reference[:, :2].mean(axis=0), axis=1).max() / size)) + ROWS
+
+
+def unbounded_base(size: float, depths: np.ndarray, material, reference: np.ndarray) -> UnboundedBase:
+    """The base of bricks `size` x `size` in plan with levels `depths` (n,) [m], falling from 0.
+
+    Raises:
+        ValueError: too thick for its bricks; see `layer_response`.
+    """
+    response = layer_response(size, depths, material, 2 * window(size, reference))
+    return UnboundedBase(size, response, reference, shear_frequency(material, -depths[-1]))
+
+
+def rigid_base(reference: np.ndarray) -> UnboundedBase:
+    """A rigid flat: squares as wide as the foot that do not give."""
+    size = float(np.ptp(reference[:, 0]))
+    sides = 4 * window(size, reference) + 1
+    return UnboundedBase(size, np.zeros((sides, sides, 3, 3)), reference, np.inf)
+
+
+def shear_frequency(material, thickness: float) -> float:
+    """Lowest shear mode through a thickness [m] that is held at its bottom [Hz]."""
+    shear = material.youngs_modulus_pa / (2 * (1 + material.poissons_ratio))
+    return float(np.sqrt(shear / material.density_kg_m3) / (4 * thickness))

@@ -1,0 +1,46 @@
+"""How an analysis ends: what became of the column, and why the analysis stopped there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+#: Outcomes. Only a column at rest has shown its residual slide, and only one that is not lost, overturned or slid off, its peak.
+AT_REST, STILL_ROCKING, OVERTURNED, SLID_OFF = "at rest", "still rocking", "overturned", "slid off"
+
+#: A column whose foot meets the edge of the base has come as near to it before as this share of the foot's width; else a step went astray.
+EDGE = 0.05
+
+#: A column is at rest when its mechanical energy above gravity equilibrium is below this share of the energy that lifts it onto its edge.
+#: A slender column with this energy rocks with 1/2000 of its critical tilt, and as nothing feeds it, never with more again.
+REST_SHARE = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """outcome: one of the words above; ended_by: what stopped the analysis, in words, with its time [s]."""
+
+    outcome: str
+    ended_by: str
+
+
+def ending_text(summary: dict) -> str:
+    """What became of the column, for a reader, from the summary of its analysis."""
+    if summary["overturned"]:
+        return f"overturned ({summary.get('ended_by') or 'at {:.3f} s'.format(summary['overturn_time_s'])})"
+    if lost(summary):
+        return f"{SLID_OFF} ({summary['ended_by']})"
+    text = f"{summary.get('outcome', 'standing')}, residual slide {1e3 * summary['residual_slide_m']:.3f} mm"
+    if summary.get("outcome") == STILL_ROCKING:
+        text = (f"{STILL_ROCKING} at {summary['duration_s']:.3f} s with {summary['energy_left_j']:.3g} J of the "
+                f"{summary['energy_to_overturn_j']:.3g} J to overturn")
+    return text
+
+
+def lost(summary: dict) -> bool:
+    """Whether the column overturned or slid off its base: what its top did after that is not known."""
+    return bool(summary["overturned"] or summary.get("slid_off"))
+
+
+def peak_text(summary: dict) -> str:
+    """Largest top displacement of an analysis, for a reader; of a column that is lost it is only where the analysis stopped."""
+    return f"u_max {'> ' if lost(summary) else ''}{1e3 * summary['u_max_m']:.3f} mm"
