@@ -16,8 +16,8 @@ from fecolumn.files import is_file
 from fecolumn.schema import InputError, Section, build, parameter, read_toml
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
-MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine
 REST = "rest"  # word of motion.free_vibration_s
+MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +133,7 @@ class Motion(Section):
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
     delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1.0")
-    vertical: bool = parameter(False, doc="apply the vertical component where the record has one")
+    vertical: bool = parameter(False, doc="apply the vertical component too; refused where the record has none")
     free_vibration_s: float | str = parameter(1.0, doc='time analysed after the motion\'s end; "rest" goes on until the column is at rest', unit="s", low=0, high=1e4, words=(REST,))
     rest_ceiling_s: float = parameter(60.0, doc='longest time after the motion\'s end where free_vibration_s = "rest"', unit="s", above=0, high=1e5, since="0.2.0")
 
@@ -353,6 +353,9 @@ def check_base(case: Case, refuse) -> None:
         refuse("base.stiffness_n_m3", base.stiffness_n_m3, "must be greater than 0 N/m3 where base.kind = 'pad'")
     if case.contact.impact != "plastic":
         refuse("contact.impact", case.contact.impact, "must be plastic where base.kind = 'pad', whose springs take the place of impacts")
+    for key in ("restitution", "rolling_resistance"):
+        if value := getattr(case.contact, key):
+            refuse(f"contact.{key}", value, "must be 0 where base.kind = 'pad'; base.damping_ratio takes energy there")
 
 
 def check_duration(case: Case, file) -> None:

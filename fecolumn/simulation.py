@@ -114,6 +114,7 @@ class Analysis:
     def __init__(self, case, folder, comm, file, quiet):
         from fecolumn.dynamics.history import History
         from fecolumn.dynamics.overturning import steepest_to_come
+        from fecolumn.mesh.estimate import estimate
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
         self.began = time.perf_counter()
@@ -122,6 +123,8 @@ class Analysis:
         self.motion_steps = len(self.motion.acceleration) if self.motion else 0
         self.until_rest = bool(self.motion) and case.motion.free_vibration_s == REST and not case.integration.duration_s
         self.cut_at_s = self._cut(file)
+        if not (folder / CHECKPOINT).is_file():
+            self.say(str(estimate(case)))
         self.history, self.step = History(), 0
         self.stepping_s = self.earlier_s = 0.0
         self.stance, self.top_arm, self.standing_j = None, None, 0.0
@@ -223,7 +226,7 @@ class Analysis:
         from fecolumn.dynamics.history import History
 
         rows = {name[5:]: values for name, values in extra.items() if name.startswith("rows.")}
-        step, stepping_s, earlier_s, standing_j = (int(extra["step"]), *(float(extra[name]) for name in ("stepping_s", "wall_s", "standing_j")))
+        step, stepping_s, earlier_s, standing_j = int(extra["step"]), *(float(extra[name]) for name in ("stepping_s", "wall_s", "standing_j"))
         if str(extra["case_id"]) != self.case.id:
             raise ValueError(f"of another case, {extra['case_id']}")
         if not 0 <= step <= self.steps or {len(values) for values in rows.values()} != {step + 1} or min(stepping_s, earlier_s) < 0:
@@ -233,8 +236,8 @@ class Analysis:
     def to_resume(self) -> dict:
         """The `extra` arrays of a checkpoint that `resumed` takes."""
         extra = {f"rows.{name}": values for name, values in self.history.arrays().items()}
-        return extra | dict(case_id=self.case.id, step=self.step, stepping_s=self.stepping_s, wall_s=self.earlier_s + time.perf_counter() - self.began,
-                            standing_j=self.standing_j)
+        return extra | dict(case_id=self.case.id, step=self.step, stepping_s=self.stepping_s, standing_j=self.standing_j,
+                            wall_s=self.earlier_s + time.perf_counter() - self.began)
 
     def write_history(self) -> None:
         """Write history.h5 on rank 0, its rows as far apart as the case says."""
@@ -356,18 +359,6 @@ class _FullAnalysis(Analysis):
             if self.fields:
                 self._write_fields()
 
-    def _take(self, arrays: dict) -> None:
-        from fecolumn.dynamics.checkpoint import read_state
-        from fecolumn.dynamics.energy import TERMS
-        from fecolumn.dynamics.stepper import Record
-
-        state, extra = read_state(arrays, self.system)
-        start, work = float(extra["start"]), dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True))
-        record = Record(*extra["record"].tolist())
-        self.resumed(extra)
-        self.state, self.ledger.start, self.stepper.record = state, start, record
-        self.ledger.work |= work
-
     def _standing(self):
         """Gravity equilibrium, its energy noted; None of a column released with a tilt that cannot stand."""
         from fecolumn.dynamics import gravity
@@ -380,6 +371,17 @@ class _FullAnalysis(Analysis):
             return None
         self.standing_j = sum(self.ledger.state_terms(state).values())
         return state
+
+    def _take(self, arrays: dict) -> None:
+        from fecolumn.dynamics.checkpoint import read_state
+        from fecolumn.dynamics.energy import TERMS
+        from fecolumn.dynamics.stepper import Record
+
+        state, extra = read_state(arrays, self.system)
+        start = float(extra["start"])
+        work, record = dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True)), Record(*extra["record"].tolist())
+        self.resumed(extra)
+        self.state, self.ledger.start, self.ledger.work, self.stepper.record = state, start, work, record
 
     def _fields(self, specimen):
         from fecolumn.post.fields import FieldWriter

@@ -47,7 +47,7 @@ def pulse(path, acceleration, start, end, seconds):
 
 def test_column_released_short_of_its_critical_tilt_comes_back(tmp_path):
     summary = released(0.2, tmp_path / "out")
-    assert summary["outcome"] == "still rocking" and not summary["overturned"] and summary["steps"] == 500
+    assert not summary["overturned"] and summary["steps"] == 500 and summary["outcome"] == "still rocking"
     assert summary["ended_by"].startswith("end of the analysed time")
     # released at rest with less energy than it takes: m g R (cos(alpha - tilt) - cos alpha)
     weight, arm, alpha = 2700 * math.pi * 0.25**2 * 1.6 * 9.80665, math.hypot(0.25, 0.8), math.atan2(0.25, 0.8)
@@ -57,7 +57,7 @@ def test_column_released_short_of_its_critical_tilt_comes_back(tmp_path):
 
 def test_column_released_beyond_its_critical_tilt_overturns(tmp_path):
     summary = released(0.32, tmp_path / "out", seconds=3.0)
-    assert summary["outcome"] == "overturned" and summary["overturned"] and summary["u_max_censored"]
+    assert summary["overturned"] and summary["outcome"] == "overturned" and summary["u_max_censored"]
     assert summary["ended_by"].startswith("point of no return: tilt 0.32") and "critical 0.303 rad" in summary["ended_by"]
     assert summary["critical_tilt_rad"] == pytest.approx(math.atan2(0.25, 0.8), abs=1e-3)
     assert summary["u_critical_m"] == pytest.approx(0.25 * (1 - math.cos(0.3029)) + 1.6 * math.sin(0.3029), rel=1e-3)
@@ -147,11 +147,11 @@ def test_motion_cut_short_is_said(tmp_path, capsys):
 
 
 def test_strong_motion_overturns_in_both_engines_at_the_same_time(tmp_path):
-    """A push of 0.5 s lays the stout tube on a coarse mesh down after it: full order and reduced within a step or two."""
+    """A push of 0.35 s leaves the stout tube on a coarse mesh beyond its critical tilt: lost with the push's end, in full order and reduced."""
     tables = merge(read_toml("meshes/stout.toml"), {
         "column": {"fine_height_m": 0.01}, "mesh": {"coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05},
-        "base": {"slide_allowance_m": 0.01}, "integration": {"dt_s": 2e-3},
-        "motion": {"source": pulse(tmp_path / "push.csv", 2.0, 0.05, 0.55, 0.6), "free_vibration_s": 2.0}})
+        "base": {"slide_allowance_m": 0.01}, "integration": {"dt_s": 4e-3},
+        "motion": {"source": pulse(tmp_path / "push.csv", 2.8, 0.01, 0.36, 0.4), "free_vibration_s": 2.0}})
     found = [simulation.run(case_from_tables(merge(tables, {"integration": {"engine": engine}}), "stout.toml"), tmp_path / engine, quiet=True)
              for engine in ("full", "reduced")]
     for summary in found:

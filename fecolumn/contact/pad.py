@@ -23,7 +23,8 @@ class Pad:
 
         u1 = give r + kept u0,     give = 1 / (k / 2 + c / dt),     kept = (c / dt - k / 2) / (c / dt + k / 2).
 
-    The pad has no mass. Where nothing presses it recovers by its dashpots, at once where c / dt < k / 2.
+    The pad has no mass. Where nothing presses it recovers by its dashpots, at once where c / dt < k / 2. It takes the place of impacts, and of the
+    rim's rolling: a node of the rim that comes down presses a spring, which gives back what it takes.
 
     Args:
         stiffness: (n, 3) of each point [N/m]. relaxation: c / k [s], of all alike.

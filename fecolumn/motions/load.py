@@ -57,6 +57,8 @@ def unsampled(motion: Motion, file) -> GroundMotion:
     ground = rotate(read_motion(motion, file), motion.rotation_deg)
     if not motion.vertical:
         ground = without_vertical(ground)
+    elif not ground.acceleration[:, 2].any():
+        raise InputError(file, "motion.vertical", True, f"{motion.source} has no vertical component; name its file as motion.source_z, or leave this key out")
     return strong_part(scale_time(scale(ground, motion.scale), motion.time_scale), motion.strong_part)
 
 

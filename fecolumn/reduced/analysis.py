@@ -31,15 +31,15 @@ CHUNK = 500
 def engine_of(case, model, base, upright: bool = False) -> Engine:
     """The reduced engine of a case at its start, or in gravity equilibrium."""
     own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas) + model.relief
-    plan = case.integration
+    plan, pad = case.integration, pad_of(case, model.areas, model.mass)
 
     def begin(engine):
         return start.standing(engine) if upright else start.begin(engine, case.initial)
 
     eye = view(model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m)
     return Engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), [0.0, 0.0, -GRAVITY], case.contact.friction_coefficient, own,
-                  Rim.find(model.reference), begin, plan.max_cuts, case.material.damping_ratio, case.contact.restitution,
-                  case.contact.rolling_resistance, pad_of(case, model.areas, model.mass))
+                  None if pad else Rim.find(model.reference), begin, plan.max_cuts, case.material.damping_ratio, case.contact.restitution,
+                  case.contact.rolling_resistance, pad)
 
 
 def standing_energy(case, model, base) -> float:
@@ -84,7 +84,7 @@ class ReducedAnalysis(Analysis):
         saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
-                began, count = time.perf_counter(), min(CHUNK, self.steps - self.step)
+                began, made_s, count = time.perf_counter(), self.base.made_s, min(CHUNK, self.steps - self.step)
                 if self.step < self.motion_steps:
                     count = min(count, self.motion_steps - self.step)
                 if self.fields:
@@ -92,7 +92,9 @@ class ReducedAnalysis(Analysis):
                 steps = range(self.step + 1, self.step + count + 1)
                 rows, over = engine.advance(np.array([self.ground(k) for k in steps]), np.array([self.steepest(k) for k in steps]), self.rest_j)
                 self.step += len(rows)
-                self.stepping_s += time.perf_counter() - began
+                made_s = self.base.made_s - made_s
+                self.began += made_s
+                self.stepping_s += time.perf_counter() - began - made_s
                 self._note(rows)
                 last = rows[-1]
                 progress.show(self.step, dict(time=last[0], tilt=last[4], active_nodes=int(last[11])), engine.record)

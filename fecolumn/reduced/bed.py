@@ -17,6 +17,8 @@ from fecolumn.reduced.compliance import add_below, assemble
 
 # The place of a foot: rotation [rad], and horizontal way over the foot's width, within which its bed is taken as the same
 TURN, WAY = 1e-4, 5e-5
+# On a pad, where nearly all of the compliance is that of its springs and the base the same everywhere, any way and this rotation [rad]
+SOFT_TURN = 5e-3
 
 
 class Bed(NamedTuple):
@@ -46,13 +48,13 @@ def fits(bed, column, points, half, center, rotation):
     if not (bed.key[0] == angle or np.isnan(bed.key[0]) and np.isnan(angle)):
         return False
     # the foot is a column's height below the centre
-    for a in range(2):
+    for a in range(0 if column.soft else 2):
         moved = center[a] - bed.center[a] + (rotation[a, 2] - bed.rotation[a, 2]) * points.arms[0, 2]
         if abs(moved) > WAY * column.width:
             return False
     for a in range(3):
         for b in range(3):
-            if abs(rotation[a, b] - bed.rotation[a, b]) > TURN:
+            if abs(rotation[a, b] - bed.rotation[a, b]) > (SOFT_TURN if column.soft else TURN):
                 return False
     return True
 

@@ -15,6 +15,7 @@ import json
 import os
 import shutil
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -39,11 +40,12 @@ class KnownBase:
 
     How far it is known depends on where the column went, its numbers do not: each reach is found once as a whole, and kept on disk.
 
-    Attributes as of `contact.base_plate.BasePlate`: grid, slot, compliance (blocks), frequency. dofs: of its mesh.
+    Attributes as of `contact.base_plate.BasePlate`: grid, slot, compliance (blocks), frequency. dofs: of its mesh. made_s: wall time spent
+    on reaches that no analysis had needed before [s].
     """
 
     def __init__(self, folder: Path, make):
-        self._folder, self._make, self._reach = folder, make, 0
+        self._folder, self._make, self._reach, self.made_s = folder, make, 0, 0.0
         with np.load(folder / "base.npz") as file:
             self.grid, self.frequency, self.dofs = BaseTop(file["points"]), float(file["frequency"]), int(file["dofs"])
             self._foot, self._allowance = file["foot"], float(file["allowance"])
@@ -54,9 +56,11 @@ class KnownBase:
         while (self.slot[wanted] < 0).any():
             self._reach += 1
             if not self._file("known").is_file():
+                began = time.perf_counter()
                 with alone(self._folder):
                     if not self._file("known").is_file():
                         self._extend()
+                self.made_s += time.perf_counter() - began
             self._open()
 
     def _file(self, name: str) -> Path:
@@ -102,13 +106,18 @@ def model_key(case: Case) -> str:
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 
 
+def model_folder(case: Case) -> Path:
+    """Where the model of a case is kept, or will be."""
+    return cache_folder() / f"model-{model_key(case)}"
+
+
 def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBase, Path]:
     """Column and base of a case, and the folder of their model; made and kept if there is none yet.
 
     Args:
         say: told when a model has to be made, which takes up to a minute.
     """
-    folder = cache_folder() / f"model-{model_key(case)}"
+    folder = model_folder(case)
     if not folder.is_dir():
         with alone(folder):  # of the workers of a study that start at once, one makes it
             if not folder.is_dir():

@@ -12,7 +12,7 @@ from fecolumn.dynamics.rolling import FLAT
 from fecolumn.dynamics.stage import CONTACT_TOLERANCE, PENETRATION
 from fecolumn.reduced import bed as beds
 from fecolumn.reduced.compliance import add_below, assemble, even, static_displacement
-from fecolumn.reduced.bed import TURN, WAY
+from fecolumn.reduced.bed import SOFT_TURN, TURN, WAY
 from fecolumn.reduced.motion import STATIC, follow, point_positions
 from fecolumn.reduced.plate import ON, UNKNOWN, project
 
@@ -62,6 +62,8 @@ def settled(column, points, start, free_center, advance):
         turn = max(turn, abs(advance[a]))
         if a < 2:
             way = max(way, abs(free_center[a] - start.center[a]))
+    if column.soft:
+        return turn < SOFT_TURN / 5
     flat = np.hypot(start.rotation[2, 0], start.rotation[2, 1]) < FLAT
     return flat and turn < TURN / 5 and way < WAY * column.width / 5
 

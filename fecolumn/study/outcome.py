@@ -49,5 +49,5 @@ def finished(case_id: str, folder: Path, **more) -> Outcome | None:
         summary = read_summary(folder, case_id)
     except Unreadable:
         return None
-    return Outcome(case_id, DONE, summary=json.dumps(summary), version=str(summary.get("version", "")), overturned=summary["overturned"],
-                   slid_off=bool(summary.get("slid_off")), **{"wall_s": float(summary["wall_s"]), **more})
+    return Outcome(case_id, DONE, summary=json.dumps(summary), version=str(summary.get("version", "")),
+                   overturned=summary["overturned"], slid_off=bool(summary.get("slid_off")), **{"wall_s": float(summary["wall_s"]), **more})

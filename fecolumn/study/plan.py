@@ -24,14 +24,15 @@ from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check_duratio
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.schema import InputError, build, merge, read_toml, shown
-from fecolumn.study.axes import TABLES, Factor, hint, read_factors
+from fecolumn.study.axes import Factor, hint, read_factors
+from fecolumn.study.keys import StudyKeys
 
 # Axes that make the members of an ensemble; every other axis tells one ensemble from another.
 ENSEMBLE_AXES = ("motion", "motion.source", "motion.source_y", "motion.source_z", "motion.rotation_deg")
 # What a study takes where neither its case nor its axes say otherwise: thousands of analyses are the reduced engine's work, and
 # a column rocks at a few hertz
 DEFAULTS = {"integration": {"engine": "reduced"}, "output": {"history_every_s": 0.005}}
-_KEYS = ("title", "case", *TABLES)
+_KEYS = tuple(field.name for field in dataclasses.fields(StudyKeys))
 # As many fit into memory and into a ledger
 _MOST = 1_000_000
 # Cost of a step, relative: only the order and the share of the work left are judged by it

@@ -13,7 +13,8 @@ from fecolumn.case import REST
 from fecolumn.study.outcome import FULL, RETURNED
 from fecolumn.study.plan import Analysis, Plan
 from fecolumn.study.pool import LocalPool
-from fecolumn.study.progress import Progress
+from fecolumn.study.preparation import preparation
+from fecolumn.study.progress import Progress, analysis_s
 from fecolumn.study.store import FAILED, RUNNING, Store
 from fecolumn.study.team import StudyError, Team
 
@@ -133,7 +134,7 @@ def _work_off(store: Store, queue: collections.deque[Analysis], team: Team, prog
             progress.count(outcome, analysis.effort)
             pace.note(outcome, analysis)
         store.ledger.commit_now_and_then()
-        progress.show()
+        progress.show("" if progress.ended or store.entry != ENTRY else preparation(given.values()))
 
 
 class _Pace:
@@ -144,7 +145,7 @@ class _Pace:
 
     def note(self, outcome, analysis: Analysis) -> None:
         if outcome.started is not None:
-            s = outcome.wall_s / analysis.effort
+            s = analysis_s(outcome) / analysis.effort
             self._s_per_effort = s if self._s_per_effort is None else 0.8 * self._s_per_effort + 0.2 * s
 
     def seconds(self, analysis: Analysis) -> float:

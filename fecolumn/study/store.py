@@ -50,6 +50,7 @@ class Store:
 
     def __init__(self, folder, plan: Plan, entry: str, share: tuple[int, int] | None = None):
         self.folder = Path(folder)
+        self.entry = entry
         identity = {"study": plan.id, "analyses": len(plan.analyses), "entry": entry}
         _refuse_foreign(self.folder, identity)
         self.folder.mkdir(parents=True, exist_ok=True)

@@ -6,7 +6,6 @@ from small_block import ENGINES, G, block, centre, trial
 
 from fecolumn.case import Initial
 from fecolumn.dynamics.gravity import begin
-from fecolumn.verification.trial import RigidRocking
 
 
 def started(engine, system, **initial):

@@ -1,6 +1,7 @@
 """Analyses with the reduced engine from case to result folder."""
 
 import json
+import time
 
 import h5py
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 import fecolumn.reduced.analysis  # noqa: F401  (compiled functions belong in the user's cache, not in this module's)
 from fecolumn import simulation
 from fecolumn.case import case_from_tables, read_toml
+from fecolumn.reduced import cache as cache_of_models
 from fecolumn.schema import InputError, merge
 
 SPECIMEN = "meshes/stout.toml"
@@ -89,6 +91,19 @@ def test_slide_beyond_the_allowance_extends_the_base_and_off_the_plate_is_an_out
 def test_literal_hht_is_refused():
     with pytest.raises(InputError, match="contact.impact"):
         case_of(contact={"impact": "none"})
+
+
+def test_what_is_made_once_is_no_cost_of_the_analysis_that_makes_it(tmp_path, monkeypatch):
+    real, slow = cache_of_models._make, 1.5
+
+    def make(case, folder):
+        time.sleep(slow)
+        real(case, folder)
+
+    monkeypatch.setattr(cache_of_models, "_make", make)
+    began = time.perf_counter()
+    summary = simulation.run(case_of(mesh={"coarse_size_m": 0.028}, integration={"duration_s": 0.01}), tmp_path, quiet=True)
+    assert summary["wall_s"] < time.perf_counter() - began - slow and summary["s_per_step"] * summary["steps"] < summary["wall_s"]
 
 
 def test_a_thrown_column_with_damping_restitution_and_rolling_resistance_moves_the_same_in_both_engines(tmp_path):
