@@ -11,7 +11,6 @@ import numpy as np
 from fecolumn.motions.record import GroundMotion
 from fecolumn.report.sweep import Setting, read_tables
 from fecolumn.schema import InputError, build
-from fecolumn.study.plan import ENSEMBLE_AXES
 
 SCALE = "motion.scale"
 # What a reader of the motions may meet where they are not to be found any more, or never were
