@@ -1,4 +1,4 @@
-"""The figures of the README: each check against its closed form, as one table.
+"""The figures of RESULTS.md: each check against its closed form, as one table.
 
     ./containers/run python -m benchmarks.figures [NAME ...]
 

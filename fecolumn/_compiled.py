@@ -8,8 +8,9 @@ import os
 from pathlib import Path
 
 import numba
+from llvmlite.binding import get_host_cpu_name
 
-from fecolumn._kernel import Kernel, is_tested
+from fecolumn._kernel import Kernel, is_kept, is_tested
 
 # Folders of which compiled functions take code or constants
 _SOURCES = ("contact", "dynamics", "reduced")
@@ -32,12 +33,13 @@ def digest_of(paths) -> str:
 
 @functools.cache
 def _folder() -> str:
-    """Folder of the functions compiled from the present sources.
+    """Folder of the functions compiled from the present sources by this numba for this processor.
 
     numba asks only whether a function's own file has changed: code compiled with what another file said before would be run.
     """
     package = Path(__file__).parent
-    return str(cache_folder() / f"compiled-{digest_of(path for name in _SOURCES for path in sorted((package / name).glob('*.py')))}")
+    sources = digest_of(path for name in _SOURCES for path in sorted((package / name).glob("*.py")))
+    return str(cache_folder() / f"compiled-{sources}-numba-{numba.__version__}-{get_host_cpu_name()}")
 
 
 def njit(function=None, **options):
@@ -56,5 +58,11 @@ def njit(function=None, **options):
 
 
 def compiled(function) -> bool:
-    """Whether a function of `njit` has been compiled on this machine, by whatever process."""
-    return bool(function.signatures) or any(Path(function.stats.cache_path).glob(f"*.{function.__name__}-*.nbi"))
+    """Whether a function of `njit` has been compiled on this machine, by whatever process, or is not to be compiled at all."""
+    return numba.config.DISABLE_JIT or bool(function.signatures) or is_kept(function)
+
+
+def compile_for(function, arguments) -> None:
+    """Have a function of `njit` ready for arguments like these, without calling it: so that its first call costs what all cost."""
+    if not numba.config.DISABLE_JIT:
+        function.compile(tuple(numba.typeof(argument) for argument in arguments))

@@ -5,14 +5,17 @@ from __future__ import annotations
 import logging
 import weakref
 
-import dolfinx
-import numpy as np
-import ufl
-from dolfinx import fem, mesh
-from petsc4py import PETSc
-
-# without a handler, Debian 12's form compiler prints every compiler call on first use
+# Before dolfinx: its form compiler gives a root logger without handlers one that prints every call of the C compiler, and takes
+# Python's warnings for itself. What a compiler that fails says still goes to stderr.
 logging.getLogger().addHandler(logging.NullHandler())
+
+import dolfinx  # noqa: E402
+import numpy as np  # noqa: E402
+import ufl  # noqa: E402
+from dolfinx import fem, mesh  # noqa: E402
+from petsc4py import PETSc  # noqa: E402
+
+logging.captureWarnings(False)
 
 VERSION = tuple(int(n) for n in dolfinx.__version__.split(".")[:2])
 _MODERN = VERSION >= (0, 8)

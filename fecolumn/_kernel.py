@@ -10,6 +10,7 @@ This reaches into numba's internals, as they are in the versions TESTED. With an
 from __future__ import annotations
 
 import contextlib
+from pathlib import Path
 
 import numba
 from numba import _dynfunc
@@ -18,11 +19,18 @@ from numba.core.cpu import CPUContext
 from numba.core.environment import lookup_environment
 from numba.core.registry import CPUDispatcher
 
+from fecolumn.lock import alone
+
 # Versions of numba, first and first beyond, whose internals are as this file takes them
 TESTED = (0, 59), (0, 69)
 
 _ENVIRONMENT = "_ZN08NumbaEnv"  # how numba's names of environments begin
 _entries: list = []  # functions called from Python that are being compiled now: one
+
+
+def is_kept(function) -> bool:
+    """Whether a compiled form of a function is on disk."""
+    return any(Path(function.stats.cache_path).glob(f"*.{function.__name__}-*.nbi"))
 
 
 def is_tested() -> bool:
@@ -108,7 +116,10 @@ class Kernel(CPUDispatcher):
         self._part = CPUDispatcher(py_func, **(options | dict(targetoptions=options.get("targetoptions", {}) | wrappers)))
 
     def compile(self, sig):
-        with _one_piece(self.py_func):
+        with contextlib.ExitStack() as stack:
+            if not is_kept(self):  # one process of this machine compiles; others wait and open what it made
+                stack.enter_context(alone(Path(self.stats.cache_path) / self.__name__))
+            stack.enter_context(_one_piece(self.py_func))
             return super().compile(sig)
 
     def get_call_template(self, args, kws):

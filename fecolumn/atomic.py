@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import errno
 import io
 import json
 import os
@@ -12,6 +13,18 @@ from pathlib import Path
 
 #: How the names of unfinished files begin, each followed by letters of its own. One that a killed process left may be deleted.
 UNFINISHED = ".writing-"
+
+# of the disk, of the user's quota, of the size a file may have
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+
+
+def disk_full(error: BaseException | None) -> bool:
+    """Whether a full disk, a quota or a limit on the size of files is behind an error."""
+    while error is not None:
+        if isinstance(error, OSError) and error.errno in _FULL:
+            return True
+        error = error.__cause__ or error.__context__
+    return False
 
 
 def write_bytes(path: Path, content: bytes) -> None:
@@ -52,8 +65,8 @@ def write_csv(path: Path, rows) -> None:
     write_bytes(path, text.getvalue().encode())
 
 
-def write_hdf5(path: Path, fill) -> None:
-    """Write the HDF5 file that `fill(file)` makes.
+def write_hdf5(path: Path, fill, finish=lambda content: content) -> None:
+    """Write the HDF5 file that `fill(file)` makes, its bytes as `finish` returns them.
 
     It is made in memory: HDF5 cannot take a full disk, and ends the process when it meets one.
     """
@@ -63,4 +76,4 @@ def write_hdf5(path: Path, fill) -> None:
         fill(file)
         file.flush()
         content = file.id.get_file_image()
-    write_bytes(path, content)
+    write_bytes(path, finish(content))

@@ -17,6 +17,7 @@ from fecolumn.schema import InputError, Section, build, parameter, read_toml
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
+MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +98,7 @@ class Contact(Section):
     law: str = parameter("augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty"))
     friction_coefficient: float = parameter(0.3, doc="Coulomb friction coefficient", low=0, high=10)
     penalty_factor: float = parameter(100.0, doc="penalty stiffness per area as a multiple of E / fine_size_m", above=0, high=1e9)
+    interior_points: int = parameter(36, doc="contact points inside the outlines of the foot, evenly spread; all nodes on the outlines are points", low=0, high=10**6, since="0.2")
     impact: str = parameter("plastic", doc="treatment of closing contacts; none is the literal HHT scheme", choices=("plastic", "none"))
     restitution: float = parameter(0.0, doc="velocity after over before an impact; 0 is the plastic impact", low=0, high=1, since="0.2")
     rolling_resistance: float = parameter(0.0, doc="energy that a rolling rim loses per length rolled, over the contact force", low=0, high=0.1, since="0.2")
@@ -127,11 +129,11 @@ class Motion(Section):
     units: str = parameter("", doc="unit of the file's accelerations; needed where the format does not state it", choices=("", "g", "m/s2", "cm/s2", "mm/s2"))
     dt_s: float = parameter(0.0, doc="sampling step, for files that do not state it", unit="s", low=0, high=10)
     scale: float = parameter(1.0, doc="factor on the accelerations", low=-1e3, high=1e3)
-    time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", above=0, high=1e3)
+    time_scale: float = parameter(1.0, doc="factor on time; 0.5 compresses the motion by two", low=1e-3, high=1e3)
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
     delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1.0")
-    vertical: bool = parameter(False, doc="apply the vertical component where the record has one")
+    vertical: bool = parameter(False, doc="apply the vertical component too; refused where the record has none")
     free_vibration_s: float | str = parameter(1.0, doc='time analysed after the motion\'s end; "rest" goes on until the column is at rest', unit="s", low=0, high=1e4, words=(REST,))
     rest_ceiling_s: float = parameter(60.0, doc='longest time after the motion\'s end where free_vibration_s = "rest"', unit="s", above=0, high=1e5, since="0.2.0")
 
@@ -330,6 +332,9 @@ def check(case: Case, file) -> None:
         for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic")):
             if (value := getattr(getattr(case, section), key)) != needed:
                 refuse(f"{section}.{key}", value, f"must be {needed} where integration.engine = {case.integration.engine!r}")
+    time = case.integration.duration_s or (case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0)
+    if time / case.integration.dt_s > MOST_STEPS:
+        refuse("integration.dt_s", case.integration.dt_s, f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} steps in {time:g} s")
     if case.motion:
         part = case.motion.strong_part
         if len(part) != 2 or not part[0] < part[1]:

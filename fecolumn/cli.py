@@ -1,9 +1,10 @@
-"""The command line: fecolumn mesh | run | resume | study | compare | report | verify | motions | doctor."""
+"""The command line: fecolumn new | mesh | run | resume | study | compare | report | motions | keys | help | verify | prepare | doctor | completion."""
 
 from __future__ import annotations
 
 import argparse
-import errno
+import contextlib
+import os
 import sys
 import traceback
 import warnings
@@ -17,32 +18,44 @@ def main(argv=None) -> int:
 
         return doctor.main(arguments[1:])
     args = _parser().parse_args(arguments)
+    from fecolumn.atomic import disk_full
     from fecolumn.schema import InputError
 
+    for stream in (sys.stdout, sys.stderr):  # a terminal that cannot write a folder's name must not end what is at work there
+        with contextlib.suppress(AttributeError):
+            stream.reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
     try:
-        return args.command(args)
+        code = args.command(args)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:  # the reader, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except InputError as error:
         return _refuse(error, 2)
     except KeyboardInterrupt:
         return _refuse("stopped; the same command goes on from the last checkpoint", 130)
     except Exception as error:
-        full = isinstance(error, OSError) and error.errno == errno.ENOSPC
-        if full:
+        code = 1
+        if disk_full(error):
             print("fecolumn: the disk is full; free room and run the same command again", file=sys.stderr)
+        elif isinstance(error, OSError) and error.filename is not None and error.strerror:  # of a file or folder the user named
+            code = 2
+            print(f"fecolumn: {error.filename}: cannot be read or written ({error.strerror})", file=sys.stderr)
         else:
             traceback.print_exc()
-        _abandon_other_ranks()
-        return 1
+        _abandon_other_ranks(code)
+        return code
 
 
-def _abandon_other_ranks() -> None:
+def _abandon_other_ranks(code: int) -> None:
     """End the other ranks of this command too: they would wait for this one for ever."""
     from mpi4py import MPI
 
     if MPI.COMM_WORLD.size > 1:
         sys.stderr.flush()
-        MPI.COMM_WORLD.Abort(1)
+        MPI.COMM_WORLD.Abort(code)
 
 
 def _show_warning(message, category, *_) -> None:
@@ -59,58 +72,74 @@ def _refuse(message, code: int) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="fecolumn", description="Rocking and sliding of free-standing columns with finite elements.")
+    """Of all commands; nothing here may load a library, so that --help is quick."""
+    from fecolumn import __version__, completion, keys, manual, templates
+    from fecolumn.motions import command as motions
+    from fecolumn.report import command as report
+    from fecolumn.statistics import command as compare
+    from fecolumn.study import command as study
+    from fecolumn.verification import command as verify
+
+    parser = argparse.ArgumentParser(
+        prog="fecolumn", description="Rocking and sliding of free-standing columns: finite-element contact dynamics, judged by statistics.",
+        epilog="First steps: fecolumn new DIR, or fecolumn help quick-start. Every option of a command: fecolumn COMMAND --help.")
+    parser.add_argument("--version", action="version", version=f"fecolumn {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
-    mesh = commands.add_parser("mesh", help="build and check the meshes of a case")
+    def add(name, words, module=None, main=None):
+        command = commands.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
+        if module:
+            module.add_arguments(command)
+        if main or hasattr(module, "main"):
+            command.set_defaults(command=main or module.main)
+        return command
+
+    add("new", "write a commented case and a study of it to start from", templates)
+    mesh = add("mesh", "build and check the meshes of a case", main=_mesh)
     mesh.add_argument("case", metavar="CASE.toml")
     mesh.add_argument("-o", "--output", required=True, metavar="DIR", help="folder for meshes, picture and table")
-    mesh.set_defaults(command=_mesh)
-
-    run = commands.add_parser("run", help="run one analysis, or go on with it")
+    run = add("run", "run one analysis, or go on with it", main=_run)
     run.add_argument("case", metavar="CASE.toml")
     run.add_argument("-o", "--output", required=True, metavar="DIR", help="result folder, one a case")
     run.add_argument("-q", "--quiet", action="store_true", help="no progress line")
-    run.set_defaults(command=_run)
-
-    resume = commands.add_parser("resume", help="go on with an analysis from its last checkpoint")
+    resume = add("resume", "go on with an analysis from its last checkpoint", main=_resume)
     resume.add_argument("output", metavar="DIR", help="result folder of fecolumn run")
     resume.add_argument("-q", "--quiet", action="store_true", help="no progress line")
-    resume.set_defaults(command=_resume)
-
-    study = commands.add_parser("study", help="run a sweep of analyses and compare their CDFs")
-    from fecolumn.study import command
-
-    command.add_arguments(study)
-    study.set_defaults(command=command.main)
-    compare = commands.add_parser("compare", help="compare two ensembles: settings, studies, computation and experiment")
-    from fecolumn.statistics import command as comparison
-
-    comparison.add_arguments(compare)
-    compare.set_defaults(command=comparison.main)
-    report = commands.add_parser("report", help="write the report of a study: one HTML page, figures and tables")
-    from fecolumn.report import command as reporting
-
-    reporting.add_arguments(report)
-    report.set_defaults(command=reporting.main)
-    verify = commands.add_parser("verify", help="check the engines against exact solutions")
-    from fecolumn.verification import command as verification
-
-    verification.add_arguments(verify)
-    verify.set_defaults(command=verification.main)
-    motions = commands.add_parser("motions", help="make, fit, look at and convert ground motions")
-    from fecolumn.motions import command as ground
-
-    ground.add_arguments(motions)
-    commands.add_parser("doctor", help="versions and known traps of this machine")
+    add("study", "run a sweep of analyses and compare their CDFs", study)
+    add("compare", "compare two ensembles: settings, studies, computation and experiment", compare)
+    add("report", "write the report of a study: one HTML page, figures and tables", report)
+    add("motions", "make, fit, look at and convert ground motions", motions)
+    add("keys", "every key of a case and of a study: meaning, unit, range, default", keys)
+    add("help", "the manual, topic by topic", manual)
+    add("verify", "check the engines against exact solutions", verify)
+    add("prepare", "compile what each machine compiles once; the set-up does it", main=_prepare)
+    add("doctor", "versions and known traps of this machine")
+    add("completion", "completion of the command line by the Tab key", completion, _completion)
     return parser
+
+
+def _completion(args) -> int:
+    from fecolumn import completion
+
+    print(completion.script(_parser()), end="")
+    return 0
 
 
 def _mesh(args) -> int:
     from fecolumn.case import read_case
+    from fecolumn.folder import written
     from fecolumn.mesh.report import mesh_report
 
-    print(mesh_report(read_case(args.case), args.output, lambda text: print(text, file=sys.stderr, flush=True)))
+    case = read_case(args.case)
+    with written(args.output, "mesh", names=("specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt")) as draft:
+        print(mesh_report(case, draft, lambda text: print(text, file=sys.stderr, flush=True)))
+    return 0
+
+
+def _prepare(args) -> int:
+    from fecolumn.prepare import prepare
+
+    prepare(print)
     return 0
 
 

@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import fcntl
 import os
+import stat
 from pathlib import Path
 
 
 def open_lock(file):
-    """A lock's file open for reading and writing, made if need be; a pipe or a device in its place cannot hold the opener up."""
-    return open(os.open(file, os.O_RDWR | os.O_CREAT | os.O_NONBLOCK | os.O_CLOEXEC, 0o666), "r+")
+    """A lock's file open for reading and writing, made if need be.
+
+    Raises:
+        OSError: it cannot be opened, or is a pipe or a device, which could hold its opener up.
+    """
+    handle = os.open(file, os.O_RDWR | os.O_CREAT | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    if not stat.S_ISREG(os.fstat(handle).st_mode):
+        os.close(handle)
+        raise FileExistsError(errno.EEXIST, "a device or a pipe is in the place of a lock", str(file))
+    return open(handle, "r+")
 
 
 @contextlib.contextmanager

@@ -5,12 +5,13 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import fcntl
-import json
 import os
 from pathlib import Path
 
-from fecolumn.atomic import write_json
+from fecolumn.atomic import disk_full, write_json
 from fecolumn.case import Case
+from fecolumn.files import Unreadable, read_json
+from fecolumn.lock import open_lock
 from fecolumn.schema import InputError
 
 
@@ -26,15 +27,15 @@ def held(folder: Path, case: Case, comm, file):
             made = not folder.exists()
             folder.mkdir(parents=True, exist_ok=True)
             if known.is_file():
-                other = json.loads(known.read_text())["id"]
+                other = read_json(known)["id"]
                 if other != case.id:
                     refusal = "-o", str(folder), f"holds the results of another case ({other}, this one is {case.id}); give a new folder"
             elif any(folder.iterdir()) and not (folder / ".lock").exists():
                 refusal = "-o", str(folder), "must be a new or empty folder, or one of this case"
             if refusal is None:
-                lock = open(folder / ".lock", "w")
+                lock = open_lock(folder / ".lock")
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                if not os.path.samestat(os.fstat(lock.fileno()), os.stat(lock.name)):  # its holder has just given the folder up
+                if not os.path.samestat(os.fstat(lock.fileno()), os.stat(folder / ".lock")):  # its holder has just given the folder up
                     raise BlockingIOError
         except (BlockingIOError, FileNotFoundError):
             refusal = "-o", str(folder), "another run is writing into this folder"
@@ -42,8 +43,12 @@ def held(folder: Path, case: Case, comm, file):
             refusal = "-o", str(folder), "is a file; a folder is needed"
         except PermissionError:
             refusal = "-o", str(folder), "may not be written (permission denied)"
-        except (json.JSONDecodeError, KeyError):
+        except (Unreadable, KeyError, TypeError):
             refusal = "-o", str(folder), "its case.json is damaged; give a new folder"
+        except OSError as error:
+            if disk_full(error):
+                raise
+            refusal = "-o", str(folder), f"cannot be written ({error.strerror}); give another folder"
     refusal = comm.bcast(refusal)
     if refusal:
         raise InputError(file, *refusal)

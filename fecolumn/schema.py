@@ -20,6 +20,7 @@ from fecolumn.files import Unreadable, read_bytes
 _DEEPEST = 20
 _LONGEST_CHAIN = 50
 _LONGEST_FILE = 20_000_000  # [bytes]
+_LONGEST_WORDS = 800  # of a message, in one of its parts
 _LONGEST_TEXT = 4096  # a path's most on Linux
 
 
@@ -31,10 +32,10 @@ class InputError(ValueError):
     """
 
     def __init__(self, file, key: str, value, allowed: str):
-        self.file, self.key, self.value, self.allowed = _in_text(str(file)), key, value, allowed
+        self.file, self.key, self.value, self.allowed = _in_text(str(file)), key, value, _in_text(allowed)
         told = f" = {shown(value)}" if value is not None else ""
         self.all = (self,)
-        super().__init__(f"{self.file}: {_in_text(key)}{told}: {allowed}" if key else f"{self.file}: {allowed}")
+        super().__init__(f"{self.file}: {_in_text(key)}{told}: {self.allowed}" if key else f"{self.file}: {self.allowed}")
 
     @classmethod
     def of_several(cls, errors: list[InputError]) -> InputError:
@@ -71,7 +72,7 @@ shown = _Shown().repr
 def _in_text(words: str) -> str:
     """Words without line breaks and other control characters, so that a message stays one line; shortened where very long."""
     words = re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", lambda found: repr(found[0])[1:-1], words)
-    return words if len(words) <= 600 else f"{words[:280]}...{words[-280:]}"
+    return words if len(words) <= _LONGEST_WORDS else f"{words[:_LONGEST_WORDS // 2]} ... {words[-_LONGEST_WORDS // 2:]}"
 
 
 def parameter(default=dataclasses.MISSING, *, doc: str, unit: str = "-", low=None, high=None,
@@ -121,7 +122,7 @@ def _typed(kind, value):
         try:
             return float(value)
         except OverflowError:
-            return math.copysign(math.inf, value)
+            return math.inf if value > 0 else -math.inf
     if kind is int and isinstance(value, numbers.Integral) and not isinstance(value, bool):
         return int(value)
     if kind in (str, bool) and isinstance(value, kind):

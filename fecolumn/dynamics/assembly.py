@@ -13,10 +13,11 @@ from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded
 from fecolumn.dynamics.body import Body
 from fecolumn.dynamics.corotated import Corotated
 from fecolumn.dynamics.damping import ModalDamping
+from fecolumn.dynamics.footprint import Footprint, footprint, relief
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
 from fecolumn.mesh.base_plate import levels
-from fecolumn.mesh.bricks import boundary_faces
+from fecolumn.mesh.bricks import boundary_faces, outline_edges
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.mesh.surface import face_basis, face_points, nodal_areas
 from fecolumn.mesh.tie import project_to_quads
@@ -84,16 +85,20 @@ def base_of(case: Case, reference: np.ndarray) -> UnboundedBase | None:
     return None
 
 
-def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (n,) of the foot in an order that does not depend on the partition, and their tributary areas (n,) [m2]."""
+def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> Footprint:
+    """Contact points of the foot, in an order that does not depend on the partition."""
     mesh = specimen.body
     part = mesh.foot_part
-    quads = boundary_faces(mesh, part, 0.0, 1e-6 * case.column.height_m)
-    found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
+    faces = boundary_faces(mesh, part, 0.0, 1e-6 * case.column.height_m)
+    found = column.find_nodes(face_points(mesh.points[faces], column.order).reshape(-1, 3), part)
     foot, position = np.unique(found, return_inverse=True)
     order = np.lexsort(np.round(column.all_X[foot, :2].T / foot_sides(case)[0], 9))
     foot, position = foot[order], np.argsort(order)[position]
-    return foot, nodal_areas(mesh.points[quads], position.reshape(len(quads), -1), len(foot), column.order)
+    areas = nodal_areas(mesh.points[faces], position.reshape(len(faces), -1), len(foot), column.order)
+    ends = mesh.points[outline_edges(faces)]
+    outline = np.concatenate([ends[:, 0] + t * (ends[:, 1] - ends[:, 0]) for t in np.arange(column.order) / column.order])
+    on_outline = np.isin(foot, column.find_nodes(outline, part))
+    return footprint(foot, column.all_X[foot], areas, on_outline, case.contact.interior_points)
 
 
 def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> System:
@@ -106,12 +111,12 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
         kinematics = TotalLagrangian(column)
     else:
         kinematics = Corotated(column)
-    foot, areas = foot_of(case, specimen, column)
-    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, areas)
+    foot = foot_of(case, specimen, column)
+    base = base_of(case, column.all_X[foot.nodes]) or BasePlate(base_body(case, specimen, comm))
+    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas) + relief(column, base, foot)
     damping = ModalDamping(column, case.integration.n_modes, ratio) if (ratio := case.material.damping_ratio) else None
-    pad = pad_of(case, areas, column.total_mass)
-    base = base_of(case, column.all_X[foot]) or BasePlate(base_body(case, specimen, comm))
-    return System(column, kinematics, base, foot, areas, case.contact.friction_coefficient,
+    pad = pad_of(case, foot.areas, column.total_mass)
+    return System(column, kinematics, base, foot, case.contact.friction_coefficient,
                   own, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
-                  filtered=case.contact.impact == "plastic", rim=None if pad else Rim.find(column.all_X[foot]), damping=damping,
+                  filtered=case.contact.impact == "plastic", rim=None if pad else Rim.find(column.all_X[foot.nodes]), damping=damping,
                   restitution=case.contact.restitution, rolling=case.contact.rolling_resistance, pad=pad)

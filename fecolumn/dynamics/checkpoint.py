@@ -9,6 +9,7 @@ import numpy as np
 
 from fecolumn.atomic import write_bytes
 from fecolumn.dynamics.system import State
+from fecolumn.files import read_bytes
 
 _FIELDS = ("x", "v", "a", "contact_a", "internal")
 _SHARED = ("time", "strain", "rotation", "forces", "anchors", "relative", "static", "ground", "indent", "rim_angle", "rim_lift")
@@ -42,15 +43,27 @@ def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
         write_bytes(path, content.getvalue())
 
 
-def read_checkpoint(path: Path, system) -> tuple[State, dict]:
-    """State on this rank and the `extra` arrays of a checkpoint."""
-    with np.load(path) as file:
+def read_arrays(path: Path) -> dict[str, np.ndarray]:
+    """Arrays of a checkpoint by name.
+
+    Raises:
+        Exception: of the many kinds a damaged archive leads to.
+    """
+    with np.load(io.BytesIO(read_bytes(path))) as file:
         arrays = {name: file[name] for name in file.files}
+    for name, values in arrays.items():
+        if values.dtype.kind == "f" and not np.isfinite(values).all():
+            raise ValueError(f"{name} is not finite")
+    return arrays
+
+
+def read_state(arrays: dict[str, np.ndarray], system) -> tuple[State, dict]:
+    """State on this rank and the `extra` arrays of a checkpoint of the full-order engine."""
     column = system.column
     order, mine = node_order(column), slice(system.column.first, column.first + column.n_owned)
     values = {name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name] for name in _SHARED}
     for name in _FIELDS:
-        by_node = np.empty_like(arrays[name])
+        by_node = np.empty((len(order), *arrays[name].shape[1:]))
         by_node[order] = arrays[name]
         values[name] = by_node[mine].copy()
     return State(**values), {name[6:]: value for name, value in arrays.items() if name.startswith("extra.")}

@@ -19,8 +19,8 @@ class ModalDamping:
 
     def __init__(self, body, count: int, ratio: float):
         self.body, self.ratio = body, ratio
-        self.frequencies, self._shapes = elastic_modes(body, count)
-        self._momenta = np.array([body.apply(body.mass, shape) for shape in self._shapes]).reshape(self._shapes.shape)
+        self.frequencies, self.shapes = elastic_modes(body, count)
+        self._momenta = np.array([body.apply(body.mass, shape) for shape in self.shapes]).reshape(self.shapes.shape)
         self._rates = 2 * ratio * self.frequencies
 
     def _modal(self, velocity, rotation) -> np.ndarray:
@@ -33,12 +33,12 @@ class ModalDamping:
 
     def acceleration(self, velocity: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """M^-1 of `force`."""
-        return np.tensordot(self._modal(velocity, rotation), self._shapes, axes=1) @ rotation.T
+        return np.tensordot(self._modal(velocity, rotation), self.shapes, axes=1) @ rotation.T
 
     def damped(self, factor, mass_factor: float, stiffness_factor: float, rate_factor: float) -> DampedFactor:
         """Factor of mass_factor M + stiffness_factor (K + rate_factor C) from that of mass_factor M + stiffness_factor K."""
         own = mass_factor + stiffness_factor * self.frequencies**2
-        return DampedFactor(factor, self._shapes, 1 / (own + stiffness_factor * rate_factor * self._rates) - 1 / own)
+        return DampedFactor(factor, self.shapes, 1 / (own + stiffness_factor * rate_factor * self._rates) - 1 / own)
 
 
 class DampedFactor:

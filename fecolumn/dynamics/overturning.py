@@ -116,7 +116,7 @@ def steepest_to_come(gravity: np.ndarray, grounds: np.ndarray) -> np.ndarray:
     apparent = np.asarray(gravity, float) - np.asarray(grounds, float)
     level, down = np.hypot(apparent[:, 0], apparent[:, 1]), -apparent[:, 2]
     tangent = np.divide(level, down, out=np.full(len(apparent), np.inf), where=down > 0)
-    return np.maximum.accumulate(tangent[::-1])[::-1]
+    return np.ascontiguousarray(np.maximum.accumulate(tangent[::-1])[::-1])
 
 
 @njit

@@ -71,7 +71,7 @@ class System:
         column: Body.
         kinematics: Corotated or TotalLagrangian of the column.
         base: BasePlate.
-        foot_nodes: (n,) column nodes that may touch; areas: (n,) their tributary areas [m2].
+        foot: Footprint, the column nodes that may touch.
         friction, own, pad: of the Interface.
         gravity: (3,) [m/s2].
         hht: time integration whose step decides the filter of the contact.
@@ -80,18 +80,18 @@ class System:
         damping: ModalDamping of the column, or None. rolling: coefficient of the rim's `rolling.Resistance` [-].
     """
 
-    def __init__(self, column, kinematics, base, foot_nodes, areas, friction, own, gravity, hht: HHT, filtered=True,
+    def __init__(self, column, kinematics, base, foot, friction, own, gravity, hht: HHT, filtered=True,
                  rim=None, damping=None, restitution: float = 0.0, rolling: float = 0.0, pad=None):
         self.column, self.kinematics, self.base, self.damping = column, kinematics, base, damping
-        self.foot_nodes, self.areas = foot_nodes, areas
+        self.footprint, self.foot_nodes, self.areas = foot, foot.nodes, foot.areas
         self.gravity, self.hht = np.asarray(gravity, float), hht
         self.weight = column.total_mass * np.linalg.norm(self.gravity)
         self.factorizations = 1  # the base's
         self._operators: dict[tuple, Operators] = {}
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)
-        foot = FilteredFoot(column, foot_nodes, factor, hht.mass_factor, hht.stiffness_factor) if filtered \
-            else PlainFoot(column, foot_nodes)
-        self.interface = Interface(foot, column.all_X[foot_nodes], base, friction, own, rim, restitution, pad)
+        response = FilteredFoot(column, foot.nodes, factor, hht.mass_factor, hht.stiffness_factor) if filtered \
+            else PlainFoot(column, foot.nodes)
+        self.interface = Interface(response, column.all_X[foot.nodes], base, friction, own, rim, restitution, pad)
         self._add(hht.mass_factor, hht.stiffness_factor, hht.rate_factor, factor, np.eye(3))
         self.rolling, self.resistance = rolling, Resistance(column, rim, rolling) if rim and rolling else None
 

@@ -115,3 +115,10 @@ def boundary_faces(mesh: BrickMesh, part: int, z: float, tolerance: float) -> np
     clockwise = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0
     faces[clockwise] = faces[clockwise][:, ::-1]
     return faces
+
+
+def outline_edges(faces: np.ndarray) -> np.ndarray:
+    """(n, 2) point numbers of the edges that no two of the faces (n_faces, 4 or 3) share: the outlines of the surface that they make."""
+    edges = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
+    _, first, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
+    return edges[np.sort(first[count == 1])]

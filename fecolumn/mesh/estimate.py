@@ -21,8 +21,8 @@ FILL, FACTOR, SOLVE, MANY = 13.0, 6e-10, 1.7e-9, 0.6e-9
 PROGRAM = 300e6
 # Size keys, and the parts that they make large
 _KEYS = {"mesh.fine_size_m": (FLANGE, LOWER, BASE), "mesh.coarse_size_m": (UPPER,), "mesh.cap_size_m": (CAP,), "mesh.base_size_m": (BASE,)}
-# A size so large that it costs nothing more [m]
-_HUGE = 1e4
+# The largest size that a key takes [m]
+_HUGE = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,3 +142,10 @@ def _with(case: Case, key: str, value: float) -> Estimate:
     mesh = case.mesh
     sizes = {one: max(getattr(mesh, one), value) for one in ("coarse_size_m", "base_size_m")} if name == "fine_size_m" else {}
     return estimate(dataclasses.replace(case, mesh=dataclasses.replace(mesh, **sizes | {name: value})))
+
+
+def estimate_of_all(cases) -> str:
+    """What a study says of its meshes: how many there are, and the estimate of the largest."""
+    different = {(case.column, case.flange, case.cap, case.base, case.mesh): case for case in cases}
+    largest = max((estimate(case) for case in different.values()), key=lambda one: one.all_dofs)
+    return f"{len(different)} meshes, the largest of {largest}" if len(different) > 1 else str(largest)

@@ -36,12 +36,12 @@ def read_at2(path) -> Recording:
     found = _NAMES_FIRST.search(line) or _NUMBERS_FIRST.match(line)
     if not found:
         raise UnusableRecord(f"line {row}: {line.strip()!r} must state number and step, as in NPTS= 4000, DT= .0100 SEC")
-    points, dt = int(found["points"]), number(found["dt"])
+    points, dt = found["points"], number(found["dt"])
     if not 0 < dt < np.inf:
         raise UnusableRecord(f"line {row}: DT = {dt:g} s must be finite and greater than 0")
     values = _values(lines[head + 1:])
-    if len(values) != points:
-        raise UnusableRecord(f"the header states NPTS = {points} but {len(values)} values follow")
+    if points.lstrip("0") != str(len(values)):
+        raise UnusableRecord(f"the header states NPTS = {points[:20]} but {len(values)} values follow")
     header = [text.strip() for _, text in lines[:head]]
     return Recording(values[:, None], ("",), dt, _stated_units(header), Path(path).name, "; ".join(header))
 

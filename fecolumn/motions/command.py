@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from pathlib import Path
 
 from fecolumn.motions import lick, makers
@@ -79,13 +80,31 @@ def store(ensemble, output) -> int:
 
 
 def _ensemble_path(output) -> Path:
+    from fecolumn.motions.ensemble_file import TABLE_HEAD, is_ensemble
     from fecolumn.schema import InputError
 
     path = Path(output)
     if path.suffix not in (".h5", ".hdf5"):
         raise InputError("fecolumn motions", "-o", str(output), "must end in .h5")
     path.parent.mkdir(parents=True, exist_ok=True)
+    if os.path.lexists(path) and not is_ensemble(path):
+        raise InputError("fecolumn motions", "-o", str(output), "is there and no ensemble of motions; move it away or give another name")
+    table = path.with_suffix(".csv")
+    _refuse_foreign(table, TABLE_HEAD, "is there and no table of an ensemble; move it away or give the ensemble another name")
     return path
+
+
+def _refuse_foreign(path: Path, head: str, allowed: str) -> None:
+    """Refuse to write over a file that does not begin as ours do."""
+    from fecolumn.files import Unreadable, read_bytes
+    from fecolumn.schema import InputError
+
+    try:
+        own = not os.path.lexists(path) or read_bytes(path).startswith(head.encode())
+    except Unreadable:
+        own = False
+    if not own:
+        raise InputError("fecolumn motions", "-o", str(path), allowed)
 
 
 def _make_seeded(args) -> int:
@@ -107,7 +126,7 @@ def _fit(args) -> int:
 
     import fecolumn
     from fecolumn.motions.fit import components_of_record, fit
-    from fecolumn.motions.seeded import write_model
+    from fecolumn.motions.seeded import MODEL_HEAD, write_model
     from fecolumn.motions.target import target_of_record
     from fecolumn.schema import InputError
 
@@ -124,6 +143,7 @@ def _fit(args) -> int:
         motion, components = components_of_record(motion)
         target = target_of_record(motion)
     Path(args.output).parent.mkdir(parents=True, exist_ok=True)
+    _refuse_foreign(Path(args.output), MODEL_HEAD, "is there and no model of motions fit; move it away or give another name")
     model = fit(target, components, args.n, args.iterations, report=lambda line: print(line, flush=True))
     made_by = f"fecolumn motions fit {args.source} -n {args.n} --iterations {args.iterations}, version {fecolumn.__version__}"
     write_model(dataclasses.replace(model, made_by=made_by), args.output)
@@ -180,6 +200,7 @@ def _info(args) -> int:
 
 
 def _plot(args) -> int:
+    from fecolumn.folder import written
     from fecolumn.motions.ensemble_file import summary
     from fecolumn.post.motion_figures import motion_figures
     from fecolumn.schema import InputError
@@ -190,18 +211,23 @@ def _plot(args) -> int:
     for number in args.show or ():
         if not 1 <= number <= len(ensemble.motions):
             raise InputError(args.ensemble, "--show", number, f"must be a number from 1 to {len(ensemble.motions)}")
-    for file in motion_figures(ensemble, summary(ensemble), args.output, args.show, args.slenderness):
-        print(f"wrote {file}")
+    with written(args.output, "motions plot") as draft:
+        files = motion_figures(ensemble, summary(ensemble), draft, args.show, args.slenderness)
+    for file in files:
+        print(f"wrote {Path(args.output) / file.name}")
     return 0
 
 
 def _convert(args) -> int:
+    from fecolumn.folder import written
     from fecolumn.motions.ensemble import Ensemble
     from fecolumn.motions.ensemble_file import members
     from fecolumn.motions.export import write_text_files
     from fecolumn.motions.record import UnusableRecord
     from fecolumn.schema import InputError
 
+    if Path(args.output).suffix in (".h5", ".hdf5"):
+        _ensemble_path(args.output)
     motions = []
     for source in args.sources:
         try:
@@ -211,6 +237,8 @@ def _convert(args) -> int:
         motions += [_read(one, args) for one in found]
     if Path(args.output).suffix in (".h5", ".hdf5"):
         return store(Ensemble(Path(args.output).stem, tuple(motions), {}, {"model": "collected", "sources": args.sources}), args.output)
-    for file in write_text_files(motions, args.output, args.format):
-        print(f"wrote {file}")
+    with written(args.output, "motions convert") as draft:
+        files = write_text_files(motions, draft, args.format)
+    for file in files:
+        print(f"wrote {Path(args.output) / file.name}")
     return 0

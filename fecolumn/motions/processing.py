@@ -19,6 +19,7 @@ _TAPER = 0.02
 # Kaiser window: 80 dB of attenuation, transition between 0.92 and 1.0 of the lower Nyquist frequency
 _HALF_LENGTH, _CUTOFF, _KAISER_BETA = 64, 0.96, 8.0
 _TIME_ERROR = 5e-4
+_LONGEST = 1_000_000  # of the ratio's numbers: the filter has 128 times as many terms, a gigabyte
 
 
 class AliasingWarning(UserWarning):
@@ -198,7 +199,7 @@ def resample(motion: GroundMotion, dt: float) -> GroundMotion:
         dt: new step [s].
 
     Raises:
-        ValueError: dt is longer than the motion.
+        ValueError: dt is longer than the motion, or the ratio of steps is too odd.
 
     Warns:
         AliasingWarning: more than 5 % of the Arias intensity is filtered out.
@@ -215,6 +216,8 @@ def resample(motion: GroundMotion, dt: float) -> GroundMotion:
                       f"the Nyquist frequency of dt = {dt:g} s, and is filtered out", AliasingWarning, stacklevel=2)
     up, down = ratio.numerator, ratio.denominator
     longer = max(up, down)
+    if longer > _LONGEST:
+        raise ValueError(f"dt = {dt:g} s has no simple ratio to the motion's step, {motion.dt:.12g} s: the filter between them would fill the memory")
     low_pass = firwin(2 * _HALF_LENGTH * longer + 1, _CUTOFF / longer, window=("kaiser", _KAISER_BETA))
     resampled = resample_poly(motion.acceleration, up, down, axis=0, window=low_pass, padtype="line")
     return dataclasses.replace(motion, acceleration=resampled[:(n_steps - 1) * up // down + 1], dt=dt)

@@ -9,6 +9,8 @@ import numpy as np
 
 from fecolumn.case import GRAVITY
 
+# Samples of a motion [-], its step [s] and acceleration [m/s2]: beyond them a file is damaged or its unit is wrong
+MOST_SAMPLES, STEPS_S, LARGEST = 10_000_000, (1e-6, 10.0), 1e5
 METRES_PER_S2 = {"g": GRAVITY, "m/s2": 1.0, "cm/s2": 1e-2, "mm/s2": 1e-3}
 
 
@@ -55,6 +57,19 @@ class GroundMotion:
     def pga(self) -> np.ndarray:
         """Peak absolute acceleration (3,) [m/s2]."""
         return np.abs(self.acceleration).max(axis=0)
+
+
+def sound(motion: GroundMotion) -> GroundMotion:
+    """The motion itself.
+
+    Raises:
+        UnusableRecord: its step or an acceleration is none that a ground motion has.
+    """
+    if not STEPS_S[0] <= motion.dt <= STEPS_S[1]:
+        raise UnusableRecord(f"is sampled at {motion.dt:g} s; must be in [{STEPS_S[0]:g}, {STEPS_S[1]:g}] s")
+    if not motion.pga.max() <= LARGEST:  # not so for nan
+        raise UnusableRecord(f"holds an acceleration of {motion.pga.max():g} m/s2; must be finite and at most {LARGEST:g}")
+    return motion
 
 
 def motion_hash(motion: GroundMotion) -> str:

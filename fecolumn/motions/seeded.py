@@ -90,10 +90,14 @@ def check_target(target: Target, path) -> None:
         raise InputError(path, "target.periods_s", None, "must be at least five rising periods [s]")
 
 
+#: How a parameter file begins
+MODEL_HEAD = "# Stochastic model of ground motion fitted to a seed motion"
+
+
 def write_model(model: SeededModel, path) -> None:
     """Write a parameter file that read_model reads."""
     tables = dataclasses.asdict(model)
-    lines = ["# Stochastic model of ground motion fitted to a seed motion; see fecolumn/motions/stochastic.py for the equations."]
+    lines = [f"{MODEL_HEAD}; see fecolumn/motions/stochastic.py for the equations."]
     lines += [_line(key, value) for key, value in tables.items() if not isinstance(value, dict)]
     for name, table in tables.items():
         if isinstance(table, dict):

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import numpy as np
 
+from fecolumn.files import Unreadable, read_bytes
 from fecolumn.motions.record import UnusableRecord
 
 _SPELLINGS = {"g": ("g", "g's"),
               "m/s2": ("m/s2", "m/s/s"),
               "cm/s2": ("cm/s2", "cm/s/s", "gal", "gals"),
               "mm/s2": ("mm/s2", "mm/s/s")}
+# Times since 1970 are below it [s]; and what numbers of their size may be rounded by, as a share of a step
+_LATEST_S, _RESOLVED = 1e13, 1e-4
 _UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
 
 
@@ -23,13 +25,9 @@ def read_text(path) -> str:
         UnusableRecord: there is no such file, it may not be read, is empty, or is not text.
     """
     try:
-        data = Path(path).read_bytes()
-    except FileNotFoundError:
-        raise UnusableRecord("no such file") from None
-    except IsADirectoryError:
-        raise UnusableRecord("is a directory; a file is needed") from None
-    except OSError as error:
-        raise UnusableRecord(f"may not be read ({error.strerror})") from None
+        data = read_bytes(path)
+    except Unreadable as error:
+        raise UnusableRecord(str(error)) from None
     data = data.rstrip(b"\x1a")  # DOS marked the end of a text so
     if re.search(rb"[\x00-\x08\x0e-\x1f\x7f]", data):
         raise UnusableRecord("is not a text file (it holds control characters)")
@@ -74,8 +72,13 @@ def uniform_step(time: np.ndarray, lines: list[int], dt_s: float) -> float:
     Raises:
         UnusableRecord: times fall, repeat, or are not even.
     """
+    latest = float(np.abs(time).max())
+    if latest > _LATEST_S:
+        raise UnusableRecord(f"line {lines[int(np.argmax(np.abs(time)))]}: t = {latest:g} s; times must be at most {_LATEST_S:g} s")
     steps = np.diff(time)
     dt = (time[-1] - time[0]) / len(steps)
+    if np.spacing(latest) > _RESOLVED * dt > 0:
+        raise UnusableRecord(f"times around {latest:g} s do not tell steps of {dt:.3g} s apart: subtract the first one")
     rounded = dt_s > 0 and abs(dt - dt_s) * len(steps) < 0.5 * dt_s
     worst = int(np.argmin(steps))
     if steps[worst] < 0 or (steps[worst] == 0 and not rounded):

@@ -77,12 +77,12 @@ def _pairs(axes, a, b, labels, limit_mm: float, correlation) -> None:
               label=f"overturns in one: {one.sum()}")
     axes.plot(x[both][:1], y[both][:1], "s", color=BLACK, markersize=4.5, zorder=3, label=f"overturns in both: {both.sum()}")
     ticks = [tick for tick in MaxNLocator(5).tick_values(0, limit_mm) if 0 <= tick < 0.97 * limit_mm]
-    names = [f"{tick:g}" for tick in ticks] + ["overturn"]
+    if not (both | one).any():  # no strip for what is not there
+        end, fallen = limit_mm, []
+    names = [f"{tick:g}" for tick in ticks] + (["over-\nturned"] if np.size(fallen) else [])
     axes.set(xlim=(0, end), ylim=(0, end), aspect="equal", xlabel=rf"$u_{{\max}}$ [mm], {labels[1]}", ylabel=rf"$u_{{\max}}$ [mm], {labels[0]}")
-    axes.set_xticks([*ticks, fallen], names)
-    axes.set_yticks([*ticks, fallen], names)
-    for label in axes.get_yticklabels()[-1:]:
-        label.set(rotation=90, verticalalignment="center")
+    axes.set_xticks([*ticks, *np.atleast_1d(fallen)], names)
+    axes.set_yticks([*ticks, *np.atleast_1d(fallen)], names)
     axes.grid(False)
     if correlation is not None and np.isfinite(correlation):
         axes.text(0.04, 0.86, f"$R$ = {correlation:.2f}".replace("-", "\N{MINUS SIGN}"), transform=axes.transAxes, verticalalignment="top")

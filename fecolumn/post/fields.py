@@ -13,7 +13,7 @@ from fecolumn.dynamics.checkpoint import gather_all
 from fecolumn.material.elasticity import isotropic_stress, von_mises
 from fecolumn.material.kinematics import linear_strain
 
-_TOPOLOGY = '<Topology TopologyType="Hexahedron" NumberOfElements="{cells}"><DataItem Dimensions="{cells} 8" Format="HDF" NumberType="Int" Precision="8">mesh.h5:/cells</DataItem></Topology>'
+_TOPOLOGY = '<Topology TopologyType="{kind}" NumberOfElements="{cells}"><DataItem Dimensions="{numbers}" Format="HDF" NumberType="Int" Precision="8">mesh.h5:/cells</DataItem></Topology>'
 _GEOMETRY = '<Geometry GeometryType="XYZ"><DataItem Dimensions="{points} 3" Format="HDF" Precision="8">mesh.h5:/points</DataItem></Geometry>'
 _FIELD = '<Attribute Name="{title}" AttributeType="{kind}" Center="{center}"><DataItem Dimensions="{shape}" Format="HDF" Precision="8">{file}:/{name}</DataItem></Attribute>'
 
@@ -25,13 +25,13 @@ class FieldWriter:
 
     Args:
         column: Body. plate: BasePlate, None for a base without bricks, which is not shown.
-        foot_nodes: (n,) column nodes that may touch; areas: (n,) tributary to them [m2].
+        foot: Footprint, the column nodes that may touch and those that they stand for.
         specimen: SpecimenMesh of both.
     """
 
-    def __init__(self, folder: Path, column, plate, foot_nodes, areas, specimen):
+    def __init__(self, folder: Path, column, plate, foot, specimen):
         self.folder, self.specimen = folder, specimen
-        self.column, self.plate, self.foot_nodes, self.areas = column, plate, foot_nodes, areas
+        self.column, self.plate, self.foot = column, plate, foot
         bodies = (column, plate.body) if plate else (column,)
         self._nodes = [_vertex_nodes(body) for body in bodies]
         self._offset = len(specimen.body.points)
@@ -43,12 +43,18 @@ class FieldWriter:
 
     def _points_of_foot(self) -> np.ndarray:
         at = {node: point for point, node in enumerate(self._nodes[0])}
-        return np.array([at.get(node, -1) for node in self.foot_nodes])
+        return np.array([at.get(node, -1) for node in self.foot.all_nodes])
 
     def _write_mesh(self) -> None:
         body, base = self.specimen.body, self.specimen.base
+        if body.is_tetrahedral:
+            # XDMF tells elements of different kinds in one list by their numbers: 6 a tetrahedron, 9 a brick
+            lists = ((6, body.cells), (9, base.cells + self._offset))
+            cells = np.concatenate([np.insert(some, 0, number, axis=1).ravel() for number, some in lists])
+        else:
+            cells = np.vstack([body.cells, base.cells + self._offset])
         _write_h5(self.folder / "mesh.h5", {
-            "points": np.vstack([body.points, base.points]), "cells": np.vstack([body.cells, base.cells + self._offset]),
+            "points": np.vstack([body.points, base.points]), "cells": cells,
             "part": np.concatenate([body.part, base.part]).astype(float)})
 
     def write(self, time: float, x, local, positions, forces, at_nodes) -> None:
@@ -68,7 +74,7 @@ class FieldWriter:
             return
         pressure = np.zeros(self._offset + len(self.specimen.base.points))
         at_vertex = self._pressure_points >= 0
-        pressure[self._pressure_points[at_vertex]] = (at_nodes[:, 2] / self.areas)[at_vertex]
+        pressure[self._pressure_points[at_vertex]] = (at_nodes[:, 2] / self.foot.areas)[self.foot.nearest][at_vertex]
         name = f"frame_{round(time * 1e6):012d}.h5"
         _write_h5(self.folder / name, {
             "displacement": np.vstack([values[nodes] for values, nodes in zip(displacement, self._nodes)]),
@@ -78,6 +84,9 @@ class FieldWriter:
     def _write_index(self) -> None:
         points = self._offset + len(self.specimen.base.points)
         cells = len(self.specimen.body.cells) + len(self.specimen.base.cells)
+        mixed = self.specimen.body.is_tetrahedral
+        kind = "Mixed" if mixed else "Hexahedron"
+        numbers = 5 * len(self.specimen.body.cells) + 9 * len(self.specimen.base.cells) if mixed else f"{cells} 8"
         grids = []
         for frame in sorted(self.folder.glob("frame_*.h5")):
             fields = [_FIELD.format(title="displacement [m]", kind="Vector", center="Node", shape=f"{points} 3", file=frame.name, name="displacement"),
@@ -85,7 +94,7 @@ class FieldWriter:
                       _FIELD.format(title="contact pressure [Pa]", kind="Scalar", center="Node", shape=points, file=frame.name, name="pressure"),
                       _FIELD.format(title="part", kind="Scalar", center="Cell", shape=cells, file="mesh.h5", name="part")]
             time = int(frame.stem.split("_")[1]) / 1e6
-            grids.append(f'<Grid Name="fecolumn" GridType="Uniform"><Time Value="{time}"/>' + _TOPOLOGY.format(cells=cells)
+            grids.append(f'<Grid Name="fecolumn" GridType="Uniform"><Time Value="{time}"/>' + _TOPOLOGY.format(cells=cells, kind=kind, numbers=numbers)
                          + _GEOMETRY.format(points=points) + "".join(fields) + "</Grid>")
         text = ('<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain><Grid Name="frames" GridType="Collection" CollectionType="Temporal">\n'
                 + "\n".join(grids) + "\n</Grid></Domain></Xdmf>\n")
@@ -93,7 +102,7 @@ class FieldWriter:
 
 
 class _StressField:
-    """Von Mises stress at the middle of each brick, in the order of the input mesh."""
+    """Von Mises stress at the middle of each element, in the order of the input mesh."""
 
     def __init__(self, body):
         self.body = body

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.post.style import BLUE, GREY, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
+from fecolumn.post.style import BLUE, COLUMN_WIDTH_IN, GREY, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,18 +35,22 @@ class Scale:
     level_label: str = ""
 
 
-def interval_figure(columns: list[tuple[Scale, list[Estimate]]], path, formats=("png", "pdf")) -> list[Path]:
-    """Write the figure; the columns share their rows.
+def interval_figure(columns: list[tuple[Scale, list[Estimate]]], path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN) -> list[Path]:
+    """Write the figure; the columns share their rows, and stand one above the other in a figure of a column's width.
 
     Args:
         columns: scale and estimates of each; the estimates of all name the same rows.
         path: file name without suffix.
         formats: of the files.
+        width_in: of the figure.
     """
-    rows = len(columns[0][1])
+    rows, narrow = len(columns[0][1]), width_in <= COLUMN_WIDTH_IN
+    names = [one.name.replace(", ", ",\n") if narrow else one.name for one in columns[0][1]]
+    row_in = 0.19 if not narrow else 0.08 + 0.13 * max(name.count("\n") + 1 for name in names)
+    shape = (len(columns), 1) if narrow else (1, len(columns))
     with styled():
-        figure = new_figure(PAGE_WIDTH_IN, 0.75 + 0.19 * max(rows, 2))
-        grid = figure.subplots(1, len(columns), squeeze=False, sharey=True)[0]
+        figure = new_figure(width_in, shape[0] * (0.75 + row_in * max(rows, 2)))
+        grid = figure.subplots(*shape, squeeze=False, sharey=True).ravel()
         for axes, (scale, estimates) in zip(grid, columns):
             for place, one in enumerate(estimates):
                 axes.plot([one.low, one.high], [place, place], color=BLUE, linewidth=1.2, solid_capstyle="butt")
@@ -61,5 +65,6 @@ def interval_figure(columns: list[tuple[Scale, list[Estimate]]], path, formats=(
             axes.set(xlabel=scale.label, xlim=scale.limits, ylim=(rows - 0.4, -0.6))
             axes.grid(axis="y", visible=False)
             axes.tick_params(axis="y", length=0)
-        grid[0].set_yticks(range(rows), [one.name for one in columns[0][1]])
+        for axes in grid if narrow else grid[:1]:
+            axes.set_yticks(range(rows), names)
         return save(figure, path, formats)

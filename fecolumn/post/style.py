@@ -48,3 +48,8 @@ def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
     for file in files:
         figure.savefig(file, metadata={".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(file.suffix))
     return files
+
+
+def legend_beside(axes) -> None:
+    """Legend to the right of the axes, where it hides nothing."""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.005, 1.0), borderaxespad=0, framealpha=0)

@@ -30,7 +30,7 @@ CHUNK = 500
 
 def engine_of(case, model, base, upright: bool = False) -> Engine:
     """The reduced engine of a case at its start, or in gravity equilibrium."""
-    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas)
+    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas) + model.relief
     plan, pad = case.integration, pad_of(case, model.areas, model.mass)
 
     def begin(engine):
@@ -58,12 +58,12 @@ class ReducedAnalysis(Analysis):
         self.model, self.base, self.model_folder = load_model(case, self.say)
         self.warn_of_base(self.base.frequency, pad_of(case, self.model.areas, self.model.mass), file)
         if not compiled(advance):
-            self.say("compiling the reduced engine, once on this machine: a minute or two")
+            self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
         self.engine = engine_of(case, self.model, self.base)
+        self.began = time.perf_counter()  # what was made and compiled so far was so for all analyses
         self.stance, self.top_arm = self.engine.eye.stance, self.model.top_arm
         self.fields = self._fields() if self.field_steps else None
-        if (folder / CHECKPOINT).is_file():
-            self._resume()
+        if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.scalars[motions.TIME]:.4f} s")
         else:
             self.standing_j = standing_energy(case, self.model, self.base) if case.initial.tilt_rad else self.engine.mechanical()
@@ -84,7 +84,7 @@ class ReducedAnalysis(Analysis):
         saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
-                began, count = time.perf_counter(), min(CHUNK, self.steps - self.step)
+                began, made_s, count = time.perf_counter(), self.base.made_s, min(CHUNK, self.steps - self.step)
                 if self.step < self.motion_steps:
                     count = min(count, self.motion_steps - self.step)
                 if self.fields:
@@ -92,7 +92,9 @@ class ReducedAnalysis(Analysis):
                 steps = range(self.step + 1, self.step + count + 1)
                 rows, over = engine.advance(np.array([self.ground(k) for k in steps]), np.array([self.steepest(k) for k in steps]), self.rest_j)
                 self.step += len(rows)
-                self.stepping_s += time.perf_counter() - began
+                made_s = self.base.made_s - made_s
+                self.began += made_s
+                self.stepping_s += time.perf_counter() - began - made_s
                 self._note(rows)
                 last = rows[-1]
                 progress.show(self.step, dict(time=last[0], tilt=last[4], active_nodes=int(last[11])), engine.record)
@@ -135,12 +137,14 @@ class ReducedAnalysis(Analysis):
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
-    def _resume(self) -> None:
+    def _take(self, saved: dict) -> None:
         engine = self.engine
-        with np.load(self.folder / CHECKPOINT) as file:
-            saved = {name: file[name] for name in file.files}
-        for prefix, target in (("motion", engine.motion), ("bed", engine.bed)):
-            for name, values in target._asdict().items():
-                values[...] = saved[f"{prefix}.{name}"]
-        engine.ledger[:], engine.counts[:] = saved["ledger"], saved["counts"]
+        targets = {f"{prefix}.{name}": values for prefix, target in (("motion", engine.motion), ("bed", engine.bed))
+                   for name, values in target._asdict().items()}
+        targets |= dict(ledger=engine.ledger, counts=engine.counts)
+        for name, values in targets.items():
+            if saved[name].shape != values.shape or not np.can_cast(saved[name].dtype, values.dtype):
+                raise ValueError(f"{name} does not fit")
         self.resumed(saved)
+        for name, values in targets.items():
+            values[...] = saved[name]

@@ -15,6 +15,7 @@ import json
 import os
 import shutil
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -39,11 +40,12 @@ class KnownBase:
 
     How far it is known depends on where the column went, its numbers do not: each reach is found once as a whole, and kept on disk.
 
-    Attributes as of `contact.base_plate.BasePlate`: grid, slot, compliance (blocks), frequency. dofs: of its mesh.
+    Attributes as of `contact.base_plate.BasePlate`: grid, slot, compliance (blocks), frequency. dofs: of its mesh. made_s: wall time spent
+    on reaches that no analysis had needed before [s].
     """
 
     def __init__(self, folder: Path, make):
-        self._folder, self._make, self._reach = folder, make, 0
+        self._folder, self._make, self._reach, self.made_s = folder, make, 0, 0.0
         with np.load(folder / "base.npz") as file:
             self.grid, self.frequency, self.dofs = BaseTop(file["points"]), float(file["frequency"]), int(file["dofs"])
             self._foot, self._allowance = file["foot"], float(file["allowance"])
@@ -54,9 +56,11 @@ class KnownBase:
         while (self.slot[wanted] < 0).any():
             self._reach += 1
             if not self._file("known").is_file():
+                began = time.perf_counter()
                 with alone(self._folder):
                     if not self._file("known").is_file():
                         self._extend()
+                self.made_s += time.perf_counter() - began
             self._open()
 
     def _file(self, name: str) -> Path:
@@ -98,8 +102,13 @@ def model_key(case: Case) -> str:
         for key in ("length_m", "width_m", "slide_allowance_m"):
             del tables["base"][key]
     tables["material"].pop("damping_ratio", None)  # no operator has it
-    tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT)
+    tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT, interior=case.contact.interior_points)
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
+
+
+def model_folder(case: Case) -> Path:
+    """Where the model of a case is kept, or will be."""
+    return cache_folder() / f"model-{model_key(case)}"
 
 
 def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBase, Path]:
@@ -108,7 +117,7 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
     Args:
         say: told when a model has to be made, which takes up to a minute.
     """
-    folder = cache_folder() / f"model-{model_key(case)}"
+    folder = model_folder(case)
     if not folder.is_dir():
         with alone(folder):  # of the workers of a study that start at once, one makes it
             if not folder.is_dir():
@@ -145,19 +154,20 @@ def make_bodies(case: Case):
 
 def _make(case: Case, folder: Path) -> None:
     from fecolumn.dynamics.assembly import base_of, foot_of
+    from fecolumn.dynamics.footprint import relief
     from fecolumn.dynamics.observer import top_of
     from fecolumn.reduced.build import column_model
 
     body, plate, specimen = make_bodies(case)
-    foot, areas = foot_of(case, specimen, body)
-    model, fields = column_model(body, foot, areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES))
+    foot = foot_of(case, specimen, body)
+    below = plate or base_of(case, body.all_X[foot.nodes])
+    model, fields = column_model(body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES), relief(body, below, foot))
     if plate:
         allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
         plate.need(_under(plate.grid.points, model.reference, allowance))
         base = dict(points=plate.grid.points, frequency=plate.frequency, dofs=plate.dofs, foot=model.reference, allowance=allowance)
     else:
-        flat = base_of(case, model.reference)
-        base = dict(size=flat.grid.size, response=flat.response, frequency=flat.frequency)
+        base = dict(size=below.grid.size, response=below.response, frequency=below.frequency)
     folder.parent.mkdir(parents=True, exist_ok=True)
     partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     partial.chmod(0o755)

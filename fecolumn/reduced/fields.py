@@ -23,12 +23,12 @@ class ReducedFields:
 
     def __init__(self, folder, case, model, model_folder):
         column, plate, specimen = make_bodies(case)
-        foot, areas = foot_of(case, specimen, column)
-        if not np.allclose(column.all_X[foot], model.reference):
+        foot = foot_of(case, specimen, column)
+        if not np.allclose(column.all_X[foot.nodes], model.reference):
             raise RuntimeError(f"the cached model has another mesh than the one made now: delete {model_folder}")
-        self._body, self._free, self._model, self._foot = column, FreeBody(column), model, foot
+        self._body, self._free, self._model, self._foot = column, FreeBody(column), model, foot.nodes
         self._shapes = np.load(model_folder / "fields.npy", mmap_mode="r")[:len(model.frequencies)]
-        self._writer = FieldWriter(folder, column, plate, foot, areas, specimen)
+        self._writer = FieldWriter(folder, column, plate, foot, specimen)
 
     def write(self, engine) -> None:
         """Add the frame of the engine's motion."""

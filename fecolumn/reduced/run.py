@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
+from fecolumn._compiled import compile_for, njit
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS, steepest_to_come
 from fecolumn.dynamics.stage import Stop
@@ -89,13 +89,17 @@ class Engine:
         self.base.need(np.unique(base.grid.project(model.reference)[0]))
         self.plate = plate_of(base)
         self.ledger = np.zeros(N_PLACES)
+        compile_for(advance, self._arguments(self._scheme(hht), self.spare, self.spare))
         self.motion = start(self)
         self.ledger[0] = self.mechanical()
 
     def settle(self, scheme, motion, end) -> int:
         """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way to end."""
-        return advance(self.column, self.plate, scheme, self.points, self.footing, self.bed, self.eye, motion, end, self.sway,
-                       np.empty((0, 3)), np.empty(0), -np.inf, np.empty((0, WIDTH)), self.ledger, self.counts)[1]
+        return advance(*self._arguments(scheme, motion, end))[1]
+
+    def _arguments(self, scheme, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=-np.inf, rows=np.empty((0, WIDTH))) -> tuple:
+        return (self.column, self.plate, scheme, self.points, self.footing, self.bed, self.eye, motion, spare, self.sway, grounds, steepest, rest,
+                rows, self.ledger, self.counts)
 
     @property
     def record(self) -> Record:
@@ -153,8 +157,7 @@ class Engine:
         """Steps of `hht` until one fails for a reason other than a base not known yet."""
         done = 0
         while True:
-            made, answer = advance(self.column, self.plate, self._scheme(hht), self.points, self.footing, self.bed, self.eye, self.motion, self.spare,
-                                   self.sway, grounds[done:], steepest[done:], rest, rows[done:], self.ledger, self.counts)
+            made, answer = advance(*self._arguments(self._scheme(hht), self.motion, self.spare, grounds[done:], steepest[done:], rest, rows[done:]))
             done += made
             if answer != FAR_BASE:
                 return done, answer

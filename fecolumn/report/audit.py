@@ -9,7 +9,7 @@ from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.distributions import axis_columns
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import axis_name, count, fixed, number, setting_text
+from fecolumn.report.notation import axis_name, count, fixed, number
 from fecolumn.report.sweep import Setting, Sweep
 from fecolumn.study.store import DONE, FAILED
 
@@ -55,7 +55,7 @@ def _energy(sweep: Sweep) -> str:
         return "No analysis states how its energy ledger closes."
     worst, setting, run = max(runs, key=lambda one: one[0])
     median, open_ = float(np.median([one[0] for one in runs])), sum(one[0] > _CLOSED for one in runs)
-    at = f" ({run['motion']}, {setting_text(setting.values)})" if run.get("motion") else f" ({setting_text(setting.values)})"
+    at = f" ({run['motion']}, {sweep.words(setting.values)})" if run.get("motion") else f" ({sweep.words(setting.values)})"
     text = ("The energy ledger (kinetic, strain and gravity energy against the work of base motion, friction, impact, contact and numerical "
             f"damping) closes to {number(median)} of the energy moved in the median and {number(worst)} at worst{at if worst else ''}. ")
     return text + (f"{count(open_, 'analysis')} {'misses' if open_ == 1 else 'miss'} {number(_CLOSED)}: look at them before trusting their "
@@ -72,7 +72,7 @@ def _table(sweep: Sweep) -> Table:
                Column("closure_median", "closure, median", number), Column("closure_worst", "worst", number),
                Column("penetration_max_m", "pene\N{SOFT HYPHEN}tration [mm]", lambda value: number(None if value is None else 1e3 * value)),
                Column("cuts", "step cuts", number), Column("impacts_mean", "impacts a run", number),
-               Column("algorithmic_share", "loss by damping [%]", _hundred), Column("impact_share", "impact [%]", _hundred),
+               Column("algorithmic_share", "loss by HHT [%]", _hundred), Column("impact_share", "impact [%]", _hundred),
                Column("friction_share", "friction [%]", _hundred),
                Column("overturn_first_s overturn_last_s", "overturned at [s]", _span))
     return Table("audit", columns, rows, "Audit of every setting: analyses; relative closure error of the energy ledger; largest "
@@ -112,7 +112,7 @@ def _mean(setting: Setting, name: str):
 def _share(setting: Setting, term: str):
     """Part of a term of the ledger in all losses of the setting [-]."""
     ledgers = [run["energy_j"] for run in setting.runs.values() if isinstance(run.get("energy_j"), dict)]
-    losses = {name: -sum(ledger.get(name, 0.0) for ledger in ledgers) for name in ("algorithmic", "impact", "friction", "contact")}
+    losses = {name: -sum(ledger.get(name, 0.0) for ledger in ledgers) for name in ("algorithmic", "impact", "friction", "contact", "damping", "rolling")}
     whole = sum(max(loss, 0.0) for loss in losses.values())
     return losses[term] / whole if whole > 0 else None
 
@@ -137,6 +137,5 @@ def _overturn_times(sweep: Sweep, gallery: Gallery):
     if not any(curve.y[-1] > 0 for curve in curves):
         return None
     panel = CurvePanel("time $t$ [s]", "share overturned by $t$", curves, {"xlim": (0, end), "ylim": (0, None)})
-    files = line_figure([panel], gallery.path("overturn_times"), gallery.formats)
-    return gallery.figure("overturn_times", files, "Share of the runs that have overturned by a time" +
-                          (f", for each {axis_name(axis)}, all other settings together." if axis else "."))
+    return gallery.draw("overturn_times", "Share of the runs that have overturned by a time" +
+                        (f", for each {axis_name(axis)}, all other settings together." if axis else "."), line_figure, [panel])

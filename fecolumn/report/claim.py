@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from fecolumn.statistics.equivalence import detectable_distance
+
 SUPPORTED, NOT_SUPPORTED, UNDECIDED = "supported", "not supported", "undecided"
 
 #: Katsamakas & Vassiliou's P(overturn). The specimen's free dimensions were chosen to come near it: never a result.
 CALIBRATION_TARGET = 50 / 115
-#: Distance at which the two-sample Kolmogorov-Smirnov test of two times 115 motions rejects at 5 %: what the paper's own
-#: ensemble would show. A difference that is excluded beyond it is called marginal.
-MARGIN = 1.3581 * (2 / 115)**0.5
+#: Motions of the paper's ensemble.
+PAPER_MOTIONS = 115
+#: Distance that the paper's own ensemble would show. A difference that is excluded beyond it is called marginal.
+MARGIN = detectable_distance(PAPER_MOTIONS)
 
 
 @dataclass(frozen=True, slots=True)

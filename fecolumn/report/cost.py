@@ -15,7 +15,7 @@ _SMALL = 1.5  # a factor below it is a small increase
 
 
 def second_cost(setting: Setting, motions=None) -> np.ndarray:
-    """Wall time per second of analysed motion [s/s], one a motion: stepping alone, no start and no files."""
+    """Wall time per second of analysed motion [s/s], one a motion: stepping alone, no start, no files, nothing made once."""
     step_s, steps, duration_s = (setting.column(name, motions) for name in ("s_per_step", "steps", "duration_s"))
     return np.divide(step_s * steps, duration_s, out=np.full(step_s.shape, np.nan), where=duration_s > 0)
 

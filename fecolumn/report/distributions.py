@@ -6,14 +6,15 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import Panel, cdf_figure
+from fecolumn.post.cdf_figure import BARS, SHADED, SHADES, Panel, cdf_figure
 from fecolumn.post.interval_figure import Estimate, Scale, interval_figure
 from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
-from fecolumn.report.claim import CALIBRATION_TARGET, MARGIN
+from fecolumn.report.claim import CALIBRATION_TARGET
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, p_value, percent, percent_interval, plain_level, setting_text)
+from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, p_value, percent, percent_interval, plain_level, sentence, setting_text)
 from fecolumn.report.pair import Pair
+from fecolumn.report.power import power
 from fecolumn.report.sweep import Setting, Sweep
 from fecolumn.statistics.convergence import cdf_convergence
 from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
@@ -29,25 +30,35 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
     blocks: list = []
     for name, axis in _views(sweep):
         panels = _panels(sweep, axis)
-        files = cdf_figure(panels, gallery.path(name), gallery.formats)
         other = [axis_name(one) for one in sweep.varied if one != axis]
         what = f"a line for each {axis_name(axis)}" if axis else \
             "settings of the study" if len(sweep.done) <= _LINES else "the settings of least, middle and largest P(overturn)"
-        blocks.append(gallery.figure(name, files, f"Distribution of the largest top displacement: {what}"
+        blocks.append(gallery.draw(name, f"Distribution of the largest top displacement: {what}"
                       + (f", a panel for each {' and '.join(other)}" if other and axis else "") + _left_out(sweep, axis, panels)
-                      + ". Overturned runs are censored: a distribution ends at 1 − P(overturn). Shades: pointwise 95 % bands (Greenwood); "
-                        "in the legend P(overturn) with Wilson's 95 % interval."))
+                      + f". Overturned runs are censored: a distribution ends at 1 − P(overturn). {_bands(panels)}: pointwise 95 % bands (Greenwood)"
+                        f"{_seen(panels)}; in the legend P(overturn) with Wilson's 95 % interval.", cdf_figure, panels))
     first = blocks[0].name
     blocks.insert(0, Paragraph(_opening(sweep, first)))
     blocks += _overturning(sweep, gallery)
+    if len(sweep.done) > 1:
+        blocks.append(power(sweep))
     if pairs:
         blocks += [Paragraph("[[families]] and, pair by pair, [[comparisons]] compare settings that differ in one parameter alone. The same "
                              "motions are in both, so the paired permutation p is the one to judge by, and that of independent samples is "
                              "conservative; p (Holm) is the paired one, corrected for the family of tests that answer one question. The "
-                             "last column is the other side of the test, the largest distance that the data cannot exclude at 95 %. For "
-                             f"scale: two times 115 motions need {fixed(MARGIN)} to reject."),
+                             "last column is the other side of the test, the largest distance that the data cannot exclude at 95 %."),
                    _families(pairs), _comparisons(sweep, pairs)]
     return Section("Distributions", blocks + _convergence(sweep, gallery))
+
+
+def _bands(panels: list[Panel]) -> str:
+    """What the bands of a figure are."""
+    kinds = {(SHADES if len(panel.lines) <= SHADED else BARS).partition(":")[0] for panel in panels}
+    return " and ".join(sorted(kinds)).capitalize()
+
+
+def _seen(panels: list[Panel]) -> str:
+    return ", of each line at places of its own" if any(len(panel.lines) > SHADED for panel in panels) else ""
 
 
 def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
@@ -97,8 +108,8 @@ def _opening(sweep: Sweep, figure: str) -> str:
     u, over = sweep.reference.peaks()
     fallen = sweep.reference.column("overturned")
     low, high = proportion_interval(int(fallen.sum()), fallen.size)
-    return (f"[[{figure}]] shows the distribution of the largest top displacement of the column, u_max, in every setting. At "
-            f"{setting_text(sweep.reference.values)} half of the {count(over.size, 'motion')} stay below "
+    return (f"[[{figure}]] shows the distribution of the largest top displacement of the column, u_max, in every setting. "
+            f"{sentence(sweep.at(sweep.reference.values))} half of the {count(over.size, 'motion')} stay below "
             f"{millimetres(percentile(u, over, 0.5))}{' mm' if np.isfinite(percentile(u, over, 0.5)) else ' (half or more are lost)' if fallen.sum() < over.sum() else ' (half or more overturn)'}, and "
             f"{int(fallen.sum())} overturn: P(overturn) = {percent(fallen.mean())}, 95 % interval {interval(low, high, percent)}.")
 
@@ -132,9 +143,8 @@ def _overturning(sweep: Sweep, gallery: Gallery) -> list:
         return [table]
     scale = Scale(r"$P$(overturn) [%], 95 % interval (Wilson)", (0, None),
                   *((100 * CALIBRATION_TARGET, "calibration target 43.5 %") if gallery.paper else ()))
-    files = interval_figure([(scale, estimates)], gallery.path("p_overturn"), gallery.formats)
-    caption = "Probability of overturning in every setting."
-    return [gallery.figure("overturning", files, caption + (f" Dashed: {TARGET_NOTE}." if gallery.paper else "")), table]
+    caption = "Probability of overturning in every setting." + (f" Dashed: {TARGET_NOTE}." if gallery.paper else "")
+    return [gallery.draw("overturning", caption, interval_figure, [(scale, estimates)]), table]
 
 
 def axis_columns(axes) -> tuple[Column, ...]:
@@ -207,13 +217,12 @@ def _convergence(sweep: Sweep, gallery: Gallery) -> list:
     found = cdf_convergence(u, over, sizes)
     curves = [Curve("drawn from the ensemble, median", sizes, found.median), Curve("drawn from the ensemble, 95 %", sizes, found.upper_95),
               Curve("bound to the true CDF, 95 % (DKW)", sizes, found.dkw_95)]
-    files = line_figure([CurvePanel("motions $n$", r"largest distance of two CDFs", curves, {"xscale": "log", "ylim": (0, 1)}, prepare=_plain_ticks)],
-                        gallery.path("convergence"), gallery.formats)
+    panels = [CurvePanel("motions $n$", r"largest distance of two CDFs", curves, {"xscale": "log", "ylim": (0, 1)}, prepare=_plain_ticks)]
     last = float(found.dkw_95[-1])
-    return [gallery.figure("convergence", files, f"Distance of the CDF of n motions from that of all {u.size}, at "
-                                                 f"{setting_text(sweep.reference.values)}. It vanishes at n = {u.size} by construction; the "
+    return [gallery.draw("convergence", f"Distance of the CDF of n motions from that of all {u.size}, "
+                                                 f"{sweep.at(sweep.reference.values)}. It vanishes at n = {u.size} by construction; the "
                                                  "distance to the distribution of all motions there could be stays below the DKW bound, "
-                                                 f"{fixed(last)} for {u.size} motions, at 95 %.")]
+                                                 f"{fixed(last)} for {u.size} motions, at 95 %.", line_figure, panels)]
 
 
 def _plain_ticks(axes) -> None:

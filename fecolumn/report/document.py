@@ -17,25 +17,37 @@ _WIDE = 11
 
 @dataclass(frozen=True, slots=True)
 class Paragraph:
-    """Text; "[[name]]" stands for "Figure 3" or "Table 2"."""
+    """Text; "[[name]]" stands for "Figure 3" or "Table 2". A `warning` is set off from the rest."""
 
     text: str
+    warning: bool = False
     kind: str = "text"
 
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A figure already written as name.png, .pdf and .svg; `wide` ones may be scrolled on a narrow screen."""
+    """A figure already written as name.png, .pdf and .svg; its drawing for a page, and that for a narrow screen, as SVG."""
 
     name: str
-    svg: Path
+    svg: bytes
+    narrow: bytes
     caption: str
     kind: str = "figure"
 
     @property
     def source(self) -> str:
-        """The drawing as a data URI: an image of its own, whose names cannot clash with those of other figures."""
-        return "data:image/svg+xml;base64," + base64.b64encode(self.svg.read_bytes()).decode()
+        """The drawing as a data URI."""
+        return _data_uri(self.svg)
+
+    @property
+    def narrow_source(self) -> str:
+        """The drawing for a narrow screen as a data URI."""
+        return _data_uri(self.narrow)
+
+
+def _data_uri(svg: bytes) -> str:
+    """An image of its own, whose names cannot clash with those of other figures."""
+    return "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,10 +1,13 @@
-"""The folder of a report's figures."""
+"""The figures of a report: drawn for a page, and once more for a narrow screen."""
 
 from __future__ import annotations
 
+import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from fecolumn.post.style import COLUMN_WIDTH_IN
 from fecolumn.report.document import Figure
 
 
@@ -16,9 +19,15 @@ class Gallery:
     paper: bool
     formats: tuple[str, ...] = ("png", "pdf", "svg")
 
-    def path(self, name: str) -> Path:
-        return self.folder / name
+    def draw(self, name: str, caption: str, function: Callable, *args) -> Figure:
+        """A figure of the page.
 
-    def figure(self, name: str, files: list[Path], caption: str) -> Figure:
-        """A figure of the page from the files it was written to."""
-        return Figure(name, next(file for file in files if file.suffix == ".svg"), caption)
+        Args:
+            name: of its files.
+            caption: below it.
+            function: called as function(*args, path, formats) for the files, and with width_in, a column of a journal, for a telephone.
+        """
+        function(*args, self.folder / name, self.formats)
+        with tempfile.TemporaryDirectory() as folder:
+            narrow, = function(*args, Path(folder) / name, ("svg",), width_in=COLUMN_WIDTH_IN)
+            return Figure(name, (self.folder / f"{name}.svg").read_bytes(), narrow.read_bytes(), caption)

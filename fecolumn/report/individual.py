@@ -6,12 +6,12 @@ import numpy as np
 
 from fecolumn.ending import lost
 from fecolumn.post.axis_text import axis_text
-from fecolumn.post.scatter_matrix import Variable, scatter_matrix
+from fecolumn.post.pair_figure import Variable, pair_figure
 from fecolumn.report.distributions import setting_words
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.individual_claims import line_trends, spread
-from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres, p_value, percent, setting_text
+from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres, p_value, percent
 from fecolumn.report.sweep import Line, Sweep
 
 _VARIABLES, _MATRICES, _FOLD = 6, 4, 20
@@ -48,18 +48,17 @@ def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
     lines = sweep.lines(axis)
     if not lines:
         return None
-    wanted = {key: value for key, value in sweep.reference.values.items() if key != axis}
+    wanted = {key: sweep.reference.values[key] for key in sweep.varied if key != axis}
     line = next((one for one in lines if one.others == wanted), lines[len(lines) // 2])
     if len(line.settings) > _VARIABLES:
         line = Line(axis, line.others, tuple(line.settings[k] for k in np.linspace(0, len(line.settings) - 1, _VARIABLES).astype(int)))
     u, over = line.peaks()
     variables = [Variable(axis_text(axis, level), *pair) for level, pair in zip(line.levels, zip(u, over))]
     name = f"scatter_by_{axis.split('.')[-1]}"
-    files = scatter_matrix(variables, sweep.limit_m, gallery.path(name), gallery.formats)
-    at = f" at {setting_text(line.others)}" if line.others else ""
-    return gallery.figure(name, files, f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} values of "
-                                       f"{axis_name(axis)}{at}, one against the other. Shaded strip: overturned; open red circles: "
-                                       f"overturned in one of the two alone. R with overturned runs at {millimetres(sweep.limit_m)} mm.")
+    at = f" {sweep.at(line.others)}" if line.others else ""
+    return gallery.draw(name, f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} values of {axis_name(axis)}{at}, one "
+                              "against the other. Shaded strip: lost (overturned or slid off); open red diamonds: lost in one of the two alone (flips). R with "
+                              f"overturned runs at {millimetres(sweep.limit_m)} mm.", pair_figure, variables, sweep.limit_m)
 
 
 def _trends(sweep: Sweep, axis: str) -> list[tuple]:

@@ -7,6 +7,7 @@ import re
 
 from fecolumn.post.axis_text import axis_unit, axis_words, level_number
 
+ALL = "all analyses"  # where nothing tells settings apart
 MINUS, DASH, THIN = "\N{MINUS SIGN}", "\N{EM DASH}", "\N{NARROW NO-BREAK SPACE}"
 _SYMBOLS = {"integration.dt_s": "\N{GREEK CAPITAL LETTER DELTA}t", "integration.alpha_hht": "\N{GREEK SMALL LETTER ALPHA}",
             "contact.friction_coefficient": "\N{GREEK SMALL LETTER MU}", "material.youngs_modulus_pa": "E"}
@@ -14,6 +15,7 @@ _TYPESET = [(re.compile(pattern), replacement) for pattern, replacement in (
     (r"\bu_max\b", "<i>u</i><sub>max</sub>"), (r"\bu([₀-₉]{2})", r"<i>u</i>\1"), (r"\be([₀-₉]{2})", r"<i>e</i>\1"),
     (r"\bP\(", "<i>P</i>("), (r"Δt\b", "Δ<i>t</i>"), (r"([αμτ])", r"<i>\1</i>"),
     (r"\b([pnRD])(?=[\s\u202f]?(?:=|&lt;)|\Z)", r"<i>\1</i>"))]
+_PERCENT = re.compile(r"(\d) %")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -32,12 +34,14 @@ def number(value, digits: int = 3) -> str:
 
 def fixed(value, decimals: int = 2) -> str:
     """Number to a fixed count of decimals, so that a column lines up; a dash where there is none."""
-    return DASH if value is None or not math.isfinite(value) else f"{value:.{decimals}f}".replace("-", MINUS)
+    if value is None or not math.isfinite(value):
+        return DASH
+    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)  # + 0.0: what rounds to nothing has no sign
 
 
 def percent(share) -> str:
     """0.435 as "43.5 %"."""
-    return DASH if share is None or math.isnan(share) else f"{100 * share:.1f}".replace("-", MINUS) + f"{THIN}%"
+    return DASH if share is None or math.isnan(share) else f"{fixed(100 * share, 1)}{THIN}%"
 
 
 def millimetres(metres) -> str:
@@ -71,7 +75,7 @@ def typeset(text: str):
     """Plain text as HTML: escaped, symbols in italics, true apostrophes."""
     from markupsafe import Markup, escape
 
-    html = str(escape(text.replace("'", "\N{RIGHT SINGLE QUOTATION MARK}")))
+    html = str(escape(_PERCENT.sub("\\1\N{NO-BREAK SPACE}%", text.replace("'", "\N{RIGHT SINGLE QUOTATION MARK}"))))
     for pattern, replacement in _TYPESET:
         html = pattern.sub(replacement, html)
     return Markup(html)
@@ -107,10 +111,15 @@ def plain_level(value) -> str:
     return power if mantissa == "1" else f"{mantissa}{THIN}×{THIN}{power}"
 
 
+def sentence(words: str) -> str:
+    """Words with a capital at their beginning alone."""
+    return words[:1].upper() + words[1:]
+
+
 def setting_text(values: dict) -> str:
     """Values of all axes, such as "Δt = 0.001 s, α = −0.2"."""
     if not values:
-        return "all analyses"
+        return ALL
     equals = "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}"
     return ", ".join(level_text(key, value) if isinstance(value, dict) else f"{axis_name(key)}{equals}{level_text(key, value)}"
                      for key, value in values.items())

@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import datetime
-import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.atomic import write_bytes
+from fecolumn.folder import written
 from fecolumn.report.audit import audit
-from fecolumn.report.claim import SUPPORTED, Claim
+from fecolumn.report.claim import MARGIN, SUPPORTED, Claim
 from fecolumn.report.cost import cost_claims
 from fecolumn.report.distribution_claims import distribution_claims
 from fecolumn.report.distributions import TARGET_NOTE, distributions
 from fecolumn.report.document import Column, Paragraph, Section, Table, numbered, referenced
 from fecolumn.report.fragility import fragility
 from fecolumn.report.gallery import Gallery
+from fecolumn.report.incremental import incremental
 from fecolumn.report.individual import individual
 from fecolumn.report.individual_claims import individual_claims
-from fecolumn.report.notation import axis_name, count, percent, setting_text, typeset
+from fecolumn.report.intensity import Intensities
+from fecolumn.report.notation import axis_name, count, percent, typeset
 from fecolumn.report.pair import Pair, read_pairs
+from fecolumn.report.power import power
 from fecolumn.report.provenance import provenance
 from fecolumn.report.sensitivity import sensitivity_section
+from fecolumn.report.specimen import specimen
 from fecolumn.report.sweep import ALPHA, DT, Sweep, read_sweep
 from fecolumn.report.timing import timing
 from fecolumn.schema import InputError
@@ -47,21 +51,21 @@ def write_report(folder, output=None) -> Path:
     """Write index.html, its figures and its tables into `output`, or folder/report; returns the page.
 
     Raises:
-        InputError: the folder holds no study, or none of its analyses is done.
+        InputError: the folder holds no study, or none of its analyses is done; `output` is neither new nor empty nor of an earlier report.
     """
     sweep = read_sweep(folder)
     if not sweep.done:
         raise InputError(folder, "", None, f"none of its {sweep.analyses} analyses is done; nothing to report yet")
     target = Path(output) if output else Path(folder) / "report"
-    for part in ("figures", "tables"):  # of an earlier report, which may have had others
-        shutil.rmtree(target / part, ignore_errors=True)
-        (target / part).mkdir(parents=True)
-    sections = _sections(sweep, Gallery(target / "figures", has_claims(sweep)))
-    for section in sections:
-        for block in section.blocks:
-            if isinstance(block, (Table, ClaimList)):
-                block.write_csv(target / "tables")
-    write_bytes(target / "index.html", _html(sweep, sections).encode())
+    with written(target, "report", alone=True) as draft:
+        for part in ("figures", "tables"):
+            (draft / part).mkdir()
+        sections = _sections(sweep, Gallery(draft / "figures", has_claims(sweep)))
+        for section in sections:
+            for block in section.blocks:
+                if isinstance(block, (Table, ClaimList)):
+                    block.write_csv(draft / "tables")
+        write_bytes(draft / "index.html", _html(sweep, sections).encode())
     return target / "index.html"
 
 
@@ -78,12 +82,14 @@ def claims_of(sweep: Sweep, pairs: list[Pair]) -> list[Claim]:
 def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
     pairs = read_pairs(sweep)
     claims = claims_of(sweep, pairs) if gallery.paper else []
-    parts = [_claims_section(claims) if claims else None, distributions(sweep, pairs, gallery), individual(sweep, gallery),
-             sensitivity_section(sweep, gallery), fragility(sweep, gallery), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
+    intensities = Intensities(sweep.folder)
+    parts = [specimen(sweep, gallery, intensities), _claims_section(sweep, claims) if claims else None, distributions(sweep, pairs, gallery),
+             individual(sweep, gallery), sensitivity_section(sweep, gallery), incremental(sweep, gallery, intensities),
+             fragility(sweep, gallery, intensities), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
     return [part for part in parts if part]
 
 
-def _claims_section(claims: list[Claim]) -> Section:
+def _claims_section(sweep: Sweep, claims: list[Claim]) -> Section:
     text = ("Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three time steps and five values of α, and found (a) that "
             "single peaks depend on both without trend, (b) that the distribution does not depend on the time step once it is small, (c) "
             f"that α is then marginal, (d) what it costs. On their P(overturn): {TARGET_NOTE}. What follows judges each finding on this "
@@ -91,7 +97,7 @@ def _claims_section(claims: list[Claim]) -> Section:
     table = Table("verdicts", (Column("claim", "claim", text=True), Column("paper", "the paper’s finding", text=True),
                                Column("verdict", "here", lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"), text=True)),
                   [(claim.key, claim.paper, claim.verdict) for claim in claims], "The paper’s findings and this study’s verdicts.")
-    return Section("The paper’s findings", [Paragraph(text), table, ClaimList(claims)])
+    return Section("The paper’s findings", [Paragraph(text), power(sweep, MARGIN, ", those of the paper"), table, ClaimList(claims)])
 
 
 def _html(sweep: Sweep, sections: list[Section]) -> str:
@@ -124,7 +130,7 @@ def _abstract(sweep: Sweep, sections: list[Section]) -> str:
     u, over = sweep.reference.peaks()
     bounds = proportion_interval(int(over.sum()), over.size)
     if len(sweep.done) > 1:
-        parts.append(f"P(overturn) lies between {percent(low)} and {percent(high)}; at {setting_text(sweep.reference.values)} it is "
+        parts.append(f"P(overturn) lies between {percent(low)} and {percent(high)}; {sweep.at(sweep.reference.values)} it is "
                      f"{percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
     else:
         parts.append(f"P(overturn) is {percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")

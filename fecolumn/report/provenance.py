@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import datetime
 import importlib.metadata
-import json
 import platform
 import re
 from pathlib import Path
 
 
+from fecolumn.files import Unreadable, read_json
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.notation import axis_name, level_text, number
 from fecolumn.report.sweep import Sweep
@@ -29,7 +29,7 @@ def provenance(sweep: Sweep) -> Section:
                else f"{len(levels)} values, {level_text(key, levels[0])} to {level_text(key, levels[-1])}") for key, levels in sweep.axes.items()),
             ("Motions", _motions(sweep)), *_engines(sweep), *_recorded(sweep),
             ("Written by fecolumn", ", ".join(sorted({row["version"] for row in sweep.rows if row["version"]})) or "not recorded"),
-            *_dates(sweep), ("Wall time of all analyses", f"{number(sum(row['wall_s'] or 0.0 for row in sweep.rows) / 3600)} h"),
+            *_dates(sweep), ("Wall time of all analyses", f"{number(sum(run.get('wall_s') or 0.0 for setting in sweep.done for run in setting.runs.values()) / 3600)} h"),
             ("Reported by", ", ".join(f"{name} {version}" for name, version in _versions())),
             ("Reported on", f"{platform.system()} {platform.machine()}, Python {platform.python_version()}")]
     blocks = [Table("provenance", (Column("what", "what", text=True), Column("value", "value", text=True)), rows, "Where the figures come from.")]
@@ -43,8 +43,8 @@ def provenance(sweep: Sweep) -> Section:
 
 def _identity(folder: Path) -> str:
     try:
-        return str(json.loads((folder / "study.json").read_text()).get("study", "not recorded"))
-    except (OSError, ValueError):
+        return str(read_json(folder / "study.json").get("study", "not recorded"))
+    except (Unreadable, AttributeError):
         return "not recorded"
 
 

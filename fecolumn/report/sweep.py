@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -10,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from fecolumn.files import read_json
+from fecolumn.report.notation import ALL, setting_text
 from fecolumn.statistics.ecdf import largest_peak
 from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE, FAILED, read_study
@@ -72,7 +73,7 @@ class Sweep:
     """A study read for its report.
 
     Attributes:
-        title: of the study.
+        folder: of the study. title: of it.
         axes: levels of each axis that is not the motion, numbers rising, others as they stand in the study.
         settings: in the order of the study; those without a finished run included.
         rows: the ledger.
@@ -112,14 +113,23 @@ class Sweep:
         equals = chosen or [s for s in self.done if len(s.runs) == most]
         return equals[0] if chosen else equals[len(equals) // 2]
 
+    def at(self, values: dict) -> str:
+        """Words such as "at Δt = 0.001 s"."""
+        words = self.words(values)
+        return f"in {ALL}" if words == ALL else f"at {words}"
+
+    def words(self, values: dict) -> str:
+        """Values of the axes that vary, such as "Δt = 0.001 s, α = −0.2"; those of one value alone are told once, at the top."""
+        return setting_text({axis: values[axis] for axis in self.varied if axis in values})
+
     def lines(self, axis: str) -> list[Line]:
         """Every line along an axis with at least two levels that have runs of common motions."""
         groups: dict[str, list[Setting]] = {}
         for setting in self.done:
-            others = {key: value for key, value in setting.values.items() if key != axis}
+            others = {key: setting.values[key] for key in self.varied if key != axis}
             groups.setdefault(repr(others), []).append(setting)
         order = {repr(level): place for place, level in enumerate(self.axes[axis])}
-        lines = [Line(axis, {key: value for key, value in group[0].values.items() if key != axis},
+        lines = [Line(axis, {key: group[0].values[key] for key in self.varied if key != axis},
                       tuple(sorted(group, key=lambda s: order[repr(s.values[axis])]))) for group in groups.values()]
         return [line for line in lines if len(line.settings) > 1 and line.motions()]
 
@@ -168,11 +178,13 @@ def _ordered(levels: list) -> list:
 
 def read_tables(folder: Path) -> dict:
     """Tables of the case an analysis was run with."""
-    return json.loads((folder / "case.json").read_text())["case"]
+    return read_json(folder / "case.json")["case"]
 
 
 def _case(folder: Path) -> dict:
     try:
-        return read_tables(folder)
-    except (OSError, ValueError, KeyError, TypeError):
+        tables = read_tables(folder)
+        float(tables.get("overturn", {}).get("displacement_m", 0.25))
+        return tables if all(isinstance(table, (dict, str, type(None))) for table in tables.values()) else {}
+    except (ValueError, KeyError, TypeError, AttributeError):
         return {}

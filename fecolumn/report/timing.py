@@ -10,7 +10,7 @@ from fecolumn.report.cost import second_cost
 from fecolumn.report.distributions import axis_columns
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import axis_name, number, setting_text
+from fecolumn.report.notation import axis_name, number, sentence
 from fecolumn.report.sweep import ALPHA, DT, Setting, Sweep
 
 _CURVES, _FOLD = 7, 40
@@ -30,14 +30,14 @@ def timing(sweep: Sweep, gallery: Gallery) -> Section | None:
                Column("iterations_per_step", "itera\N{SOFT HYPHEN}tions a step", number),
                Column("contact_iterations_per_step", "contact itera\N{SOFT HYPHEN}tions a step", number), Column("wall_h", "total [h]", number))
     total = np.nansum([row[-1] for row in rows])
-    blocks = [Paragraph(f"At {setting_text(sweep.reference.values)} a second of analysed motion takes {number(base)} s of one core in the "
+    blocks = [Paragraph(f"{sentence(sweep.at(sweep.reference.values))} a second of analysed motion takes {number(base)} s of one core in the "
                         f"median; the whole study took {number(float(total))} h of one core. Times are those of workers that may have shared "
                         "cores and memory with others: ratios below about 1.2 mean little.")]
     if figure := _figure(sweep, gallery):
         blocks.append(figure)
     return Section("Cost", blocks + [Table("timing", columns, rows,
                                            "Wall time of a second of analysed motion (median over the motions; stepping alone, without "
-                                           f"start and files), its ratio to that at {setting_text(sweep.reference.values)}, mean time of a "
+                                           f"start, files, and what is made or compiled once), its ratio to that {sweep.at(sweep.reference.values)}, mean time of a "
                                            "step, and the time of all analyses together.",
                                            folded=len(rows) > _FOLD)])
 
@@ -76,8 +76,7 @@ def _figure(sweep: Sweep, gallery: Gallery):
     if axis and (relative := _relative(sweep, axis)):
         panels.append(CurvePanel(axis_text(axis, 0).split(" = ")[0], "cost relative to the lowest value", relative, {"ylim": (0, None)}))
         caption += f" Right: cost along {axis_name(axis)} relative to its lowest value, same motions, geometric mean with 95 % interval."
-    files = line_figure(panels, gallery.path("cost"), gallery.formats)
-    return gallery.figure("cost", files, caption)
+    return gallery.draw("cost", caption, line_figure, panels)
 
 
 def _relative(sweep: Sweep, axis: str) -> list[Curve]:

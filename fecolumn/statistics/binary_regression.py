@@ -36,9 +36,33 @@ def fit_binary(x: np.ndarray, yes: np.ndarray, link: str) -> BinaryFit:
             Biometrika 71).
     """
     refuse_degenerate(x, yes)
-    terms = {"probit": _probit, "logit": _logit}[link]
+    terms = _link(link)
     sign = np.where(yes, 1.0, -1.0)[:, None] * x
     return BinaryFit(*maximize(lambda c: _likelihood(terms, sign, c), np.zeros(x.shape[1])))
+
+
+def clustered_covariance(x: np.ndarray, yes: np.ndarray, link: str, fit: BinaryFit, groups) -> tuple[np.ndarray, int]:
+    """Covariance (p, p) of the coefficients where the runs of a group hang together, and the number of groups.
+
+    H^-1 (sum of g g^T over the groups) H^-1 G / (G - 1), with the score g of each of G groups (Liang & Zeger 1986, Biometrika 73).
+
+    Args:
+        x, yes, link: as of `fit_binary`; fit: its result.
+        groups: (n,) label of each run.
+
+    Raises:
+        DegenerateData: one group only.
+    """
+    labels, group = np.unique(np.asarray(groups), return_inverse=True)
+    if group.shape != yes.shape:
+        raise ValueError(f"groups {group.shape} and {yes.shape} runs: must have one length")
+    if labels.size < 2:
+        raise DegenerateData("all runs are of one motion: nothing is known of others")
+    sign = np.where(yes, 1.0, -1.0)[:, None] * x
+    _, slope, _ = _link(link)(sign @ fit.coefficients)
+    scores = np.zeros((labels.size, x.shape[1]))
+    np.add.at(scores, group, slope[:, None] * sign)
+    return labels.size / (labels.size - 1) * fit.covariance @ scores.T @ scores @ fit.covariance, labels.size
 
 
 def maximize(function, start: np.ndarray, inside=lambda c: True) -> tuple[np.ndarray, np.ndarray, float]:
@@ -93,6 +117,10 @@ def _separated(x: np.ndarray, yes: np.ndarray) -> bool:
 def _likelihood(terms, sign: np.ndarray, c: np.ndarray):
     log_p, slope, curvature = terms(sign @ c)
     return log_p.sum(), sign.T @ slope, sign.T @ (curvature[:, None] * sign)
+
+
+def _link(name: str):
+    return {"probit": _probit, "logit": _logit}[name]
 
 
 def _probit(eta: np.ndarray):

@@ -25,6 +25,7 @@ def main(args) -> int:
     Raises:
         InputError: A or B cannot be used.
     """
+    from fecolumn.folder import written
     from fecolumn.schema import InputError
     from fecolumn.statistics.compare import compare
     from fecolumn.statistics.ecdf import largest_peak
@@ -43,8 +44,10 @@ def main(args) -> int:
     print("\n".join(notes) + "\n")
     print(comparison_text(result, a, b, cap_mm))
     if args.output:
-        for file in _write(Path(args.output), result, a, b, paired):
-            print(f"wrote {file}")
+        with written(args.output, "compare") as draft:
+            files = _write(draft, result, a, b, paired)
+        for file in files:
+            print(f"wrote {Path(args.output) / file.name}")
     return 0
 
 
@@ -94,7 +97,6 @@ def _write(folder: Path, result, a, b, paired: bool) -> list[Path]:
     from fecolumn.atomic import write_csv
     from fecolumn.post.compare_figure import compare_figure
 
-    folder.mkdir(parents=True, exist_ok=True)
     files = [folder / "comparison.csv"]
     values = [[key, "" if value is None else value] for key, value in dataclasses.asdict(result).items()]
     write_csv(files[0], [["quantity", "value"], *values])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from fecolumn.statistics.ecdf import normal_quantile
@@ -10,11 +12,10 @@ from fecolumn.statistics.ecdf import normal_quantile
 def distance_bound(u_a, overturned_a, u_b, overturned_b, confidence: float = 0.95) -> tuple[float, float]:
     """Largest distance of the two distributions, and the distance the data exclude at `confidence`.
 
-    The same motions in both settings: at each u the difference F_a - F_b is that of two paired proportions, and its
-    standard error counts the motions that lie below u in one setting alone (Agresti & Min 2005, Statistics in Medicine 24,
-    half a motion added to each cell). The bound is the largest over u of |F_a - F_b| + z s(u), z one-sided. The true
-    largest difference sits at some u*, and there the bound of one proportion already holds, so none is needed for all u at
-    once (intersection-union test, Berger 1982, Technometrics 24).
+    The same motions in both settings: at each u the difference F_a - F_b is that of two paired proportions, see
+    `paired_error`. The bound is the largest over u of |F_a - F_b| + z s(u), z one-sided. The true largest difference sits at
+    some u*, and there the bound of one proportion already holds, so none is needed for all u at once (intersection-union
+    test, Berger 1982, Technometrics 24).
 
     Args:
         u_a, u_b: (n,) [m] peaks of the same n motions; ignored where the run overturned.
@@ -30,10 +31,44 @@ def distance_bound(u_a, overturned_a, u_b, overturned_b, confidence: float = 0.9
     at = at[np.isfinite(at)]
     if not at.size:
         at = np.zeros(1)
-    below_a, below_b = a[:, None] <= at, b[:, None] <= at
-    only_a, only_b = (below_a & ~below_b).sum(axis=0), (below_b & ~below_a).sum(axis=0)
-    distance = float(np.abs(only_a - only_b).max() / a.size)
-    n, only_a, only_b = a.size + 2, only_a + 0.5, only_b + 0.5
-    error = np.sqrt(np.maximum(only_a + only_b - (only_a - only_b)**2 / n, 0)) / n
-    reach = normal_quantile(2 * confidence - 1)
-    return distance, float(min(1.0, max(distance, (np.abs(only_a - only_b) / n + reach * error).max())))
+    difference = (a[:, None] <= at).astype(float) - (b[:, None] <= at)
+    return float(np.abs(difference.mean(axis=0)).max()), upper_bound(difference, confidence)
+
+
+def upper_bound(difference, confidence: float) -> float:
+    """Distance that n motions exclude at `confidence`, see `distance_bound`; difference (n, points) as of `paired_error`."""
+    difference = np.asarray(difference, float)
+    centre, error = paired_error(difference)
+    reach = normal_quantile(2 * confidence - 1) * error
+    return float(min(1.0, max(np.abs(difference.mean(axis=0)).max(), (np.abs(centre) + reach).max())))
+
+
+def paired_error(difference) -> tuple[np.ndarray, np.ndarray]:
+    """Centre and standard error of the mean difference of two paired proportions.
+
+    Two motions are added to those seen, half a one to each of the four outcomes (Agresti & Min 2005, Statistics in Medicine
+    24), so that the error is not 0 where no motion differs.
+
+    Args:
+        difference: (n, ...) of each motion: -1, 0 or 1, or a mean of such over the settings it was run in.
+
+    Returns:
+        Centre of the interval and standard error, (...) each.
+    """
+    difference = np.asarray(difference, float)
+    n, total = len(difference) + 2, difference.sum(axis=0)
+    return total / n, np.sqrt(np.maximum((difference**2).sum(axis=0) + 1 - total**2 / n, 0)) / n
+
+
+def detectable_distance(n: int, significance: float = 0.05) -> float:
+    """Largest distance of two CDFs of n motions each that chance alone gives, exceeded in a share `significance` of cases.
+
+    A true difference below it is not seen: the two-sample Kolmogorov-Smirnov test does not reject. sqrt(ln(2 / significance) / n),
+    the limit of many independent motions (Smirnov 1939); the same motions in both settings tell somewhat more.
+    """
+    return math.sqrt(math.log(2 / significance) / n)
+
+
+def motions_needed(distance: float, significance: float = 0.05) -> int:
+    """Motions in each setting from which a distance of two CDFs can be seen, the inverse of `detectable_distance`."""
+    return math.ceil(round(math.log(2 / significance) / distance**2, 9))

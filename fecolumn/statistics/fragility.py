@@ -1,7 +1,8 @@
 """Fragility: probability of overturning over one or two intensity measures, from ensembles scaled or as they come.
 
-Runs count as independent. Those of one motion scaled to several levels are not: their number overstates what is known, and
-the intervals by the Hessian are too narrow; `bootstrap` with `groups` draws whole motions.
+Runs of one motion scaled to several levels are not independent: their number overstates what is known. `groups` tells the motion
+of each run; the curve stays, and its intervals know of the motions (`clustered_covariance`). `bootstrap` with `groups` draws whole
+motions. See `statistics.incremental` for the intensity at which each motion first overturns the column.
 """
 
 from __future__ import annotations
@@ -10,10 +11,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import expit, ndtr
+from scipy.special import expit, ndtr, stdtrit
 
 from fecolumn.statistics.bands import normal_quantile
-from fecolumn.statistics.binary_regression import DegenerateData, fit_binary
+from fecolumn.statistics.binary_regression import DegenerateData, clustered_covariance, fit_binary
 
 __all__ = ["Bootstrap", "DegenerateData", "Fragility", "LogitFragility", "Probability", "bootstrap", "lognormal", "logit", "log_columns"]
 
@@ -34,9 +35,10 @@ class Fragility:
     Attributes:
         median: intensity at which half overturn [unit of im].
         beta: logarithmic standard deviation [-].
-        covariance: (2, 2) of (ln median, beta), inverse of the observed information.
+        covariance: (2, 2) of (ln median, beta), inverse of the observed information, or that of whole motions.
         loglik: log-likelihood at the maximum.
         n, overturned: runs, and how many overturned.
+        clusters: motions, where runs repeat them: intervals then take Student's t with one degree of freedom less; None for independent runs.
     """
 
     median: float
@@ -45,6 +47,7 @@ class Fragility:
     loglik: float
     n: int
     overturned: int
+    clusters: int | None = None
 
     @property
     def parameters(self) -> np.ndarray:
@@ -53,20 +56,25 @@ class Fragility:
 
     def median_interval(self, confidence: float = 0.95) -> tuple[float, float]:
         """Interval of the median, normal in its logarithm."""
-        reach = math.exp(normal_quantile(confidence) * math.sqrt(self.covariance[0, 0]))
+        reach = math.exp(self._quantile(confidence) * math.sqrt(self.covariance[0, 0]))
         return self.median / reach, self.median * reach
 
     def beta_interval(self, confidence: float = 0.95) -> tuple[float, float]:
         """Interval of beta, normal in its logarithm, so never below 0."""
-        reach = math.exp(normal_quantile(confidence) * math.sqrt(self.covariance[1, 1]) / self.beta)
+        reach = math.exp(self._quantile(confidence) * math.sqrt(self.covariance[1, 1]) / self.beta)
         return self.beta / reach, self.beta * reach
 
     def probability(self, im, confidence: float = 0.95) -> Probability:
         """P(overturn) at intensities im (any shape), its band by the delta method on the scale of Phi's argument."""
         eta = np.log(np.asarray(im, float) / self.median) / self.beta
         gradient = np.stack([-np.ones_like(eta), -eta], axis=-1) / self.beta
-        reach = normal_quantile(confidence) * _deviation(gradient, self.covariance)
+        reach = self._quantile(confidence) * _deviation(gradient, self.covariance)
         return Probability(ndtr(eta), ndtr(eta - reach), ndtr(eta + reach))
+
+    def _quantile(self, confidence: float) -> float:
+        if self.clusters is None:
+            return normal_quantile(confidence)
+        return float(stdtrit(self.clusters - 1, (1 + confidence) / 2))
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +124,7 @@ class Bootstrap:
     refused: int
 
 
-def lognormal(im, overturned) -> Fragility:
+def lognormal(im, overturned, groups=None) -> Fragility:
     """Lognormal fragility by maximum likelihood (Shinozuka et al. 2000, J. Eng. Mech. 126; Baker 2015, Earthq. Spectra 31).
 
     Serves multiple stripes, incremental analyses and unscaled motions alike, each run being one yes or no.
@@ -124,18 +132,22 @@ def lognormal(im, overturned) -> Fragility:
     Args:
         im: (n,) positive intensity of each run.
         overturned: (n,) True where the column overturned.
+        groups: (n,) motion of each run, where motions come at several scales; None takes all runs as independent.
 
     Raises:
-        DegenerateData: all or none overturned, intensities that part the two, or overturning that gets rarer with intensity.
+        DegenerateData: all or none overturned, fewer than two motions, intensities that part the two, or overturning that gets rarer with intensity.
         ValueError: intensities that are not positive, lengths that differ.
     """
     im, overturned = np.asarray(im, float), np.asarray(overturned, bool)
-    fit = fit_binary(_data(im.reshape(-1), overturned), overturned, "probit")
+    x = _data(im.reshape(-1), overturned)
+    fit = fit_binary(x, overturned, "probit")
     a, b = fit.coefficients
     if b <= 0:
         raise DegenerateData("overturning gets rarer with the intensity measure: it has no lognormal fragility; logit() shows the trend")
-    to_shape = np.array([[-1 / b, a / b**2], [0.0, -1 / b**2]])
-    return Fragility(math.exp(-a / b), 1 / b, to_shape @ fit.covariance @ to_shape.T, fit.loglik, overturned.size, int(overturned.sum()))
+    to_shape, covariance, clusters = np.array([[-1 / b, a / b**2], [0.0, -1 / b**2]]), fit.covariance, None
+    if groups is not None:
+        covariance, clusters = clustered_covariance(x, overturned, "probit", fit, groups)
+    return Fragility(math.exp(-a / b), 1 / b, to_shape @ covariance @ to_shape.T, fit.loglik, overturned.size, int(overturned.sum()), clusters)
 
 
 def logit(im, overturned) -> LogitFragility:

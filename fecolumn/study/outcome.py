@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import errno
 import json
 from pathlib import Path
 from typing import NamedTuple
 
+from fecolumn.files import Unreadable
+from fecolumn.summary import read_summary
+
 #: Words of an outcome. RETURNED: it was never begun, because its worker ended; FULL: the disk is, and nobody can go on.
 DONE, FAILED, RETURNED, FULL = "done", "failed", "returned", "full"
-
-# of the disk, of the user's quota, of the size a file may have
-_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 class Task(NamedTuple):
@@ -47,19 +46,8 @@ class Outcome(NamedTuple):
 def finished(case_id: str, folder: Path, **more) -> Outcome | None:
     """DONE where the result folder holds a valid summary of this very analysis, else None."""
     try:
-        summary = json.loads((folder / "summary.json").read_text())
-    except (OSError, ValueError):
+        summary = read_summary(folder, case_id)
+    except Unreadable:
         return None
-    if not isinstance(summary, dict) or summary.get("case_id") != case_id:
-        return None
-    return Outcome(case_id, DONE, summary=json.dumps(summary), version=summary.get("version"),
-                   overturned=bool(summary.get("overturned")), slid_off=bool(summary.get("slid_off")), **{"wall_s": summary.get("wall_s"), **more})
-
-
-def disk_full(error: BaseException | None) -> bool:
-    """Whether a full disk, a quota or a limit on the size of files is behind an error."""
-    while error is not None:
-        if isinstance(error, OSError) and error.errno in _FULL:
-            return True
-        error = error.__cause__ or error.__context__
-    return False
+    return Outcome(case_id, DONE, summary=json.dumps(summary), version=str(summary.get("version", "")),
+                   overturned=summary["overturned"], slid_off=bool(summary.get("slid_off")), **{"wall_s": float(summary["wall_s"]), **more})

@@ -15,6 +15,7 @@ import dataclasses
 import hashlib
 import itertools
 import json
+import math
 import typing
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,15 +23,18 @@ from pathlib import Path
 from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check_duration, digest, finished, located, section_text
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
-from fecolumn.schema import InputError, build, merge, read_toml
-from fecolumn.study.axes import TABLES, Factor, hint, read_factors
+from fecolumn.schema import InputError, build, merge, read_toml, shown
+from fecolumn.study.axes import Factor, hint, read_factors
+from fecolumn.study.keys import StudyKeys
 
 # Axes that make the members of an ensemble; every other axis tells one ensemble from another.
 ENSEMBLE_AXES = ("motion", "motion.source", "motion.source_y", "motion.source_z", "motion.rotation_deg")
 # What a study takes where neither its case nor its axes say otherwise: thousands of analyses are the reduced engine's work, and
 # a column rocks at a few hertz
 DEFAULTS = {"integration": {"engine": "reduced"}, "output": {"history_every_s": 0.005}}
-_KEYS = ("title", "case", *TABLES)
+_KEYS = tuple(field.name for field in dataclasses.fields(StudyKeys))
+# As many fit into memory and into a ledger
+_MOST = 1_000_000
 # Cost of a step, relative: only the order and the share of the work left are judged by it
 _COST = {"full": 500.0, "reduced": 1.0, "rigid": 0.5}
 # dataclass of each section
@@ -104,7 +108,10 @@ def read_plan(path) -> Plan:
             raise InputError(path, key, None, f"unknown key{hint(key, _KEYS)}; a study has title, case and axes, zip, latin_hypercube")
     if not isinstance(tables.get("title", ""), str):
         raise InputError(path, "title", tables["title"], "must be text in quotes")
-    common, factors = merge(DEFAULTS, _case_tables(tables.get("case"), path)), read_factors(tables, path)
+    own = {key: value for key, value in _case_tables(tables.get("case"), path).items() if value is not False or key not in _KINDS}
+    common, factors = merge(DEFAULTS, own), read_factors(tables, path)
+    if (number := math.prod(len(factor.levels) for factor in factors)) > _MOST:
+        raise InputError(path, "axes", None, f"make {shown(number)} analyses; at most {_MOST:,}")
     makers = _Maker(common, factors, path)
     analyses = tuple(makers.analysis(places) for places in itertools.product(*(range(len(factor.levels)) for factor in factors)))
     _refuse_duplicates(analyses, path)
@@ -190,8 +197,11 @@ class _Maker:
         tables = self._tables(places)
         if name not in _KINDS:
             return build(Case, tables, self.path).title, ""
-        section = located(name, build(_KINDS[name], tables[name], self.path, f"{name}."), self.path)
-        if name == "motion":
+        if tables[name] is False:  # none of its kind, or as if the case said nothing of it
+            section = getattr(build(Case, {**self.common, name: False}, self.path), name)
+        else:
+            section = located(name, build(_KINDS[name], tables[name], self.path, f"{name}."), self.path)
+        if name == "motion" and section:
             self._refuse_missing(section)
         return section, section_text(name, section)
 
@@ -212,11 +222,12 @@ class _Maker:
                 raise InputError(self.path, f"motion.{key}", source, "no such file")
 
     def _refuse(self, error: InputError, levels) -> typing.NoReturn:
-        table = next((factor.table for factor in self.factors for key in factor.keys if key in (error.key, error.key.partition(".")[0])), None)
-        if table:
-            raise InputError(self.path, f"{table}.{error.key}", error.value, error.allowed) from None
-        where = ", ".join(f"{key} = {value!r}" for key, value in zip(self.keys, levels))
-        raise InputError(self.path, f"case.{error.key}", error.value, f"{error.allowed} (with {where})") from None
+        where = ", ".join(f"{key} = {shown(value)}" for key, value in zip(self.keys, levels))
+        told = []
+        for one in error.all:
+            table = next((factor.table for factor in self.factors for key in factor.keys if key in (one.key, one.key.partition(".")[0])), None)
+            told.append(InputError(self.path, f"{table or 'case'}.{one.key}", one.value, one.allowed if table else f"{one.allowed} (with {where})"))
+        raise InputError.of_several(told) from None
 
 
 def _refuse_duplicates(analyses, path: Path) -> None:

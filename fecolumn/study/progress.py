@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 
 from fecolumn.study.outcome import DONE, FAILED, Outcome
@@ -12,7 +13,8 @@ _LOG_INTERVAL_S = 10.0
 class Progress:
     """Counts of a running study: rewritten in place on a terminal, a line now and then in a log file.
 
-    The remaining time is judged by the work, not by analyses: the longest come first.
+    The remaining time is judged by the work, not by analyses: the longest come first. Time in which workers wait for what is made
+    once on a machine is told, and left out of it.
 
     Args:
         counts: of the ledger at the start, number by state.
@@ -26,8 +28,9 @@ class Progress:
         self._total = sum(counts.values()) - self.overturned - self.slid_off
         self._stream, self._tty, self._workers = stream, stream.isatty(), max(workers, 1)
         self.done, self.failed = counts.get(DONE, 0), counts.get(FAILED, 0)
-        self._remaining, self._worked, self._ended, self._busy_s = effort, 0.0, 0, 0.0
+        self._remaining, self._worked, self.ended, self._busy_s = effort, 0.0, 0, 0.0
         self._start, self._shown = time.monotonic(), -_LOG_INTERVAL_S
+        self._preparing, self._prepared_s, self._began_s = "", 0.0, 0.0
 
     def count(self, outcome: Outcome, effort: float) -> None:
         """Take note of an analysis that has ended."""
@@ -35,35 +38,52 @@ class Progress:
         self.failed += outcome.word == FAILED
         self.overturned += outcome.overturned
         self.slid_off += outcome.slid_off
-        self._ended += 1
-        self._busy_s += outcome.wall_s or 0.0 if outcome.started is not None else 0.0
+        self.ended += 1
+        self._busy_s += analysis_s(outcome) if outcome.started is not None else 0.0
         self._worked += effort
         self._remaining -= effort
 
     def busy(self, elapsed_s: float) -> float:
-        """Share of the workers' time [-] that went into analyses that have ended, after `elapsed_s` of wall time [s]."""
-        return self._busy_s / (self._workers * elapsed_s)
+        """Share of the workers' time [-] that went into analyses that have ended, after `elapsed_s` of wall time [s], preparation apart."""
+        return self._busy_s / (self._workers * max(elapsed_s - self._prepared_s, 1e-9))
+
+    def prepare(self, words: str, elapsed_s: float) -> None:
+        """Take note of what the workers wait for before they can begin, empty for nothing: that time is no analysis'.
+
+        Args:
+            words: such as "compiling the reduced engine, once on this machine".
+            elapsed_s: wall time since the start [s].
+        """
+        if words:
+            self._began_s = elapsed_s if words != self._preparing else self._began_s
+            self._prepared_s = elapsed_s
+        self._preparing = words
 
     def line(self, elapsed_s: float) -> str:
         """The progress after `elapsed_s` of wall time [s]."""
         parts = [f"{self.done + self.failed}/{self._total} analyses"]
-        if self._ended:
-            rate = self._ended / elapsed_s
+        working_s = max(elapsed_s - self._prepared_s, 1e-9)
+        if self._preparing:
+            parts.append(f"{self._preparing} ... {_clock(elapsed_s - self._began_s)}")
+        if self.ended:
+            rate = self.ended / working_s
             parts.append(f"{rate:.3g} a second" if rate >= 2 else f"{60 * rate:.3g} a minute")
             if self.done + self.failed < self._total:
-                parts.append(f"{_clock(elapsed_s * max(self._remaining, 0.0) / self._worked)} to go")
+                parts.append(f"{_clock(working_s * max(self._remaining, 0.0) / self._worked)} to go")
         parts += [f"{self.overturned} overturned", *([f"{self.slid_off} slid off"] if self.slid_off else []), f"{self.failed} failed"]
-        return ", ".join(parts + ([f"workers {100 * self.busy(elapsed_s):.0f} % busy"] if self._ended else []))
+        return ", ".join(parts + ([f"workers {100 * self.busy(elapsed_s):.0f} % busy"] if self.ended else []))
 
-    def show(self) -> None:
-        """Write the line, at most once a second on a terminal and every ten in a file."""
+    def show(self, preparing: str = "") -> None:
+        """Write the line, at most once a second on a terminal and every ten in a file; `preparing` as of `prepare`."""
         now = time.monotonic()
+        self.prepare(preparing, now - self._start)
         if now - self._shown >= (1.0 if self._tty else _LOG_INTERVAL_S):
             self._shown = now
             self._write(now)
 
     def end(self) -> None:
         """Write the last state and close the line."""
+        self._preparing = ""
         self._write(time.monotonic())
         if self._tty:
             self._stream.write("\n")
@@ -75,6 +95,17 @@ class Progress:
             self._stream.flush()
         except OSError:
             pass  # a log on a full disk, or a terminal that is gone, must not end the study
+
+
+def analysis_s(outcome: Outcome) -> float:
+    """Wall time of an analysis itself [s], without what it made or compiled for all: as its summary says, else as its worker has measured."""
+    measured = outcome.wall_s or 0.0
+    try:
+        stated = json.loads(outcome.summary or "{}").get("wall_s")
+    except (ValueError, AttributeError):
+        return measured
+    plain = isinstance(stated, (int, float)) and not isinstance(stated, bool)
+    return min(measured, stated) if plain and stated > 0 else measured
 
 
 def _clock(seconds: float) -> str:

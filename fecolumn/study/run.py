@@ -8,11 +8,13 @@ import sqlite3
 import sys
 import warnings
 
+from fecolumn.atomic import disk_full
 from fecolumn.case import REST
-from fecolumn.study.outcome import FULL, RETURNED, disk_full
+from fecolumn.study.outcome import FULL, RETURNED
 from fecolumn.study.plan import Analysis, Plan
 from fecolumn.study.pool import LocalPool
-from fecolumn.study.progress import Progress
+from fecolumn.study.preparation import preparation
+from fecolumn.study.progress import Progress, analysis_s
 from fecolumn.study.store import FAILED, RUNNING, Store
 from fecolumn.study.team import StudyError, Team
 
@@ -59,9 +61,9 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
                 store.ledger.plan_again(state=FAILED)
             drive(store, team or LocalPool(workers, entry, plan.file), stream)
             return store.rows()
-    except sqlite3.OperationalError as error:
+    except sqlite3.DatabaseError as error:
         full = "full" in str(error) or "disk I/O" in str(error)
-        raise StudyError(_DISK_FULL if full else f"the ledger cannot be written ({error})") from None
+        raise StudyError(_DISK_FULL if full else f"the ledger of {folder} cannot be written ({error})") from None
     except OSError as error:
         if disk_full(error):
             raise StudyError(_DISK_FULL) from None
@@ -132,7 +134,7 @@ def _work_off(store: Store, queue: collections.deque[Analysis], team: Team, prog
             progress.count(outcome, analysis.effort)
             pace.note(outcome, analysis)
         store.ledger.commit_now_and_then()
-        progress.show()
+        progress.show("" if progress.ended or store.entry != ENTRY else preparation(given.values()))
 
 
 class _Pace:
@@ -143,7 +145,7 @@ class _Pace:
 
     def note(self, outcome, analysis: Analysis) -> None:
         if outcome.started is not None:
-            s = outcome.wall_s / analysis.effort
+            s = analysis_s(outcome) / analysis.effort
             self._s_per_effort = s if self._s_per_effort is None else 0.8 * self._s_per_effort + 0.2 * s
 
     def seconds(self, analysis: Analysis) -> float:

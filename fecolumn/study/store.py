@@ -12,17 +12,22 @@ import json
 import os
 import re
 import sqlite3
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn import __version__
-from fecolumn.atomic import write_json
+from fecolumn.atomic import UNFINISHED, write_json
 from fecolumn.case import content
+from fecolumn.files import Unreadable, read_json
 from fecolumn.schema import InputError
-from fecolumn.study.ledger import PLANNED, RUNNING, Ledger, open_to_read, read_rows
+from fecolumn.study.ledger import PLANNED, RUNNING, Ledger, can_be_opened, files_of, open_to_read, read_rows
 from fecolumn.study.lock import FolderLock, stem
 from fecolumn.study.outcome import DONE, FAILED, Outcome, Task, finished
 from fecolumn.study.plan import Analysis, Plan
+
+# Files of a driver that was stopped before it had written study.json
+_OWN = re.compile(rf"study(-\d+-of-\d+)?(\.workers\.lock|\.lock|\.sqlite.*)|{re.escape(UNFINISHED)}.*")
 
 __all__ = ["DONE", "FAILED", "PLANNED", "RUNNING", "Store", "Study", "read_study"]
 
@@ -45,6 +50,7 @@ class Store:
 
     def __init__(self, folder, plan: Plan, entry: str, share: tuple[int, int] | None = None):
         self.folder = Path(folder)
+        self.entry = entry
         identity = {"study": plan.id, "analyses": len(plan.analyses), "entry": entry}
         _refuse_foreign(self.folder, identity)
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -52,17 +58,16 @@ class Store:
         try:
             _refuse_foreign(self.folder, identity)  # another driver may have been first
             if not (self.folder / "study.json").exists():
-                own = self.folder / f"{stem(share)}.json.new"
-                write_json(own, {**identity, "title": plan.title, "axes": plan.axes, "case": plan.case, "version": __version__})
-                os.replace(own, self.folder / "study.json")
+                write_json(self.folder / "study.json",
+                           {**identity, "title": plan.title, "axes": plan.axes, "case": plan.case, "version": __version__})
             self.analyses = _share(plan, share)
             self.ledger = Ledger(self.folder / f"{stem(share)}.sqlite", many_readers=share is None)
-        except BaseException as error:
+        except BaseException:
             self._lock.close()
-            if isinstance(error, sqlite3.DatabaseError) and not isinstance(error, sqlite3.OperationalError):
-                raise InputError(self.folder / f"{stem(share)}.sqlite", "", None, f"is damaged ({error}); delete it, the results tell what is done") \
-                    from None
             raise
+        if self.ledger.put_aside:
+            warnings.warn(f"{self.folder / f'{stem(share)}.sqlite'} was damaged and is made anew from the results; "
+                          f"what is left of it is in {self.ledger.put_aside.name}, and what had failed is run again", stacklevel=3)
         try:
             self._reconcile(share)
         except BaseException:
@@ -79,24 +84,27 @@ class Store:
             return motions[id(case.motion)] if case.motion else None
 
         self.ledger.plan((a.id, place, json.dumps(a.values), motion(a.case)) for place, a in self.analyses)
-        others = [file for file in sorted(self.folder.glob("study*.sqlite")) if file.stem != stem(share)]
+        others = [file for file in _ledgers(self.folder) if file.stem != stem(share)]
         if share is None or self.ledger.is_new:
-            for other in others:
+            for other in filter(can_be_opened, others):
                 self.ledger.adopt(other, recover=share is None)
         there = {entry.name for entry in os.scandir(self.folder / "analyses")} if (self.folder / "analyses").is_dir() else set()
         for case_id, state in self.ledger.states().items():
             outcome = finished(case_id, self.result_folder(case_id)) if case_id in there else None
-            if outcome and state != DONE:
+            if outcome and not self.ledger.agrees(outcome):  # not done yet by the ledger, or it says something else
                 self.ledger.end(outcome)
             elif not outcome and state == DONE:
                 self.ledger.plan_again(case_id=case_id)
         self.ledger.commit()
         for name in ("analyses", "logs"):
-            (self.folder / name).mkdir(exist_ok=True)
+            try:
+                (self.folder / name).mkdir(exist_ok=True)
+            except FileExistsError:
+                raise InputError(self.folder / name, "", None, "is no folder; move it away, the same command does what is missing then") from None
         if share is None:
             for other in others:
-                for file in self.folder.glob(other.name + "*"):
-                    file.unlink()
+                for file in files_of(other):
+                    file.unlink(missing_ok=True)
 
     def missing(self) -> list[Analysis]:
         """What is planned, longest first, so that no straggler is left at the end."""
@@ -159,15 +167,16 @@ def read_study(folder) -> Study:
     """
     folder = Path(folder)
     try:
-        identity = json.loads((folder / "study.json").read_text())
-        title, axes, analyses = identity["title"], identity["axes"], identity["analyses"]
-    except (FileNotFoundError, NotADirectoryError):
-        raise InputError(folder, "", None, "holds no study (no study.json); a folder of fecolumn study is needed") from None
-    except (ValueError, KeyError, TypeError):
-        raise InputError(folder / "study.json", "", None, "is damaged") from None
-    ledgers, files = [], sorted(folder.glob("study*.sqlite"))
+        identity = _identity(folder)
+    except Unreadable as error:
+        raise InputError(folder / "study.json", "", None, str(error)) from None
+    if identity is None:
+        raise InputError(folder, "", None, "holds no study (no study.json); a folder of fecolumn study is needed")
+    ledgers, files = [], _ledgers(folder)
     try:
         for file in files:
+            if not can_be_opened(file):
+                raise InputError(file, "", None, "is no file; run fecolumn study on this folder again")
             if ledger := open_to_read(file):
                 ledgers.append(ledger)
         rows = read_rows(*ledgers)
@@ -176,7 +185,15 @@ def read_study(folder) -> Study:
     finally:
         for ledger in ledgers:
             ledger.close()
-    return Study(title, axes, rows, analyses)
+    for row in rows:
+        if row["axes"].keys() != identity["axes"].keys():
+            raise InputError(folder, "", None, f"its ledger says nothing of some axes of analysis {row['id']}; run fecolumn study on this folder again")
+    return Study(identity["title"], identity["axes"], rows, identity["analyses"])
+
+
+def _ledgers(folder: Path) -> list[Path]:
+    """Ledgers of all drivers; a user's own copy goes by another name."""
+    return sorted(file for file in folder.glob("study*.sqlite") if re.fullmatch(r"study(-\d+-of-\d+)?", file.stem))
 
 
 def _share(plan: Plan, share: tuple[int, int] | None) -> list[tuple[int, Analysis]]:
@@ -190,19 +207,34 @@ def _share(plan: Plan, share: tuple[int, int] | None) -> list[tuple[int, Analysi
 
 def _refuse_foreign(folder: Path, identity: dict) -> None:
     """Refuse what this study must not touch, reading only."""
-    if folder.exists() and not folder.is_dir():
-        raise InputError(folder, "", None, "is a file; a folder is needed")
+    if os.path.lexists(folder) and not folder.is_dir():
+        raise InputError(folder, "", None, "is a file; a folder is needed" if folder.exists() else "is a link to nothing; a folder is needed")
     try:
-        found = json.loads((folder / "study.json").read_text())
-    except FileNotFoundError:
-        if folder.exists() and not all(re.fullmatch(r"study(-\d+-of-\d+)?(\.workers\.lock|\.lock|\.json\.new(\.partial)?|\.sqlite.*)", entry.name)
-                                       for entry in folder.iterdir()):
-            raise InputError(folder, "", None, "is not empty and holds no study; give another folder") from None
+        found = _identity(folder)
+    except Unreadable as error:
+        raise InputError(folder / "study.json", "", None, f"{error}; give another folder") from None
+    if found is None:
+        if folder.exists() and not all(_OWN.fullmatch(entry.name) for entry in folder.iterdir()):
+            raise InputError(folder, "", None, "is not empty and holds no study; give another folder")
         return
-    except ValueError:
-        raise InputError(folder / "study.json", "", None, "is damaged; give another folder") from None
-    if found.get("study") != identity["study"]:
-        raise InputError(folder, "", None, f"holds another study, {found.get('title')!r} with {found.get('analyses')} analyses "
+    if found["study"] != identity["study"]:
+        raise InputError(folder, "", None, f"holds another study, {found['title']!r} with {found['analyses']} analyses "
                          f"(this one has {identity['analyses']}, not the same); nothing was changed, give another folder")
-    if found.get("entry") != identity["entry"]:
-        raise InputError(folder, "", None, f"holds this study run by {found.get('entry')}, not {identity['entry']}; give another folder")
+    if found["entry"] != identity["entry"]:
+        raise InputError(folder, "", None, f"holds this study run by {found['entry']}, not {identity['entry']}; give another folder")
+
+
+def _identity(folder: Path) -> dict | None:
+    """What study.json says: study, analyses, entry, title, axes; None where there is no such file.
+
+    Raises:
+        Unreadable: it cannot be read, or is damaged.
+    """
+    if not os.path.lexists(folder / "study.json"):
+        return None
+    identity = read_json(folder / "study.json")
+    kinds = {"study": str, "analyses": int, "entry": str, "title": str, "axes": dict}
+    if not isinstance(identity, dict) or not all(isinstance(identity.get(key), kind) for key, kind in kinds.items()) or not all(
+            isinstance(values, list) for values in identity["axes"].values()):
+        raise Unreadable("is damaged: it must state study, analyses, entry, title and axes")
+    return identity

@@ -14,11 +14,12 @@ from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.study.plan import Plan
 from fecolumn.study.store import DONE
 
-_LINE_AXIS = "integration.alpha_hht"  # the axis told apart by lines; all others by panels
+# The axis told apart by lines where it is varied, all others by panels; where it is not, the axis of most levels that a panel can show
+_LINE_AXIS, _LINES = "integration.alpha_hht", 7
 
 _TABLE = ("planned", "n", "overturned", "slid_off", "p_overturn", "wilson_low", "wilson_high", "exact_low", "exact_high",
           "u_max_16_m", "u_max_50_m", "u_max_84_m", "energy_closure_worst")
-_ANALYSES = ("u_max_m", "overturned", "slid_off", "residual_slide_m", "steps", "energy_closure_rel")
+_ANALYSES = ("u_max_m", "overturned", "slid_off", "outcome", "residual_slide_m", "steps", "energy_closure_rel")
 
 
 def combinations(plan: Plan, rows: list[dict]) -> list[tuple[dict, list[dict], int]]:
@@ -68,17 +69,20 @@ def _analysis_row(row: dict) -> list:
     if not summary:
         return texts + [""] * len(_ANALYSES)
     peak = "" if lost(summary) else f"{summary['u_max_m']:.6e}"  # what overturned or slid off has none
-    return [*texts, peak, int(summary["overturned"]), int(bool(summary.get("slid_off"))), f"{summary['residual_slide_m']:.6e}", summary["steps"],
+    return [*texts, peak, int(summary["overturned"]), int(bool(summary.get("slid_off"))), summary.get("outcome", ""),
+            f"{summary['residual_slide_m']:.6e}", summary["steps"],
             f"{summary['energy_closure_rel']:.3e}"]
 
 
 def table_text(plan: Plan, rows: list[dict]) -> str:
-    """The table for a reader: a line for each combination; columns that slid off their base are counted where there are any."""
+    """The table for a reader: a line for each combination, axes of one value left out; columns that slid off their base are counted where
+    there are any."""
+    levels = varied(plan)
     off = any(summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done)
-    lines = [[*(key.split(".")[-1] for key in plan.analyses[0].combination),
+    lines = [[*(key.split(".")[-1] for key in levels),
               "n", "overturned", *(["slid off"] if off else []), "P [95 % Wilson]", "u16 mm", "u50 mm", "u84 mm", "closure", "s/step"]]
     for values, done, planned in combinations(plan, rows):
-        texts = [str(value) for value in values.values()]
+        texts = [str(values[key]) for key in levels]
         if not done:
             lines.append([*texts, f"0/{planned}"] + ["-"] * (7 + off))
             continue
@@ -92,14 +96,30 @@ def table_text(plan: Plan, rows: list[dict]) -> str:
 
 
 def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
-    """Write cdf.png and cdf.pdf: a panel for each time step (and any other axis), a line for each alpha."""
+    """Write cdf.png and cdf.pdf: a line for each level of one axis, a panel for each setting of the others; axes of one value are left out."""
     panels: dict[str, list] = {}
+    levels = varied(plan)
+    line = line_axis(levels)
     for values, done, _ in combinations(plan, rows):
-        title = ", ".join(axis_text(key, value) for key, value in values.items() if key != _LINE_AXIS)
+        title = ", ".join(axis_text(key, value) for key, value in values.items() if key != line and key in levels)
         if done:
-            label = axis_text(_LINE_AXIS, values[_LINE_AXIS]) if _LINE_AXIS in values else f"$n$ = {len(done)}"
+            label = axis_text(line, values[line]) if line else f"$n$ = {len(done)}"
             panels.setdefault(title, []).append((label, ecdf([s["u_max_m"] for s in done], [lost(s) for s in done])))
     if not panels:
         return []
     return cdf_figure([Panel(title or plan.title, tuple(lines)) for title, lines in panels.items()], Path(folder) / "cdf")
+
+
+def varied(plan: Plan) -> dict[str, int]:
+    """Number of levels of each axis that tells ensembles apart and has more than one."""
+    levels = {key: len({repr(analysis.combination[key]) for analysis in plan.analyses}) for key in plan.analyses[0].combination}
+    return {key: count for key, count in levels.items() if count > 1}
+
+
+def line_axis(levels: dict[str, int]) -> str | None:
+    """The axis whose levels are the lines of a figure, from the numbers of levels of those that vary; None where one line a panel is left."""
+    if _LINE_AXIS in levels:
+        return _LINE_AXIS
+    few = [key for key in levels if levels[key] <= _LINES]
+    return max(few, key=levels.get, default=None)
 

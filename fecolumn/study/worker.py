@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import errno
 import faulthandler
 import functools
 import importlib
@@ -14,7 +15,9 @@ import time
 import traceback
 from collections.abc import Iterator
 
-from fecolumn.study.outcome import FAILED, FULL, Outcome, Task, disk_full, finished
+from fecolumn.atomic import disk_full
+from fecolumn.files import is_file
+from fecolumn.study.outcome import FAILED, FULL, Outcome, Task, finished
 
 # One thread a worker: BLAS threads of several workers on the same cores only disturb each other.
 ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")}
@@ -62,6 +65,8 @@ def _analyse(task: Task, run, comm, file: str) -> tuple[str, bool]:
     task.folder.mkdir(parents=True, exist_ok=True)
     (task.folder / "summary.json").unlink(missing_ok=True)  # damaged, or of another case
     problem, full = "", False
+    if os.path.lexists(task.log) and not is_file(task.log):
+        raise FileExistsError(errno.EEXIST, "no file, but in the place of one", str(task.log))
     with open(task.log, "a") as log:
         _speak_into(log)
         try:

@@ -23,8 +23,7 @@ def main(args) -> int:
     Raises:
         InputError: no case of that name, or a folder that cannot be written.
     """
-    from pathlib import Path
-
+    from fecolumn.folder import written
     from fecolumn.schema import InputError
     from fecolumn.verification.suite import tasks, verify
 
@@ -33,7 +32,8 @@ def main(args) -> int:
         raise InputError("fecolumn verify", "-k", args.case, f"must be part of a case's name: {', '.join(CASES)}")
     if args.jobs < 1:
         raise InputError("fecolumn verify", "-j", args.jobs, "must be at least 1")
-    findings = verify(pairs, Path(args.output), args.long, args.jobs, show=lambda text: print(text, flush=True))
+    with written(args.output, "verify", names=("table.csv", "table.txt")) as draft:
+        findings = verify(pairs, draft, args.long, args.jobs, show=lambda text: print(text, flush=True))
     wrong = [finding for finding in findings if not finding.ok]
     print(f"{sum(len(finding.rows) for finding in findings)} quantities, {len(findings) - len(wrong)} of {len(findings)} cases hold; "
           f"wrote {os.path.join(args.output, 'table.csv')}")

@@ -11,6 +11,7 @@ from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.body import Body
 from fecolumn.dynamics.corotated import Corotated
 from fecolumn.dynamics.damping import ModalDamping
+from fecolumn.dynamics.footprint import Footprint
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
 from fecolumn.dynamics.total_lagrangian import TotalLagrangian
@@ -31,7 +32,7 @@ COARSE = {
 }
 
 # Modes of a block that are damped
-DAMPED = 10
+DAMPED = 30
 # Of `shaking`: amplitudes of x, y, z [m/s2], and sign and angular frequencies [rad/s] of its two tones
 AMPLITUDES = np.array([8.0, 6.0, 0.0])
 TONES = ((1, np.array([30.0, 31.0, 1.0])), (-1, np.array([75.0, 73.0, 1.0])))
@@ -88,5 +89,5 @@ def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, mat
         return {}, np.flatnonzero(plate.all_X[:, 2] < bottom + 1e-9 * np.ptp(plate.all_X[:, 2]))
 
     plate = BasePlate(Body(comm, base, base_material or material or steel, 1, held))
-    return System(body, kinematics, plate, body.find_nodes(mesh.points[points]), areas, friction, np.zeros((len(points), 3)),
+    return System(body, kinematics, plate, Footprint.of_all(body.find_nodes(mesh.points[points]), areas), friction, np.zeros((len(points), 3)),
                   gravity, hht, filtered=filtered, damping=ModalDamping(body, DAMPED, damping_ratio) if damping_ratio else None, restitution=restitution)

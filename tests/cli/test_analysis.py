@@ -2,6 +2,7 @@
 
 import json
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -45,7 +46,7 @@ def test_summary_history_and_figures_are_complete(whole):
         assert np.hypot(*history["u_top"][:, :2].T).max() == pytest.approx(summary["u_max_m"], rel=1e-12)
         assert history["contact_force"][0, 2] == pytest.approx(_weight(out), rel=1e-6)
     assert {"u_top.png", "path.png", "energy.png"} <= {path.name for path in out.iterdir()}
-    assert not list(out.glob("*.partial")) and not (out / "checkpoint.npz").exists()
+    assert not list(out.glob(".writing-*")) and not (out / "checkpoint.npz").exists()
 
 
 def _weight(out):
@@ -134,14 +135,16 @@ def test_help_loads_no_library(words):
 
 
 def test_full_disk_stops_in_one_line_and_the_same_command_goes_on(whole, tmp_path, capsys):
-    """/dev/full in place of the file being written is what a full disk is to the program."""
+    """A limit on the size of files is to a program what a full disk is; it lets case.json pass and no checkpoint."""
     case = write_case(tmp_path, extra="[output]\nfields_every_s = 0.05\ncheckpoint_every_s = 0.2\n")
-    out = tmp_path / "out"
-    out.mkdir()
-    (out / ".lock").touch()
-    (out / "checkpoint.npz.partial").symlink_to("/dev/full")
-    assert main(["run", str(case), "-o", str(out), "-q"]) == 1
+    out, limits = tmp_path / "out", resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, limits[1]))
+    try:
+        assert main(["run", str(case), "-o", str(out), "-q"]) == 1
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     message = capsys.readouterr().err
     assert "the disk is full" in message and message.count("\n") == 1
+    assert not list(out.rglob(".writing-*"))
     assert main(["run", str(case), "-o", str(out), "-q"]) == 0
     np.testing.assert_array_equal(_tops(out), _tops(whole[1]))

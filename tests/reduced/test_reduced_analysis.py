@@ -1,6 +1,7 @@
 """Analyses with the reduced engine from case to result folder."""
 
 import json
+import time
 
 import h5py
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 import fecolumn.reduced.analysis  # noqa: F401  (compiled functions belong in the user's cache, not in this module's)
 from fecolumn import simulation
 from fecolumn.case import case_from_tables, read_toml
+from fecolumn.reduced import cache as cache_of_models
 from fecolumn.schema import InputError, merge
 
 SPECIMEN = "meshes/stout.toml"
@@ -89,3 +91,35 @@ def test_slide_beyond_the_allowance_extends_the_base_and_off_the_plate_is_an_out
 def test_literal_hht_is_refused():
     with pytest.raises(InputError, match="contact.impact"):
         case_of(contact={"impact": "none"})
+
+
+def test_what_is_made_once_is_no_cost_of_the_analysis_that_makes_it(tmp_path, monkeypatch):
+    real, slow = cache_of_models._make, 1.5
+
+    def make(case, folder):
+        time.sleep(slow)
+        real(case, folder)
+
+    monkeypatch.setattr(cache_of_models, "_make", make)
+    began = time.perf_counter()
+    summary = simulation.run(case_of(mesh={"coarse_size_m": 0.028}, integration={"duration_s": 0.01}), tmp_path, quiet=True)
+    assert summary["wall_s"] < time.perf_counter() - began - slow and summary["s_per_step"] * summary["steps"] < summary["wall_s"]
+
+
+def test_a_thrown_column_with_damping_restitution_and_rolling_resistance_moves_the_same_in_both_engines(tmp_path):
+    """Keys reach the engines: 20 ms from a tilt with a spin that makes it wobble, and a push that makes it slip."""
+    sections = dict(initial={"tilt_rad": 0.03, "velocity_m_s": [0.02, 0.0, 0.0], "spin_rad_s": [0.5, 0.0, 0.1]}, material={"damping_ratio": 0.05},
+                    contact={"restitution": 0.5, "rolling_resistance": 2e-3})
+    rows, sums = {}, {}
+    for engine in ("full", "reduced"):
+        case = case_of(**sections, integration={"duration_s": 0.02, "engine": engine})
+        sums[engine] = simulation.run(case, tmp_path / engine, quiet=True)["energy_j"]
+        rows[engine] = history(tmp_path / engine)
+    full, reduced = rows["full"], rows["reduced"]
+    assert full["energy/kinetic"][0] > 0
+    assert reduced["energy/kinetic"][0] == pytest.approx(full["energy/kinetic"][0], rel=1e-6)
+    assert np.abs(reduced["u_top"] - full["u_top"]).max() < 1e-4 * np.abs(full["u_top"][:, :2] - full["u_top"][0, :2]).max()
+    for term in ("rolling", "friction"):
+        assert sums["full"][term] < 0 and sums["reduced"][term] == pytest.approx(sums["full"][term], rel=0.01)
+    assert sums["full"]["damping"] < 0 and sums["reduced"]["damping"] < 0
+    assert np.abs(reduced["energy/closure"]).max() < 1e-9 * full["energy/kinetic"][0]

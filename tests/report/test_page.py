@@ -1,5 +1,6 @@
 """The page of a report: it stands alone, its numbers run, it says what is missing."""
 
+import base64
 import csv
 import re
 from html.parser import HTMLParser
@@ -8,6 +9,7 @@ import pytest
 from synthetic_study import ALPHA, DT, SPECIMEN, write_synthetic
 
 from fecolumn.cli import main
+from fecolumn.report.notation import fixed, interval, percent, percent_interval
 from fecolumn.schema import InputError
 
 VOID = {"meta", "img", "br", "link", "input", "hr"}
@@ -63,9 +65,11 @@ def unfinished(tmp_path_factory):
     return out, report(out)
 
 
-def test_page_stands_alone(unfinished):
+def test_page_stands_alone_but_for_the_files_beside_it(unfinished):
     _, page = unfinished
-    assert all(one.startswith(("data:image/svg+xml;base64,", "#")) for one in page.addresses)
+    out, _ = unfinished
+    files = [one for one in page.addresses if not one.startswith(("data:image/svg+xml;base64,", "#"))]
+    assert files and all((out / "report" / one).is_file() for one in files)
     assert {one[1:] for one in page.addresses if one.startswith("#")} <= set(page.ids)
     assert len(page.ids) == len(set(page.ids))
 
@@ -77,6 +81,41 @@ def test_figures_and_tables_are_numbered_as_they_come(unfinished):
         assert len(numbers) >= 4 and numbers == list(range(1, len(numbers) + 1))
         referred = {int(n) for n in re.findall(rf"{kind}\s(\d+)", page.text)}
         assert max(referred) == len(numbers)
+
+
+def test_every_table_leads_to_its_file_and_every_figure_to_its_pictures(unfinished):
+    out, page = unfinished
+    tables = {path.name for path in (out / "report" / "tables").iterdir()} - {"claims.csv"}
+    assert {f"tables/{name}" for name in tables} == {one for one in page.addresses if one.startswith("tables/")}
+    assert {path.stem for path in (out / "report" / "figures").iterdir()} == {one[8:-4] for one in page.addresses if one.endswith(".pdf")}
+
+
+def test_every_figure_is_drawn_once_more_for_a_narrow_screen(unfinished):
+    """Letters of a figure of a page's width, shrunk to a telephone, are 6 pixels high; the narrow one is as wide as the screen."""
+    out, _ = unfinished
+    html = (out / "report" / "index.html").read_text()
+    drawn = re.findall(r'srcset="data:image/svg\+xml;base64,([^"]+)"><img', html)
+    assert len(drawn) == html.count("<img") >= 5
+    widths = [float(re.search(rb'width="([\d.]+)pt"', base64.b64decode(one))[1]) for one in drawn]
+    assert max(widths) <= 72 * 3.5 + 0.1
+
+
+def test_motions_too_few_for_what_the_paper_found_are_warned_of(unfinished):
+    _, page = unfinished
+    assert re.search(r"\d+ motions: a difference of two CDFs below 0\.\d\d cannot be seen \(Kolmogorov-Smirnov, 5.%; .*?\); 0.18 would need about 115 motions, those of "
+                     "the paper", page.text)
+    assert "0.10 would need about 369 motions" in page.text
+
+
+def test_an_axis_of_one_value_is_told_once(tmp_path):
+    page = report(write_synthetic(tmp_path / "study", {FRICTION: [0.2, 0.4], DT: [1e-3]}, 12))
+    assert len(re.findall(r"Δ\s*t\s=\s0.001", page.text)) == 1 and "In all analyses" in page.text
+    assert "Δt" not in page.text.partition("In all analyses")[0]
+
+
+def test_what_rounds_to_nothing_has_no_sign():
+    assert interval(-0.0004, 15.0, lambda value: fixed(value, 1)) == "[0.0, 15.0]"
+    assert percent_interval(-1e-9, 0.15) == "[0.0, 15.0]" and percent(-1e-9).startswith("0.0")
 
 
 def test_page_holds_no_number_that_is_none(unfinished):

@@ -68,7 +68,11 @@ def test_order_of_the_ensembles_does_not_matter_for_the_tests():
 def test_correlation_sets_overturned_and_larger_to_the_cap():
     a, over_a, b, over_b = [0.05, 0.10, 7.0, 0.30], [0, 0, 1, 0], [0.06, math.nan, 0.2, 0.25], [0, 1, 0, 0]
     expected = np.corrcoef([0.05, 0.10, 0.25, 0.25], [0.06, 0.25, 0.20, 0.25])[0, 1]
+    assert correlation(a, over_a, b, over_b, 0.25) == pytest.approx(expected, abs=1e-14)
+    # without a cap what overturned ties with the largest peak of all that stood: 0.30
+    expected = np.corrcoef([0.05, 0.10, 0.30, 0.30], [0.06, 0.30, 0.20, 0.25])[0, 1]
     assert correlation(a, over_a, b, over_b) == pytest.approx(expected, abs=1e-14)
+    assert math.isnan(correlation([1, 1], [1, 1], [1, 1], [1, 1]))
     assert math.isnan(correlation([1, 1], [0, 0], [0.1, 0.2], [0, 0]))
 
 

@@ -57,7 +57,7 @@ def test_covariance_with_censored_displacements_is_the_inverse_of_the_observed_i
         mean = q[0] + q[1] * np.log(im)
         return np.where(overturned, norm.logsf(math.log(0.25), mean, q[2]), norm.logpdf(np.log(u), mean, q[2])).sum()
 
-    fit = displacement(im, u, overturned)
+    fit = displacement(im, u, overturned, cap_m=0.25)
     best = np.append(fit.coefficients, fit.sigma)
     assert fit.loglik == pytest.approx(loglik(best), abs=1e-9) and overturned.sum() > 10
     np.testing.assert_allclose(np.linalg.inv(fit.covariance), minus_hessian(loglik, best), rtol=1e-4, atol=1e-3)
@@ -156,7 +156,7 @@ def test_displacements_with_overturned_runs_censored_are_unbiased():
     rng, found, inside = np.random.default_rng(8), [], []
     truth = np.array([-2.5, 1.5, 0.5])
     for _ in range(400):
-        fit = displacement(*draw(rng))
+        fit = displacement(*draw(rng), cap_m=0.25)
         estimate = np.append(fit.coefficients, fit.sigma)
         found.append(estimate)
         inside.append(np.abs(estimate - truth) < 1.96 * np.sqrt(np.diag(fit.covariance)))
@@ -178,10 +178,10 @@ def test_displacements_without_overturns_are_least_squares():
 def test_exceedance_at_the_cap_is_the_share_that_overturns():
     im, u, overturned = draw(np.random.default_rng(10), 20000)
     near = np.abs(np.log(im / 2)) < 0.05
-    band = displacement(im, u, overturned).exceedance(0.25, [2.0])
+    band = displacement(im, u, overturned, cap_m=0.25).exceedance(0.25, [2.0])
     assert band.p[0] == pytest.approx(overturned[near].mean(), abs=0.04) and band.lower[0] < band.p[0] < band.upper[0]
     with pytest.raises(ValueError, match="censored there"):
-        displacement(im, u, overturned).exceedance(0.3, [2.0])
+        displacement(im, u, overturned, cap_m=0.25).exceedance(0.3, [2.0])
 
 
 def test_displacements_that_cannot_be_fitted_are_refused():

@@ -3,7 +3,9 @@ import pytest
 
 from fecolumn.statistics.equivalence import distance_bound
 from fecolumn.statistics.holm import holm
+from fecolumn.statistics.equivalence import detectable_distance, motions_needed
 from fecolumn.statistics.sensitivity import sensitivity
+from fecolumn.statistics.two_sample import kolmogorov_smirnov
 from fecolumn.statistics.trend import trend
 
 STANDING = np.zeros((5, 40), bool)
@@ -75,3 +77,44 @@ def test_an_axis_without_effect_stays_within_chance_and_one_with_effect_does_not
     effect = sensitivity(low, low > 3, higher, higher > 3)
     assert effect.distance > 1.5 * effect.chance and effect.distance_low > effect.chance
     assert effect.change == pytest.approx((higher > 3).mean() - (low > 3).mean()) and effect.change_low > 0
+
+
+@pytest.mark.parametrize("n, shift", [(6, 0.0), (20, 0.0), (20, 0.4), (40, 0.05)])
+def test_an_effect_lies_within_its_own_interval(n, shift):
+    """Samples drawn anew have larger largest distances than the data: their percentiles left the estimate out."""
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        common = rng.normal(size=n)
+        low, high = (np.exp(common + 0.5 * rng.normal(size=(2, n)) + s) for s in (0, shift))
+        it = sensitivity(low, low > 2, high, high > 2, resamples=200)
+        assert 0 <= it.distance_low <= it.distance <= it.distance_high <= 1
+        assert -1 <= it.change_low <= it.change <= it.change_high <= 1
+
+
+def test_no_motion_that_flips_leaves_an_interval_of_the_change_open():
+    u = np.linspace(0.1, 1, 8)[None]
+    it = sensitivity(u, u > 2, u, u > 2)
+    assert it.distance == it.change == 0 and it.change_low < 0 < it.change_high and it.distance_high > 0.1
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.5, 1.5])
+def test_the_true_distance_lies_in_the_interval_in_95_of_100_ensembles_at_least(shift):
+    from statistics import NormalDist
+
+    rng, true, below, above = np.random.default_rng(5), 2 * NormalDist().cdf(shift / 2) - 1, 0, 0
+    for _ in range(200):
+        common = rng.normal(size=(1, 60)) * 0.7
+        low, high = (common + 0.7141428 * rng.normal(size=(1, 60)) + s for s in (0, shift))
+        it = sensitivity(low, low > 1, high, high > 1, resamples=200)
+        below, above = below + (true < it.distance_low), above + (true > it.distance_high)
+    assert below / 200 < 0.045 and above / 200 < 0.045  # 2.5 % and twice the error of 200 ensembles
+
+
+def test_a_distance_that_few_motions_hide_and_the_number_that_shows_it():
+    assert detectable_distance(40) == pytest.approx(0.304, abs=5e-4)  # 1.358 sqrt(2 / 40)
+    assert motions_needed(0.1) == 369 and motions_needed(detectable_distance(115)) == 115
+    rng, seen = np.random.default_rng(6), 0
+    for _ in range(300):
+        a, b = rng.normal(size=(2, 40))
+        seen += kolmogorov_smirnov(a, b).statistic > detectable_distance(40)
+    assert seen / 300 < 0.08

@@ -5,7 +5,6 @@ Motions are named "pulse:<number>": one sine of an amplitude and a period drawn 
 "pulse:slides" slides off its base; "pulse:full" finds the disk full until there is a file "room" in the study's folder.
 """
 
-import json
 import math
 import os
 import random

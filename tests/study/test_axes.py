@@ -71,7 +71,7 @@ def test_ids_are_those_of_the_cases(tmp_path):
     ('[[zip]]\n"contact.friction_coefficient" = [0.3, -1]', r"zip.contact.friction_coefficient = -1: must lie in"),
     (ZIP + '[axes]\n"column.height_m" = [1.0]', "zip.column.height_m: stands in axes already"),
     ("[[zip]]\n", "zip = {}: a table of lists"),
-    ('[latin_hypercube]\n"contact.friction_coefficient" = [0.2, 0.8]', r"latin_hypercube.samples: must be a whole number in \[1"),
+    ('[latin_hypercube]\n"contact.friction_coefficient" = [0.2, 0.8]', r"latin_hypercube.samples: missing; number of samples"),
     ("[latin_hypercube]\nsamples = 3", "latin_hypercube: needs a range"),
     ('[latin_hypercube]\nsamples = 3\n"contact.friction_coefficient" = [0.8, 0.2]', "two rising numbers"),
     ('[latin_hypercube]\nsamples = 3\n"contact.friction_coefficient" = [0.0, 0.2, "log"]', "must be above 0 for a logarithm"),
@@ -82,3 +82,14 @@ def test_ids_are_those_of_the_cases(tmp_path):
 def test_mistakes_name_table_key_and_value(tmp_path, text, message):
     with pytest.raises(InputError, match=message):
         _plan(tmp_path, text)
+
+
+def test_a_span_of_the_lick_ensemble_is_its_motions_in_order(tmp_path):
+    plan = _plan(tmp_path, '[axes]\n"motion.source" = ["lick:3-6", "lick:1"]\n')
+    assert plan.axes["motion.source"] == ("lick:3", "lick:4", "lick:5", "lick:6", "lick:1")
+
+
+@pytest.mark.parametrize("span", ["lick:0-3", "lick:5-4", "lick:100-116"])
+def test_a_span_beyond_the_ensemble_is_refused(tmp_path, span):
+    with pytest.raises(InputError, match=r"axes.motion.source = .*two rising numbers from 1 to 115"):
+        _plan(tmp_path, f'[axes]\n"motion.source" = ["{span}"]\n')

@@ -67,7 +67,7 @@ AXES = '\n[axes]\n"integration.dt_s" = [1e-3]\n'
     (f'case = "{SPECIMEN}"\n[axes]\n"title" = ["a", "b"]', "two combinations are the same analysis: title = 'a' and 'b'"),
     (f'case = "{SPECIMEN}"\n[axes]\n"motion.source" = ["gone.AT2"]', "axes.motion.source = .*gone.AT2': no such file"),
     (f'case = "{SPECIMEN}"\n[axes]\n"mesh.fine_size_m" = [0.005, 0.5]', r"axes.mesh.fine_size_m = 0.5: must be at most the wall"),
-    (f'case = "{SPECIMEN}"\n[axes]\n"column.wall_m" = [0.005, 0.001]', r"case.mesh.fine_size_m.*with column.wall_m = 0.001"),
+    (f'case = "{SPECIMEN}"\n[axes]\n"column.outer_diameter_m" = [0.1016, 0.02]', r"case.mesh.coarse_size_m.*with column.outer_diameter_m = 0.02"),
     (f'case = "{SPECIMEN}"', "axes: a table of lists is needed"),
     ('case = "gone.toml"' + AXES, "gone.toml: no such file"),
     ("case = 3" + AXES, "case = 3: must be the path"),

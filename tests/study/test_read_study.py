@@ -28,18 +28,20 @@ def test_a_study_at_work_is_read_without_disturbing_it(tmp_path):
         assert {row["state"] for row in read_study(tmp_path / "out").rows} == {"planned"}
 
 
-def test_a_damaged_ledger_is_told_and_without_it_the_results_tell_what_is_done(tmp_path):
+def test_a_damaged_ledger_is_told_put_aside_and_made_anew_from_the_results(tmp_path):
     plan = read_plan(write_study(tmp_path))
     before = run_study(plan, tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w"))
     ledger = tmp_path / "out" / "study.sqlite"
-    ledger.write_bytes(b"no database at all, but long enough" * 100)
-    with pytest.raises(InputError, match="damaged.*delete it"):
-        Store(tmp_path / "out", plan, ENTRY)
+    damaged = b"no database at all, but long enough" * 100
+    ledger.write_bytes(damaged)
     with pytest.raises(InputError, match="cannot be read"):
         read_study(tmp_path / "out")
-    ledger.unlink()
-    with Store(tmp_path / "out", plan, ENTRY) as store:
+    with pytest.warns(UserWarning, match="study.sqlite was damaged and is made anew from the results"):
+        store = Store(tmp_path / "out", plan, ENTRY)
+    with store:
         assert [row["summary"] for row in store.rows()] == [row["summary"] for row in before]
+    assert (tmp_path / "out" / "study.sqlite.damaged").read_bytes() == damaged
+    assert read_study(tmp_path / "out").rows[0]["summary"] == before[0]["summary"]
 
 
 def test_a_ledger_just_being_made_has_no_rows_yet(tmp_path):

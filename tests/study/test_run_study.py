@@ -12,9 +12,11 @@ import pytest
 from rocking_block import ENTRY
 from study_files import write_study
 
+from fecolumn import _compiled
 from fecolumn.schema import InputError
 from fecolumn.study.outcome import Outcome
 from fecolumn.study.plan import read_plan
+from fecolumn.study.preparation import COMPILING, MODELLING, preparation
 from fecolumn.study.progress import Progress
 from fecolumn.study.run import StudyError, run_study
 from fecolumn.study.store import Store
@@ -23,6 +25,7 @@ from fecolumn.study.table import table_text, write_tables
 HERE = Path(__file__).parent
 DRIVER = """
 import argparse, sys
+from fecolumn import _compiled
 from fecolumn.schema import InputError
 from fecolumn.study.command import add_arguments, main
 if __name__ == "__main__":
@@ -244,6 +247,9 @@ def test_tables_count_what_failed_and_what_overturned(tmp_path):
     assert 0 < overturned < 8  # the pulses were chosen so
     assert (row["planned"], row["n"], row["overturned"]) == ("9", "8", str(overturned))
     assert float(row["p_overturn"]) == pytest.approx(overturned / 8)
+    header, *lines = [line.split(",") for line in (tmp_path / "out" / "analyses.csv").read_text().splitlines()]
+    analyses = [dict(zip(header, line)) for line in lines]
+    assert all((one["u_max_m"] == "") == (one["overturned"] != "0") for one in analyses)  # what overturned, or failed, has no peak
     assert "wall" not in ",".join(header) and "wall_s" in (tmp_path / "out" / "timing.csv").read_text()
     assert "8/9" in table_text(plan, rows)
 
@@ -261,6 +267,36 @@ def test_progress_judges_the_rest_by_its_effort(tmp_path):
     long = plan.analyses[1]
     progress.count(Outcome(long.id, "done", wall_s=90.0, started=1.0, overturned=True), long.effort)  # 2000 of 3050
     assert progress.line(100.0) == "1/2 analyses, 0.6 a minute, 52 s to go, 1 overturned, 0 failed, workers 45 % busy"
+
+
+def test_time_in_which_the_engine_is_compiled_is_told_and_no_analysis_pays_for_it(tmp_path):
+    plan = read_plan(write_study(tmp_path, dt=[0.02, 1e-3], alpha=[0], pulses=[1]))
+    progress = Progress({"planned": 2}, sum(a.effort for a in plan.analyses), 2, io.StringIO())
+    progress.prepare(MODELLING, 10.0)
+    progress.prepare(COMPILING, 20.0)
+    progress.prepare(COMPILING, 60.0)
+    assert progress.line(60.0) == f"0/2 analyses, {COMPILING} ... 40 s, 0 overturned, 0 failed"
+    progress.prepare("", 61.0)
+    long = plan.analyses[1]
+    said = json.dumps({"wall_s": 90.0})  # of 160 s of its worker's
+    progress.count(Outcome(long.id, "done", wall_s=160.0, started=1.0, summary=said, overturned=True), long.effort)
+    assert progress.line(160.0) == "1/2 analyses, 0.6 a minute, 52 s to go, 1 overturned, 0 failed, workers 45 % busy"
+
+
+@pytest.mark.parametrize("engine, files, words", [("reduced", (), COMPILING), ("rigid", (), COMPILING), ("full", (), ""),
+                                                  ("reduced", (".model-1f.lock",), MODELLING), ("reduced", ("{code}/reduced_1/run.advance-27.py311.1.nbi",), "")])
+def test_what_a_new_machine_makes_first_is_seen_in_its_cache(tmp_path, monkeypatch, engine, files, words):
+    monkeypatch.setenv("FECOLUMN_CACHE", str(tmp_path / "cache"))
+    _compiled._folder.cache_clear()
+    try:
+        for name in files:
+            file = tmp_path / "cache" / name.format(code=Path(_compiled._folder()).name)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.touch()
+        plan = read_plan(write_study(tmp_path, dt=[1e-3], alpha=[0], pulses=[1], extra=f'"integration.engine" = ["{engine}"]\n'))
+        assert preparation(plan.analyses) == words
+    finally:
+        _compiled._folder.cache_clear()
 
 
 def test_log_file_gets_few_plain_lines(tmp_path):

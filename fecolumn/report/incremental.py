@@ -1,0 +1,141 @@
+"""Section: incremental dynamic analysis, where a study scales the same motions to several levels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.post.axis_text import axis_text
+from fecolumn.post.incremental_figure import incremental_figure
+from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
+from fecolumn.report.distributions import axis_columns
+from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.fragility import LABEL, line_axis
+from fecolumn.report.gallery import Gallery
+from fecolumn.report.intensity import NOT_FOUND, SCALE, Intensities, across_scales
+from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres
+from fecolumn.report.sweep import Sweep
+from fecolumn.statistics.fragility import DegenerateData, Fragility
+from fecolumn.statistics.incremental import IncrementalCurve, first_overturning, incremental_curves
+
+_LEAST_SCALES, _LEAST_MOTIONS, _FOLD = 3, 3, 20
+
+
+@dataclass(frozen=True, slots=True)
+class Scaled:
+    """A setting but for the scale: its values, the curves of its motions, and the law of the first overturning (None where there is none)."""
+
+    values: dict
+    curves: list[IncrementalCurve]
+    fit: Fragility | None
+
+
+def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Section | None:
+    """The section; None where motions are not at three scales or more, or not to be found."""
+    if SCALE not in sweep.varied:
+        return None
+    try:
+        found = [one for values, settings in across_scales(sweep.done) if (one := _scaled(values, settings, intensities))]
+    except NOT_FOUND:
+        return None
+    own = {key: value for key, value in sweep.reference.values.items() if key != SCALE}
+    here = next((one for one in found if one.values == own), found[0] if found else None)
+    if here is None:
+        return None
+    at, blocks = sweep.at(here.values), []
+    again = sum(curve.stands_again for curve in here.curves)
+    fallen = sum(np.isfinite(curve.first[1]) for curve in here.curves)
+    text = (f"[[ida]]: each of {count(len(here.curves), 'motion')} scaled to {count(max(len(curve.im) for curve in here.curves), 'level')} (Vamvatsikos and Cornell "
+            f"2002), {at}. {fallen} overturn the column at one of their scales. ")
+    if here.fit:
+        text += (f"Half of the motions have overturned it by a PGV of {_speed(here.fit.median)} m/s {interval(*here.fit.median_interval(), _speed)}, with a logarithmic "
+                 f"standard deviation of {fixed(here.fit.beta)} {interval(*here.fit.beta_interval())}. Each motion counts once, by the intensities between which it "
+                 "first overturns the column; those that never do count as beyond their largest. ")
+    text += (f"With {count(again, 'motion')} the column stands again at a larger scale: to have overturned by an intensity is then more probable than to overturn at it, "
+             "which the fragility below tells." if again else "No motion lets the column stand again at a larger scale.")
+    blocks.append(Paragraph(f"{text} [[first_overturnings]] has all settings, [[ida_motions]] every motion."))
+    blocks.append(gallery.draw("ida", f"Incremental dynamic analysis {at}: peak displacement of the top over the intensity, a thin line a motion, and the 16, 50 and 84 % "
+                                      "fractiles over the motions, as far as all motions are known. A line that turns level and ends in a mark: overturned.",
+                               incremental_figure, here.curves, LABEL, _critical(sweep)))
+    if here.fit:
+        panels, caption = _panels(sweep, here, found)
+        blocks.append(gallery.draw("first_overturning", caption, line_figure, panels))
+    return Section("Incremental dynamic analysis", [*blocks, _table(sweep, found), _motions(sweep, found)])
+
+
+def _scaled(values: dict, settings, intensities: Intensities) -> Scaled | None:
+    runs = intensities.of_runs(settings)
+    curves = incremental_curves(runs.motion, runs.measures[:, 0], runs.u_max, runs.lost)
+    if len(curves) < _LEAST_MOTIONS or np.median([len(curve.im) for curve in curves]) < _LEAST_SCALES:
+        return None
+    try:
+        fit = first_overturning(*np.transpose([curve.first for curve in curves]))
+    except DegenerateData:
+        fit = None
+    return Scaled(values, curves, fit)
+
+
+def _critical(sweep: Sweep) -> float | None:
+    """Displacement of the top at which the column stands over its rim [m], where all analyses state one."""
+    stated = {run.get("u_critical_m") for setting in sweep.done for run in setting.runs.values()}
+    return stated.pop() if len(stated) == 1 else None
+
+
+def _panels(sweep: Sweep, here: Scaled, found: list[Scaled]) -> tuple[list[CurvePanel], str]:
+    """The law of one setting beside what is known of its motions, and the laws of several settings."""
+    lower, upper = np.transpose([curve.first for curve in here.curves])
+    end = 1.05 * max(float(curve.im[-1]) for one in found for curve in one.curves)
+    grid, share = np.linspace(1e-3 * end, end, 300), np.arange(lower.size + 1) / lower.size
+    p = here.fit.probability(grid)
+
+    def steps(name, bounds):
+        known = np.sort(bounds[np.isfinite(bounds)])
+        return Curve(name, np.concatenate([[0.0], known, [end]]), np.append(share[:known.size + 1], share[known.size]), steps=True)
+
+    settings = {"ylim": (0, 1), "xlim": (0, end)}
+    panels = [CurvePanel(LABEL, "share of motions\nthat have overturned", [
+        Curve("lognormal, intervals as known", grid, p.p, (p.lower, p.upper)), steps("scale that overturns", upper),
+        steps("largest scale below it", np.where(np.isinf(upper), np.inf, lower))], settings, legend="upper left")]
+    caption = f"Share of motions that have overturned the column by an intensity {sweep.at(here.values)}, with the 95 % band over the motions. Steps: the two ends of what is known of each motion."
+    if axis := line_axis(sweep, [one.values for one in found if one.fit]):
+        line = [one for one in found if one.fit and all(one.values[key] == value for key, value in here.values.items() if key != axis)]
+        curves = [Curve(axis_text(axis, one.values[axis]), grid, q.p, (q.lower, q.upper)) for one in line for q in [one.fit.probability(grid)]]
+        panels.append(CurvePanel(LABEL, "", curves, settings, legend="upper left"))
+        caption += f" Right: for each {axis_name(axis)}; bands as bars, of each curve at places of its own, where there are more than two."
+    return panels, caption
+
+
+def _table(sweep: Sweep, found: list[Scaled]) -> Table:
+    axes = [axis for axis in sweep.varied if axis != SCALE]
+    columns = (*axis_columns(axes), Column("motions", "motions"), Column("runs", "runs"), Column("overturned", "motions that overturn"),
+               Column("stands_again", "that let stand again"), Column("pgv_median_m_s", "median PGV [m/s]", _speed),
+               Column("pgv_low pgv_high", "95 %", lambda low, high: interval(low, high, _speed)),
+               Column("beta", "β", fixed), Column("beta_low beta_high", "95 %", interval))
+    rows = []
+    for one in found:
+        law = [None] * 6 if one.fit is None else [one.fit.median, *one.fit.median_interval(), one.fit.beta, *one.fit.beta_interval()]
+        rows.append((*(one.values[axis] for axis in axes), len(one.curves), sum(len(curve.im) for curve in one.curves),
+                     sum(bool(np.isfinite(curve.first[1])) for curve in one.curves), sum(curve.stands_again for curve in one.curves), *law))
+    return Table("first_overturnings", columns, rows, "PGV by which half of the motions have overturned the column, and logarithmic standard deviation β of that PGV over the "
+                                                      "motions: lognormal, maximum likelihood of the intervals known, 95 % intervals over the motions. A dash: the motions do "
+                                                      "not bound the law.", folded=len(rows) > _FOLD)
+
+
+def _motions(sweep: Sweep, found: list[Scaled]) -> Table:
+    axes = [axis for axis in sweep.varied if axis != SCALE]
+    columns = (*axis_columns(axes), Column("motion", "motion", text=True), Column("scales", "scales"), Column("pgv_stood_m_s", "last PGV that stands [m/s]", _speed),
+               Column("u_max_m", "u_max there [mm]", millimetres), Column("pgv_overturned_m_s", "first PGV that overturns [m/s]", _speed),
+               Column("stands_again", "stands again", lambda again: "yes" if again else ""))
+    rows = []
+    for one in found:
+        for curve in one.curves:
+            stood, fallen = curve.first
+            u = float(curve.u_max[np.searchsorted(curve.im, stood)]) if stood else None
+            rows.append((*(one.values[axis] for axis in axes), curve.motion.strip("[]'\""), len(curve.im), stood or None, u,
+                         fallen if np.isfinite(fallen) else None, curve.stands_again))
+    return Table("ida_motions", columns, rows, "Every motion: the largest PGV below its first overturning, and that of the first overturning; a dash where there is none.", folded=True)
+
+
+def _speed(value) -> str:
+    return fixed(value, 3)

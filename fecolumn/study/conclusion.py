@@ -1,0 +1,125 @@
+"""What a study says, in two sentences below its table: how often the column overturns, and whether its settings differ."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.ending import lost
+from fecolumn.statistics.ecdf import censored, proportion_interval
+from fecolumn.statistics.equivalence import distance_bound
+from fecolumn.statistics.holm import holm
+from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
+from fecolumn.study.plan import ENSEMBLE_AXES, Plan
+from fecolumn.study.store import DONE
+
+_LEAST_MOTIONS = 5  # of fewer no p-value can fall below 0.05: there are 2^n ways to swap two settings within n motions, two of them extreme
+_MOST_PAIRS = 60  # beyond it only the first and the last level of each axis are compared: seconds
+_LEVEL = 0.05  # of significance, the usual one
+
+
+@dataclass(frozen=True, slots=True)
+class _Pair:
+    """Two settings that differ in one axis: its key, their names, the distance of their CDFs, its bound at 95 % and its paired p."""
+
+    axis: str
+    names: tuple[str, str]
+    distance: float
+    bound: float
+    p: float
+
+
+def conclusion(plan: Plan, rows: list[dict]) -> str:
+    """Two sentences on a study as far as it is done; "" where fewer than five motions are.
+
+    p-values are of the largest distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
+
+    Args:
+        plan: the study.
+        rows: its ledger, as `run_study` returns it.
+    """
+    settings = _settings(plan, rows)
+    if not settings or max(len(runs) for _, runs in settings) < _LEAST_MOTIONS:
+        return ""
+    pairs = _pairs(settings)
+    return _overturns(settings) + (" " + _differences(pairs, settings) if pairs else "")
+
+
+def _settings(plan: Plan, rows) -> list[tuple[dict, dict]]:
+    """Axis values and, by motion, the summary of what is done, of each setting with anything done."""
+    states = {row["id"]: row for row in rows}
+    groups: dict[tuple, tuple[dict, dict]] = {}
+    for analysis in plan.analyses:
+        row = states.get(analysis.id)
+        if row and row["state"] == DONE:
+            motion = tuple(repr(value) for key, value in analysis.values.items() if key in ENSEMBLE_AXES)
+            _, runs = groups.setdefault(tuple(map(repr, analysis.combination.values())), (analysis.combination, {}))
+            runs[motion] = row["summary"]
+    return list(groups.values())
+
+
+def _overturns(settings) -> str:
+    """P(overturn) of the setting, or of those in which it is least and most."""
+    def said(setting):
+        values, runs = setting
+        k = sum(bool(run["overturned"]) for run in runs.values())
+        low, high = proportion_interval(k, len(runs))
+        where = f" at {_name(values)}" if len(settings) > 1 else ""
+        return f"{100 * k / len(runs):.1f} % [{100 * low:.1f}, {100 * high:.1f}]{where} ({k} of {len(runs)})"
+
+    ranked = sorted(settings, key=lambda setting: np.mean([bool(run["overturned"]) for run in setting[1].values()]))
+    if len(settings) == 1:
+        return f"P(overturn) is {said(ranked[0])}; in brackets the 95 % interval."
+    return f"P(overturn) lies between {said(ranked[0])} and {said(ranked[-1])}; in brackets the 95 % interval."
+
+
+def _pairs(settings) -> list[_Pair]:
+    """Settings that differ in one axis alone, over the motions done in both."""
+    lines: dict[tuple, list] = {}
+    for values, runs in settings:
+        for axis in values:
+            lines.setdefault((axis, *(repr(item) for item in values.items() if item[0] != axis)), []).append((values, runs))
+    lines = {key: line for key, line in lines.items() if len(line) > 1}
+    chosen = [(key[0], *two) for key, line in lines.items() for two in itertools.combinations(line, 2)]
+    if len(chosen) > _MOST_PAIRS:
+        chosen = [(key[0], line[0], line[-1]) for key, line in lines.items()][:_MOST_PAIRS]
+    found = []
+    for axis, (first, runs_a), (second, runs_b) in chosen:
+        common = [motion for motion in runs_a if motion in runs_b]
+        if len(common) < _LEAST_MOTIONS:
+            continue
+        (u_a, over_a), (u_b, over_b) = (tuple(np.array([measure(runs[motion]) for motion in common]) for measure in (_peak, lost))
+                                        for runs in (runs_a, runs_b))
+        names = tuple(_name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second))
+        p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
+        found.append(_Pair(axis, names, *distance_bound(u_a, over_a, u_b, over_b), p))
+    return found
+
+
+def _peak(summary: dict) -> float:
+    return summary["u_max_m"]
+
+
+def _differences(pairs: list[_Pair], settings) -> str:
+    """Whether the distributions of the peak displacement differ, and by what."""
+    corrected = holm([pair.p for pair in pairs])
+    widest = max(range(len(pairs)), key=lambda place: (corrected[place] < _LEVEL, pairs[place].distance))
+    pair, p = pairs[widest], float(corrected[widest])
+    judged = f"p {f'= {p:.3f}' if p >= 0.001 else '< 0.001'}, settings swapped within motions"
+    apart = f"{pair.distance:.2f} apart for {pair.names[0]} and {pair.names[1]}"
+    if p >= _LEVEL:
+        many = f"none of the {len(pairs)} pairs of settings can be told from chance: at most" if len(pairs) > 1 else "the two settings cannot be told from chance:"
+        return (f"By their CDFs of u_max {many} {apart} ({judged}); with {max(len(runs) for _, runs in settings)} motions "
+                f"a distance up to {max(other.bound for other in pairs):.2f} cannot be excluded.")
+    if len(pairs) == 1:
+        return f"The CDFs of u_max part, by more than chance explains: {apart} ({judged})."
+    counts = {axis: [corrected[place] < _LEVEL for place, other in enumerate(pairs) if other.axis == axis] for axis in dict.fromkeys(p.axis for p in pairs)}
+    told = ", ".join(f"{sum(differ)} of {len(differ)} by {axis}" for axis, differ in counts.items())
+    return f"The CDFs of u_max part by more than chance explains in {told}; most {apart} ({judged}, corrected for {len(pairs)} pairs)."
+
+
+def _name(values: dict) -> str:
+    """Values of axes, such as "dt_s = 0.02, alpha_hht = 0"."""
+    return ", ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in values.items())

@@ -1,0 +1,30 @@
+"""What the first analyses of a study wait for: what is made once on a machine and kept for all later ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+_COMPILED = {"reduced", "rigid"}  # engines of compiled code
+COMPILING = "compiling the reduced engine, once on this machine"
+MODELLING = "making the reduced model of the specimen, once on this machine"
+
+
+def preparation(analyses: Iterable) -> str:
+    """What keeps analyses from stepping on this machine, in words; empty where nothing does.
+
+    It looks at the files of the cache alone: the driver of a study loads no engine.
+
+    Args:
+        analyses: `plan.Analysis`, those in the hands of workers.
+    """
+    if not any(analysis.case.integration.engine in _COMPILED for analysis in analyses):
+        return ""
+    import numba
+
+    from fecolumn._compiled import _folder, cache_folder
+
+    if any(cache_folder().glob(".model-*.lock")):
+        return MODELLING
+    kept = any(Path(_folder()).glob("*/*.advance-*.nbi"))  # the one function of the engine that Python calls, see reduced.run
+    return "" if kept or numba.config.DISABLE_JIT else COMPILING

@@ -1,0 +1,116 @@
+"""What a newcomer meets first: keys, new, help, completion, version."""
+
+import dataclasses
+import subprocess
+import sys
+import tomllib
+import typing
+
+import pytest
+
+from fecolumn import __version__, keys, manual, templates
+from fecolumn.case import Case, read_case
+from fecolumn.cli import main
+from fecolumn.study.plan import read_plan
+
+
+def dotted_keys(section=Case, prefix=""):
+    """Every key of a case by its dotted name, from the dataclasses themselves."""
+    for name, kind in typing.get_type_hints(section).items():
+        inner = [k for k in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(k)]
+        yield from dotted_keys(inner[0], f"{prefix}{name}.") if inner else [prefix + name]
+
+
+def test_keys_lists_every_key_of_a_case_and_of_a_study():
+    listed = {f"{table.name}.{key.name}".lstrip(".") for table in keys.tables() for key in table.keys}
+    assert set(dotted_keys()) <= listed
+    assert {"case", "axes", "zip", "latin_hypercube", "title", "extends", "latin_hypercube.samples", "latin_hypercube.seed"} <= listed
+    assert all(key.meaning and key.allowed and key.default for table in keys.tables() for key in table.keys)
+
+
+def test_manual_has_the_table_of_keys_as_it_is_now():
+    table = manual.page("keys").partition("\n\n## ")
+    assert "## " + table[2] == keys.markdown(keys.tables()), "run: fecolumn keys --markdown, below the first lines of fecolumn/manual/keys.md"
+
+
+@pytest.mark.parametrize("name, words", [
+    ("contact.friction_coefficient", ["friction_coefficient: in [0, 10]; default 0.3", "Coulomb"]),
+    ("dt_s", ["[integration]", "dt_s [s]: greater than 0 and at most 0.1; default 0.001", "[motion]"]),
+    ("integration.engine", ["one of full, reduced, rigid; default full (in a study reduced)"]),
+    ("study", ["samples: whole number, in [1, 1000000]; default required", "[[zip]]"])])
+def test_keys_of_a_section_tell_range_unit_and_default(name, words, capsys):
+    assert main(["keys", name]) == 0
+    text = capsys.readouterr().out
+    assert all(word in text for word in words), text
+
+
+def test_keys_of_an_unknown_section_name_the_nearest(capsys):
+    assert main(["keys", "contct"]) == 2
+    assert "did you mean contact?" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", templates.KINDS)
+def test_new_writes_a_case_and_a_study_that_are_accepted_and_overwrites_nothing(kind, tmp_path, capsys):
+    folder = tmp_path / "mine"
+    assert main(["new", kind, str(folder)]) == 0
+    read_case(folder / "case.toml")
+    assert len(read_plan(folder / "study.toml").analyses) == 20
+    before = {file: file.read_bytes() for file in folder.iterdir()}
+    (folder / "study.toml").unlink()
+    assert main(["new", kind, str(folder)]) == 2
+    assert "not overwritten" in capsys.readouterr().err
+    assert all(file.read_bytes() == before[file] for file in folder.iterdir())
+
+
+def test_new_into_a_file_is_refused(tmp_path, capsys):
+    (tmp_path / "mine").write_text("")
+    assert main(["new", str(tmp_path / "mine")]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_a_studys_commented_lines_are_keys_too(tmp_path):
+    """What a newcomer takes out of its comment must work."""
+    main(["new", str(tmp_path)])
+    lines = (tmp_path / "study.toml").read_text().splitlines()
+    bare = [line.removeprefix("# ") if line.startswith("# [") or line.startswith('# "') or line.startswith("# samples") else line for line in lines]
+    (tmp_path / "study.toml").write_text("\n".join(bare))
+    assert len(tomllib.loads("\n".join(bare))) == 5
+    assert len(read_plan(tmp_path / "study.toml").analyses) == 20 * 4 * 2 * 20
+
+
+@pytest.mark.parametrize("topic", manual.TOPICS)
+def test_help_shows_every_topic_by_the_beginning_of_its_name(topic, capsys):
+    assert main(["help", topic]) == 0
+    assert capsys.readouterr().out.startswith("# ")
+
+
+def test_help_lists_its_topics_and_refuses_others(capsys):
+    assert main(["help"]) == 0
+    text = capsys.readouterr().out
+    assert all(topic in text for topic in manual.TOPICS)
+    assert main(["help", "weather"]) == 2
+    assert "quick-start" in capsys.readouterr().err
+    assert {f"{topic}.md" for topic in manual.TOPICS} == {path.name for path in manual.FOLDER.glob("*.md")}
+
+
+def test_version_is_the_packages(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["--version"])
+    assert end.value.code == 0 and capsys.readouterr().out == f"fecolumn {__version__}\n"
+
+
+@pytest.mark.parametrize("typed, offered", [
+    ("fecolumn ", {"run", "study", "help"}), ("fecolumn st", {"study"}), ("fecolumn motions make ", {"seeded", "pulses"}),
+    ("fecolumn study x.toml --arr", {"--array-index", "--array-size"}), ("fecolumn new ", {"tube", "block"})])
+def test_bash_completes_commands_and_options(typed, offered, tmp_path, capsys):
+    assert main(["completion", "bash"]) == 0
+    words = typed.split(" ")
+    asked = f"COMP_WORDS=({' '.join(word or chr(39) * 2 for word in words)}); COMP_CWORD={len(words) - 1}; _fecolumn; printf '%s\\n' \"${{COMPREPLY[@]}}\""
+    result = subprocess.run(["bash", "-c", capsys.readouterr().out + asked], capture_output=True, text=True, check=True)
+    assert offered <= set(result.stdout.split()) and result.stderr == ""
+
+
+def test_a_reader_that_stops_early_is_no_error():
+    command = f"{sys.executable} -m fecolumn.cli keys | head -n 1; echo ${{PIPESTATUS[0]}}"
+    result = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
+    assert result.stdout.splitlines()[-1] == "0" and result.stderr == ""

@@ -1,0 +1,84 @@
+"""The manual lists what is really written: datasets, entries and columns, with their units, all of them and no others."""
+
+import csv
+import io
+import json
+import re
+import sys
+from pathlib import Path
+
+import h5py
+import pytest
+from documents import PAGES, ROOT, listed
+
+from fecolumn.cli import main
+
+sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("cli", "study", "report")]
+
+from rocking_block import ENTRY  # noqa: E402
+from small_case import write_case  # noqa: E402
+from study_files import write_study  # noqa: E402
+from synthetic_study import write_synthetic  # noqa: E402
+
+from fecolumn.report.page import write_report  # noqa: E402
+from fecolumn.study.plan import read_plan  # noqa: E402
+from fecolumn.study.run import run_study  # noqa: E402
+from fecolumn.study.table import write_tables  # noqa: E402
+
+
+def header(file) -> list[str]:
+    with open(file, newline="") as rows:
+        return next(csv.reader(rows))
+
+
+@pytest.fixture(scope="module")
+def analysis(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("analysis")
+    assert main(["run", str(write_case(folder, duration=0.005)), "-o", str(folder / "out"), "-q"]) == 0
+    return folder / "out"
+
+
+def test_every_dataset_of_a_history_with_its_unit(analysis):
+    found = {}
+    with h5py.File(analysis / "history.h5") as file:
+        file.visititems(lambda name, item: found.update({name: item.attrs["unit"]}) if isinstance(item, h5py.Dataset) else None)
+    assert listed("outputs", "history.h5") == found
+
+
+def test_every_entry_of_a_summary(analysis):
+    assert set(listed("outputs", "summary.json")) == set(json.loads((analysis / "summary.json").read_text()))
+
+
+def test_every_column_of_a_studys_tables(tmp_path):
+    plan = read_plan(write_study(tmp_path, pulses=range(2)))
+    write_tables(plan, run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO()), tmp_path / "out")
+    for name in ("table.csv", "analyses.csv", "timing.csv"):
+        columns = [column for column in header(tmp_path / "out" / name) if column not in plan.axes]
+        assert list(listed("outputs", name)) == columns, name
+
+
+def test_every_quantity_of_a_comparison(tmp_path):
+    for name, factor in (("a", 1.0), ("b", 1.1)):
+        rows = "".join(f"{number},{factor * (5 + number)},{int(number == 7)}\n" for number in range(8))
+        (tmp_path / f"{name}.csv").write_text("motion,u_max_mm,overturned\n" + rows)
+    assert main(["compare", str(tmp_path / "a.csv"), str(tmp_path / "b.csv"), "-o", str(tmp_path / "out")]) == 0
+    with open(tmp_path / "out" / "comparison.csv", newline="") as file:
+        assert list(listed("outputs", "comparison.csv")) == [row[0] for row in csv.reader(file)][1:]
+    assert list(listed("outputs", "pairs.csv")) == header(tmp_path / "out" / "pairs.csv")
+
+
+def test_every_column_of_an_ensemble(tmp_path):
+    assert main(["motions", "make", "seeded", "-n", "2", "-o", str(tmp_path / "two.h5")]) == 0
+    columns = [column for column in header(tmp_path / "two.csv") if not column.startswith("parameter_")]
+    assert list(listed("outputs", "ENSEMBLE.csv")) == columns
+
+
+def test_every_column_of_a_reports_tables(tmp_path):
+    axes = {"integration.dt_s": [0.02, 1e-3], "integration.alpha_hht": [0, -0.2]}
+    page = write_report(write_synthetic(tmp_path, axes, 12, fails=(3,), sources=[f"lick:{number}" for number in range(1, 13)]))
+    told = dict(re.findall(r"^\| `(\w+)\.csv` \| (.*) \|$", PAGES["outputs"].read_text().partition("### tables")[2], re.MULTILINE))
+    for table in sorted(Path(page.parent / "tables").glob("*.csv")):
+        assert table.stem in told, f"{table.name} is not in the manual"
+        for column in set(header(table)) - set(axes) - {"motion.source"}:
+            borrowed = table.stem == "p_overturn" and column in listed("outputs", "table.csv")
+            assert borrowed or re.search(rf"\b{column}\b", told[table.stem]), f"{table.name}: {column}"
