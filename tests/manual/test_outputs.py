@@ -13,10 +13,9 @@ from documents import PAGES, ROOT, listed
 
 from fecolumn.cli import main
 
-sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("cli", "study", "report")]
+sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("study", "report")]
 
 from rocking_block import ENTRY  # noqa: E402
-from small_case import write_case  # noqa: E402
 from study_files import write_study  # noqa: E402
 from synthetic_study import write_synthetic  # noqa: E402
 
@@ -24,6 +23,24 @@ from fecolumn.report.page import write_report  # noqa: E402
 from fecolumn.study.plan import read_plan  # noqa: E402
 from fecolumn.study.run import run_study  # noqa: E402
 from fecolumn.study.table import write_tables  # noqa: E402
+
+
+BLOCK = """
+[column]
+shape = "block"
+length_m = 0.4
+width_m = 0.4
+height_m = 1.2
+[mesh]
+fine_size_m = 0.1
+coarse_size_m = 0.2
+base_size_m = 0.2
+[initial]
+tilt_rad = 0.01
+[integration]
+engine = "rigid"
+duration_s = 0.01
+"""
 
 
 def header(file) -> list[str]:
@@ -34,7 +51,8 @@ def header(file) -> list[str]:
 @pytest.fixture(scope="module")
 def analysis(tmp_path_factory):
     folder = tmp_path_factory.mktemp("analysis")
-    assert main(["run", str(write_case(folder, duration=0.005)), "-o", str(folder / "out"), "-q"]) == 0
+    (folder / "case.toml").write_text(BLOCK)
+    assert main(["run", str(folder / "case.toml"), "-o", str(folder / "out"), "-q"]) == 0
     return folder / "out"
 
 
