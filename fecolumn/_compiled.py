@@ -32,7 +32,7 @@ def digest_of(paths) -> str:
 
 
 @functools.cache
-def _folder() -> str:
+def compiled_folder() -> str:
     """Folder of the functions compiled from the present sources by this numba for this processor.
 
     numba asks only whether a function's own file has changed: code compiled with what another file said before would be run.
@@ -46,7 +46,7 @@ def njit(function=None, **options):
     """numba.njit with a cache on disk that knows all sources; a decorator, with or without options."""
     if function is None:
         return lambda one: njit(one, **options)
-    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _folder()
+    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, compiled_folder()
     try:
         if not is_tested() or numba.config.DISABLE_JIT:
             return numba.njit(cache=True, **options)(function)

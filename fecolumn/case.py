@@ -326,6 +326,8 @@ def check(case: Case, file) -> None:
         for key in ("restitution", "rolling_resistance"):
             if value := getattr(case.contact, key):
                 refuse(f"contact.{key}", value, "must be 0 where contact.impact = 'none'")
+    if case.contact.rolling_resistance and case.column.shape == "block" and not case.column.mesh_file:
+        refuse("contact.rolling_resistance", case.contact.rolling_resistance, "must be 0 for a block: only a round foot rolls")
     if case.material.damping_ratio and case.integration.engine == "full" and case.integration.kinematics != "corotated":
         refuse("material.damping_ratio", case.material.damping_ratio, "must be 0 where integration.kinematics is not 'corotated'")
     if case.integration.engine != "full":

@@ -6,7 +6,7 @@ Brick sizes follow the perimeter of what is meshed, so that a glass tube and a m
     solid cylinder  32 fine bricks around, 16 coarse ones
     block           12 fine bricks along the geometric mean of its sides, 6 coarse ones; at least 4 and 2 along the shorter side
     flange          40 fine bricks around, unless the tube's own are still three times smaller
-    own mesh        the base below has bricks as large as the foot's faces, but 24 along the foot at most
+    own mesh        the base below has bricks as large as the foot's faces, but 8 to 24 along the foot
 """
 
 from __future__ import annotations
@@ -100,7 +100,8 @@ def _sized(column, flange, cap, base, mesh, mesh_content):
         own = _own(column)
         column = _filled(column, height_m=own.height, fine_height_m=0.0)
         filled = dict(element_order=2 if own.is_tetrahedral else 1)
-        fine, times = max(own.foot_edge, math.sqrt(foot[0] * foot[1]) / 24), 3
+        side = math.sqrt(foot[0] * foot[1])
+        fine, times = min(max(own.foot_edge, side / 24), side / 8), 3
         coarse = times * fine
     else:
         if column.shape == "solid":

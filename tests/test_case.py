@@ -108,3 +108,10 @@ def test_losses_and_starts_that_cannot_be_are_refused_by_name(tmp_path, text, ke
     (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{text}\n')
     with pytest.raises(InputError, match=key):
         read_case(tmp_path / "case.toml")
+
+
+def test_a_block_has_no_rim_to_resist_rolling(tmp_path):
+    block = Path("fecolumn/templates/block.toml").resolve()
+    (tmp_path / "case.toml").write_text(f'extends = "{block}"\n[contact]\nrolling_resistance = 1e-3\n')
+    with pytest.raises(InputError, match="contact.rolling_resistance.*only a round foot rolls"):
+        read_case(tmp_path / "case.toml")

@@ -67,3 +67,8 @@ def read_state(arrays: dict[str, np.ndarray], system) -> tuple[State, dict]:
         by_node[order] = arrays[name]
         values[name] = by_node[mine].copy()
     return State(**values), {name[6:]: value for name, value in arrays.items() if name.startswith("extra.")}
+
+
+def read_checkpoint(path: Path, system) -> tuple[State, dict]:
+    """State on this rank and the `extra` arrays that `write_checkpoint` wrote."""
+    return read_state(read_arrays(path), system)

@@ -16,6 +16,8 @@ from fecolumn.dynamics.free_body import FreeBody
 BATCH = 40
 # Largest factor on the relief of the points
 MOST = 1.5
+# Least share of its compliance that the stiffest distribution of forces keeps
+STIFFEST = 0.1
 # Places of nodes count as equal up to this, over the foot's width
 _SAME = 1e-9
 
@@ -109,7 +111,9 @@ def relief(body, plate, foot: Footprint) -> np.ndarray:
     high = 1.0
     while beyond(high) > 0 and high < MOST:
         high *= 1.1
-    while beyond(high) == -np.inf:
+    # every pressure must still press in: the least of it keeps a tenth of its compliance
+    least = STIFFEST * np.linalg.eigvalsh(points)[0]
+    while np.linalg.eigvalsh(points + high * np.diag(given.ravel()))[0] < least:
         high *= 0.97
     return (brentq(beyond, 0.0, high, xtol=1e-9) if beyond(high) < 0 else high) * given
 

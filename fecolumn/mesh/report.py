@@ -25,20 +25,20 @@ _STUBBY = 2.0
 def mesh_report(case: Case, folder, say=lambda text: None) -> str:
     """Write .msh, .xdmf, picture and table of a case's meshes into `folder`; returns the table. `say` is told the estimate first."""
     folder = Path(folder)
-    expected = str(estimate(case))
-    say(expected)
+    expected = estimate(case)
+    say(str(expected))
     specimen = specimen_mesh(case)
     folder.mkdir(parents=True, exist_ok=True)
     write_meshes(specimen, folder)
     picture(specimen, folder / "mesh.png")
-    lines = [expected, ", ".join(f"{key} = {getattr(case.mesh, key):g} m" for key in ("fine_size_m", "coarse_size_m", "cap_size_m", "base_size_m")), "",
+    lines = [str(expected), ", ".join(f"{key} = {getattr(case.mesh, key):g} m" for key in ("fine_size_m", "coarse_size_m", "cap_size_m", "base_size_m")), "",
              f"{'part':<16}{'nodes':>8}{'elements':>10}{'dofs':>9}{'smallest scaled Jacobian':>27}"]
     for mesh in (specimen.body, specimen.base):
         jacobian = scaled_jacobian(mesh)
         for part in sorted(set(mesh.part.tolist())):
             nodes = len(mesh.part_nodes(part))
             inside = mesh.part == part
-            lines.append(f"{PART_NAMES[part]:<16}{nodes:>8}{inside.sum():>10}{3 * nodes:>9}{jacobian[inside].min():>27.3f}")
+            lines.append(f"{PART_NAMES[part]:<16}{nodes:>8}{inside.sum():>10}{expected.dofs[part]:>9}{jacobian[inside].min():>27.3f}")
     lines += ["", f"{'quantity':<66}{'unit':<8}{'mesh':>14}{'closed form':>14}{'difference':>12}"]
     for row in quality_table(case, specimen):
         exact = f"{row.exact:>14.6g}{100 * row.difference:>11.3f}%" if row.exact is not None else ""

@@ -46,7 +46,8 @@ def path_figure(history, ending, path, formats=("png", "pdf")) -> list[Path]:
 
 def _circle(axes, radius: float) -> None:
     angle = np.linspace(0, 2 * np.pi, 181)
-    axes.plot(radius * np.cos(angle), radius * np.sin(angle), color=GREY, linestyle="--", linewidth=0.9, label=f"critical, $u_c$ = {radius:.3g} mm", zorder=1)
+    axes.plot(radius * np.cos(angle), radius * np.sin(angle), color=GREY, linestyle="--", linewidth=0.9,
+              label=f"critical, $u_c$ = {radius:.3g} mm", zorder=1)
 
 
 def _path(axes, u, time, ending):

@@ -53,7 +53,7 @@ def _specimen(axes, outline: Outline, tilt_rad: float | None) -> None:
     if tilt_rad:
         c, s = np.cos(tilt_rad), np.sin(tilt_rad)
         for part in outline.parts[1:]:
-            corners = np.array([[-part.half_width_m, part.bottom_m], [part.half_width_m, part.bottom_m], [part.half_width_m, part.top_m], [-part.half_width_m, part.top_m]])
+            corners = np.array([[side * part.half_width_m, height] for side, height in ((-1, part.bottom_m), (1, part.bottom_m), (1, part.top_m), (-1, part.top_m))])
             turned = (corners - [half, 0]) @ np.array([[c, -s], [s, c]]) + [half, 0]
             axes.add_patch(Polygon(turned, fill=False, edgecolor=VERMILION, linestyle="--", linewidth=0.8, zorder=3))
             right = max(right, turned[:, 0].max())
@@ -62,7 +62,7 @@ def _specimen(axes, outline: Outline, tilt_rad: float | None) -> None:
     scale = 0.16 * top / half
     plan = scale * outline.foot + [right + 0.32 * top, 0.3 * top]
     axes.fill(*plan.T, facecolor=_FILL, edgecolor=BLACK, linewidth=0.7)
-    wall = next((part.wall_m for part in outline.parts[1:] if part.wall_m and len(outline.parts) and np.isclose(part.half_width_m, half)), None)
+    wall = next((part.wall_m for part in outline.parts[1:] if part.wall_m and np.isclose(part.half_width_m, half)), None)
     if wall:
         inner = scale * outline.foot * (1 - wall / half) + [right + 0.32 * top, 0.3 * top]
         axes.fill(*inner.T, facecolor="white", edgecolor=BLACK, linewidth=0.5)

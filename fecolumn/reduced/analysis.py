@@ -8,6 +8,7 @@ import time
 import numpy as np
 
 from fecolumn._compiled import compiled
+from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
 from fecolumn.contact.law import interface_compliance
@@ -22,7 +23,6 @@ from fecolumn.reduced import start
 from fecolumn.reduced.cache import load_model
 from fecolumn.reduced.observe import COLUMNS, lost, view
 from fecolumn.reduced.run import Engine, advance
-from fecolumn.simulation import CHECKPOINT, Analysis, AnalysisFailed
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
 CHUNK = 500

@@ -46,17 +46,18 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sec
     at, blocks = sweep.at(here.values), []
     again = sum(curve.stands_again for curve in here.curves)
     fallen = sum(np.isfinite(curve.first[1]) for curve in here.curves)
-    text = (f"[[ida]]: each of {count(len(here.curves), 'motion')} scaled to {count(max(len(curve.im) for curve in here.curves), 'level')} (Vamvatsikos and Cornell "
-            f"2002), {at}. {fallen} overturn the column at one of their scales. ")
+    levels = max(len(curve.im) for curve in here.curves)
+    text = (f"[[ida]]: each of {count(len(here.curves), 'motion')} scaled to {count(levels, 'level')} (Vamvatsikos and Cornell 2002), {at}. "
+            f"{fallen} overturn the column at one of their scales. ")
     if here.fit:
-        text += (f"Half of the motions have overturned it by a PGV of {_speed(here.fit.median)} m/s {interval(*here.fit.median_interval(), _speed)}, with a logarithmic "
-                 f"standard deviation of {fixed(here.fit.beta)} {interval(*here.fit.beta_interval())}. Each motion counts once, by the intensities between which it "
+        text += (f"Half of the motions have overturned it by a PGV of {_speed(here.fit.median)} m/s {interval(*here.fit.median_interval(), _speed)}, "
+                 f"with a logarithmic standard deviation of {fixed(here.fit.beta)} {interval(*here.fit.beta_interval())}. Each motion counts once, by the intensities between which it "
                  "first overturns the column; those that never do count as beyond their largest. ")
-    text += (f"With {count(again, 'motion')} the column stands again at a larger scale: to have overturned by an intensity is then more probable than to overturn at it, "
-             "which the fragility below tells." if again else "No motion lets the column stand again at a larger scale.")
+    text += (f"With {count(again, 'motion')} the column stands again at a larger scale: to have overturned by an intensity is then more probable "
+             "than to overturn at it, which the fragility below tells." if again else "No motion lets the column stand again at a larger scale.")
     blocks.append(Paragraph(f"{text} [[first_overturnings]] has all settings, [[ida_motions]] every motion."))
-    blocks.append(gallery.draw("ida", f"Incremental dynamic analysis {at}: peak displacement of the top over the intensity, a thin line a motion, and the 16, 50 and 84 % "
-                                      "fractiles over the motions, as far as all motions are known. A line that turns level and ends in a mark: overturned.",
+    blocks.append(gallery.draw("ida", f"Incremental dynamic analysis {at}: peak displacement of the top over the intensity, a thin line a motion, "
+                                      "and the 16, 50 and 84 % fractiles over the motions, as far as all motions are known. A line that turns level and ends in a mark: overturned.",
                                incremental_figure, here.curves, LABEL, _critical(sweep)))
     if here.fit:
         panels, caption = _panels(sweep, here, found)
@@ -97,7 +98,8 @@ def _panels(sweep: Sweep, here: Scaled, found: list[Scaled]) -> tuple[list[Curve
     panels = [CurvePanel(LABEL, "share of motions\nthat have overturned", [
         Curve("lognormal, intervals as known", grid, p.p, (p.lower, p.upper)), steps("scale that overturns", upper),
         steps("largest scale below it", np.where(np.isinf(upper), np.inf, lower))], settings, legend="upper left")]
-    caption = f"Share of motions that have overturned the column by an intensity {sweep.at(here.values)}, with the 95 % band over the motions. Steps: the two ends of what is known of each motion."
+    caption = (f"Share of motions that have overturned the column by an intensity {sweep.at(here.values)}, with the 95 % band over the motions. Steps: "
+               "the two ends of what is known of each motion.")
     if axis := line_axis(sweep, [one.values for one in found if one.fit]):
         line = [one for one in found if one.fit and all(one.values[key] == value for key, value in here.values.items() if key != axis)]
         curves = [Curve(axis_text(axis, one.values[axis]), grid, q.p, (q.lower, q.upper)) for one in line for q in [one.fit.probability(grid)]]
@@ -117,15 +119,16 @@ def _table(sweep: Sweep, found: list[Scaled]) -> Table:
         law = [None] * 6 if one.fit is None else [one.fit.median, *one.fit.median_interval(), one.fit.beta, *one.fit.beta_interval()]
         rows.append((*(one.values[axis] for axis in axes), len(one.curves), sum(len(curve.im) for curve in one.curves),
                      sum(bool(np.isfinite(curve.first[1])) for curve in one.curves), sum(curve.stands_again for curve in one.curves), *law))
-    return Table("first_overturnings", columns, rows, "PGV by which half of the motions have overturned the column, and logarithmic standard deviation β of that PGV over the "
-                                                      "motions: lognormal, maximum likelihood of the intervals known, 95 % intervals over the motions. A dash: the motions do "
-                                                      "not bound the law.", folded=len(rows) > _FOLD)
+    return Table("first_overturnings", columns, rows,
+                 "PGV by which half of the motions have overturned the column, and logarithmic standard deviation β of that PGV over the motions: "
+                 "lognormal, maximum likelihood of the intervals known, 95 % intervals over the motions. A dash: the motions do not bound the law.",
+                 folded=len(rows) > _FOLD)
 
 
 def _motions(sweep: Sweep, found: list[Scaled]) -> Table:
     axes = [axis for axis in sweep.varied if axis != SCALE]
-    columns = (*axis_columns(axes), Column("motion", "motion", text=True), Column("scales", "scales"), Column("pgv_stood_m_s", "last PGV that stands [m/s]", _speed),
-               Column("u_max_m", "u_max there [mm]", millimetres), Column("pgv_overturned_m_s", "first PGV that overturns [m/s]", _speed),
+    columns = (*axis_columns(axes), Column("motion", "motion", text=True), Column("scales", "scales"),
+               Column("pgv_stood_m_s", "last PGV that stands [m/s]", _speed), Column("u_max_m", "u_max there [mm]", millimetres), Column("pgv_overturned_m_s", "first PGV that overturns [m/s]", _speed),
                Column("stands_again", "stands again", lambda again: "yes" if again else ""))
     rows = []
     for one in found:
@@ -134,7 +137,8 @@ def _motions(sweep: Sweep, found: list[Scaled]) -> Table:
             u = float(curve.u_max[np.searchsorted(curve.im, stood)]) if stood else None
             rows.append((*(one.values[axis] for axis in axes), curve.motion.strip("[]'\""), len(curve.im), stood or None, u,
                          fallen if np.isfinite(fallen) else None, curve.stands_again))
-    return Table("ida_motions", columns, rows, "Every motion: the largest PGV below its first overturning, and that of the first overturning; a dash where there is none.", folded=True)
+    return Table("ida_motions", columns, rows, "Every motion: the largest PGV below its first overturning, and that of the first overturning; a dash "
+                                               "where there is none.", folded=True)
 
 
 def _speed(value) -> str:

@@ -22,9 +22,9 @@ def preparation(analyses: Iterable) -> str:
         return ""
     import numba
 
-    from fecolumn._compiled import _folder, cache_folder
+    from fecolumn._compiled import cache_folder, compiled_folder
 
     if any(cache_folder().glob(".model-*.lock")):
         return MODELLING
-    kept = any(Path(_folder()).glob("*/*.advance-*.nbi"))  # the one function of the engine that Python calls, see reduced.run
+    kept = any(Path(compiled_folder()).glob("*/*.advance-*.nbi"))  # the one function of the engine that Python calls, see reduced.run
     return "" if kept or numba.config.DISABLE_JIT else COMPILING

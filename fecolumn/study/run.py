@@ -91,7 +91,7 @@ def check_motions(plan: Plan) -> None:
         InputError: a motion that cannot be used, in the loader's words.
     """
     from fecolumn.motions.load import load_motion
-    from fecolumn.simulation import cut_text
+    from fecolumn.analysis import cut_text
 
     # factor and direction change neither length nor whether it can be used; the longest step is the most demanding
     longest_step, users = {}, {}

@@ -36,8 +36,9 @@ def test_weight_sinks_as_much_into_a_flat_without_edges_as_into_a_wide_plate():
     assert sunk[1] == pytest.approx(sunk[0], rel=1e-3)
 
 
-def test_foot_that_reaches_the_edge_of_its_plate_ends_the_analysis_as_slid_off(tmp_path):
-    case = column_case("corotated", **STOUT, base={"length_m": 0.22, "width_m": 0.3, "slide_allowance_m": 0.0, "thickness_m": 0.05},
+@pytest.mark.parametrize("engine", ["corotated", "rigid"])
+def test_foot_that_reaches_the_edge_of_its_plate_ends_the_analysis_as_slid_off(engine, tmp_path):
+    case = column_case(engine, **STOUT, base={"length_m": 0.22, "width_m": 0.3, "slide_allowance_m": 0.0, "thickness_m": 0.05},
                        initial={"velocity_m_s": [-2.0, 0.0, 0.0]}, contact={"friction_coefficient": 0.05}, integration={"duration_s": 0.1, "dt_s": 1e-3})
     summary = simulation.run(case, tmp_path / "out", quiet=True)
     assert summary["outcome"] == "slid off" and summary["slid_off"] and not summary["overturned"]

@@ -1,6 +1,8 @@
 """Analyses with the reduced engine from case to result folder."""
 
+import io
 import json
+import shutil
 import time
 
 import h5py
@@ -123,3 +125,46 @@ def test_a_thrown_column_with_damping_restitution_and_rolling_resistance_moves_t
         assert sums["full"][term] < 0 and sums["reduced"][term] == pytest.approx(sums["full"][term], rel=0.01)
     assert sums["full"]["damping"] < 0 and sums["reduced"]["damping"] < 0
     assert np.abs(reduced["energy/closure"]).max() < 1e-9 * full["energy/kinetic"][0]
+
+
+@pytest.fixture(scope="module")
+def interrupted(tmp_path_factory):
+    """A case, its folder with a checkpoint in the middle, and the summary of the same analysis done at once."""
+    case, folder = case_of(integration={"engine": "rigid", "duration_s": 0.6}), tmp_path_factory.mktemp("interrupted")
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(case, folder / "a", quiet=True, stop=lambda: True)
+    return case, folder / "a", simulation.run(case, folder / "whole", quiet=True)
+
+
+def _rewritten(**changes):
+    def damage(data):
+        with np.load(io.BytesIO(data)) as file:
+            arrays = {name: file[name] for name in file.files}
+        content = io.BytesIO()
+        np.savez(content, **arrays | {name: change(arrays[name]) for name, change in changes.items()})
+        return content.getvalue()
+    return damage
+
+
+@pytest.mark.parametrize("damage", [
+    lambda data: b"garbage", lambda data: b"", lambda data: data[:len(data) // 2], lambda data: data[:3000] + bytes(500) + data[3500:],
+    _rewritten(step=lambda step: step + 1), _rewritten(case_id=lambda name: "000000000000"), _rewritten(ledger=lambda values: values * np.nan),
+    _rewritten(ledger=lambda values: values[1:]), _rewritten(**{"motion.scalars": lambda values: values.astype(str)})])
+def test_checkpoint_that_cannot_be_used_is_told_and_the_analysis_starts_afresh(interrupted, tmp_path, damage):
+    case, folder, whole = interrupted
+    shutil.copytree(folder, tmp_path / "a")
+    checkpoint = tmp_path / "a" / "checkpoint.npz"
+    checkpoint.write_bytes(damage(checkpoint.read_bytes()))
+    with pytest.warns(UserWarning, match="checkpoint.npz cannot be used .*; the analysis starts afresh"):
+        summary = simulation.run(case, tmp_path / "a", quiet=True)
+    assert summary["u_max_m"] == whole["u_max_m"] and summary["steps"] == whole["steps"] and not checkpoint.exists()
+
+
+@pytest.mark.parametrize("wrong", ["{", "[]", {"u_max_m": -1.0}, {"case_id": "000000000000"}])
+def test_summary_that_is_none_is_told_and_the_analysis_made_again(interrupted, tmp_path, wrong):
+    case, folder, whole = interrupted
+    shutil.copytree(folder, tmp_path / "a")
+    (tmp_path / "a" / "summary.json").write_text(wrong if isinstance(wrong, str) else json.dumps(whole | wrong))
+    with pytest.warns(UserWarning, match="summary.json is damaged: .*; the analysis is made again"):
+        summary = simulation.run(case, tmp_path / "a", quiet=True)
+    assert summary["u_max_m"] == whole["u_max_m"]

@@ -12,7 +12,7 @@ from fecolumn.cli import main
 from fecolumn.report.notation import fixed, interval, percent, percent_interval
 from fecolumn.schema import InputError
 
-VOID = {"meta", "img", "br", "link", "input", "hr"}
+VOID = {"meta", "img", "br", "link", "input", "hr", "source"}
 FRICTION = "contact.friction_coefficient"
 
 

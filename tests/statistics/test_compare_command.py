@@ -38,7 +38,7 @@ def test_two_settings_of_a_study_are_compared_motion_by_motion(study, tmp_path, 
     a, b = (f"{study}@integration.dt_s={dt},integration.alpha_hht=0" for dt in ("0.02", "5e-3"))
     said = compared(capsys, a, b, "-o", tmp_path / "out")
     assert "60 motions in both, compared one by one" in said and "settings swapped" in said and "median u_max [mm]" in said
-    assert {file.name for file in (tmp_path / "out").iterdir()} == {"comparison.csv", "pairs.csv", "comparison.png", "comparison.pdf"}
+    assert {file.name for file in (tmp_path / "out").glob("[!.]*")} == {"comparison.csv", "pairs.csv", "comparison.png", "comparison.pdf"}
     pairs = list(csv.DictReader((tmp_path / "out" / "pairs.csv").open()))
     values = dict(csv.reader((tmp_path / "out" / "comparison.csv").open()))
     assert len(pairs) == int(values["n_a"]) == 60

@@ -287,16 +287,16 @@ def test_time_in_which_the_engine_is_compiled_is_told_and_no_analysis_pays_for_i
                                                   ("reduced", (".model-1f.lock",), MODELLING), ("reduced", ("{code}/reduced_1/run.advance-27.py311.1.nbi",), "")])
 def test_what_a_new_machine_makes_first_is_seen_in_its_cache(tmp_path, monkeypatch, engine, files, words):
     monkeypatch.setenv("FECOLUMN_CACHE", str(tmp_path / "cache"))
-    _compiled._folder.cache_clear()
+    _compiled.compiled_folder.cache_clear()
     try:
         for name in files:
-            file = tmp_path / "cache" / name.format(code=Path(_compiled._folder()).name)
+            file = tmp_path / "cache" / name.format(code=Path(_compiled.compiled_folder()).name)
             file.parent.mkdir(parents=True, exist_ok=True)
             file.touch()
         plan = read_plan(write_study(tmp_path, dt=[1e-3], alpha=[0], pulses=[1], extra=f'"integration.engine" = ["{engine}"]\n'))
         assert preparation(plan.analyses) == words
     finally:
-        _compiled._folder.cache_clear()
+        _compiled.compiled_folder.cache_clear()
 
 
 def test_log_file_gets_few_plain_lines(tmp_path):

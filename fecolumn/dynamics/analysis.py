@@ -1,0 +1,152 @@
+"""One analysis with the full-order engine."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+
+import numpy as np
+
+from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
+
+
+class FullAnalysis(Analysis):
+    """A running analysis of the full-order engine."""
+
+    def __init__(self, case, folder, comm, file, quiet):
+        from fecolumn.contact.friction import prepare_solver
+        from fecolumn.dynamics import gravity
+        from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
+        from fecolumn.dynamics.energy import Ledger
+        from fecolumn.dynamics.observer import Observer
+        from fecolumn.dynamics.stepper import Stepper
+
+        super().__init__(case, folder, comm, file, quiet)
+        prepare_solver(self.say)
+        self.began = time.perf_counter()
+        plan = case.integration
+        specimen = share_specimen_mesh(case, comm)
+        self.system = build_system(case, comm, specimen)
+        self.warn_of_base(self.system.base.frequency, self.system.interface.pad, file)
+        self.ledger = Ledger(self.system)
+        self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
+                               plan.max_iterations, plan.max_cuts)
+        self.observer = Observer(self.system, specimen, case.overturn.displacement_m)
+        self.stance, self.top_arm = self.observer.stance, self.observer.top_arm
+        self.fields, self.free = self._fields(specimen) if self.field_steps else None, None
+        if self.went_on(self._take):
+            self.say(f"resuming at t = {self.state.time:.4f} s")
+        else:
+            self.state, start = self._standing(), case.initial
+            if start.tilt_rad or start.moves:
+                self.state = gravity.begin(self.system, start)
+            self.state.ground = self.ground(0)
+            self.ledger.open(self.state)
+            self._note(0)
+            if self.fields:
+                self._write_fields()
+
+    def _standing(self):
+        """Gravity equilibrium, its energy noted; None of a column released with a tilt that cannot stand."""
+        from fecolumn.dynamics import gravity
+
+        try:
+            state = gravity.standing(self.system)
+        except RuntimeError:
+            if not self.case.initial.tilt_rad:
+                raise
+            return None
+        self.standing_j = sum(self.ledger.state_terms(state).values())
+        return state
+
+    def _take(self, arrays: dict) -> None:
+        from fecolumn.dynamics.checkpoint import read_state
+        from fecolumn.dynamics.energy import TERMS
+        from fecolumn.dynamics.stepper import Record
+
+        state, extra = read_state(arrays, self.system)
+        start = float(extra["start"])
+        work, record = dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True)), Record(*extra["record"].tolist())
+        self.resumed(extra)
+        self.state, self.ledger.start, self.ledger.work, self.stepper.record = state, start, work, record
+
+    def _fields(self, specimen):
+        from fecolumn.post.fields import FieldWriter
+
+        system = self.system
+        plate = system.base if len(specimen.base.cells) else None
+        return FieldWriter(self.folder / "fields", system.column, plate, system.footprint, specimen)
+
+    def _write_fields(self) -> None:
+        from fecolumn.dynamics.free_body import FreeBody
+
+        system, state = self.system, self.state
+        interface, column, R = system.interface, system.column, state.rotation
+        at_nodes, local = interface.at_nodes(state.forces), system.kinematics.local_displacement(state.x)
+        rest = np.zeros_like(local)
+        if interface.foot.filtered:
+            # what the filter keeps from the body it bears statically: the part of the stress that a step does not resolve
+            self.free = self.free or FreeBody(column)
+            forces = at_nodes @ R
+            unresolved = column.spread(system.foot_nodes, forces) - interface.foot.load(forces)
+            rest = self.free.response(unresolved.reshape(-1, 1)).reshape(-1, 3)
+        self.fields.write(state.time, state.x + rest @ R.T, local + rest, interface.dynamic_position(state.x, R), state.forces, at_nodes)
+
+    def run(self, stop) -> dict:
+        from fecolumn.dynamics.overturning import STANDS
+        from fecolumn.dynamics.stepper import StepFailed
+        from fecolumn.progress import Progress
+
+        cadence = self.case.output
+        progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet or self.comm.rank > 0,
+                            until_rest_from=self.motion_steps if self.until_rest else None)
+        saved, fallen, over, off = time.perf_counter(), STANDS, False, None
+        try:
+            while self.step < self.steps and not over:
+                began, before = time.perf_counter(), self.stepper.record.iterations
+                state = self.stepper.step(self.state, self.ground(self.step + 1))
+                self.state, self.step = state, self.step + 1
+                self.stepping_s += time.perf_counter() - began
+                measures = self._note(self.stepper.record.iterations - before)
+                fallen = self.observer.fallen(self.state, measures, self.steepest(self.step))
+                over = fallen != STANDS or self.energy_left() + self.standing_j <= self.rest_j
+                progress.show(self.step, measures, self.stepper.record)
+                if self.fields and self.step % self.field_steps == 0:
+                    self._write_fields()
+                due, ended = self._agree(time.perf_counter() - saved > cadence.checkpoint_every_s, stop())
+                if due or ended:
+                    self._save()
+                    saved = time.perf_counter()
+                if ended and self.step < self.steps and not over:
+                    raise KeyboardInterrupt
+        except StepFailed as failure:
+            column = self.system.column
+            off = self.slid_off(failure, self.system.base, column.gather(self.system.foot_nodes, self.state.x))
+            if off is None:
+                self._save()
+                raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+        finally:
+            progress.end()
+        dofs = 3 * self.system.column.n_nodes + self.system.base.dofs
+        return self.finish(off or self.ending(fallen, self.state.rotation), dofs, self.stepper.record, self.system.factorizations)
+
+    def _agree(self, due: bool, ended: bool) -> tuple[bool, bool]:
+        """Checkpoint due, stop asked for: so for all ranks where it is so for one."""
+        if self.comm.size == 1:
+            return due, ended
+        votes = self.comm.allreduce(np.array([due, ended], int))
+        return bool(votes[0]), bool(votes[1])
+
+    def _note(self, iterations: int) -> dict:
+        measures = self.observer.measure(self.state)
+        self.history.add(measures, self.ledger.row(self.state), iterations)
+        return measures
+
+    def _save(self) -> None:
+        from fecolumn.dynamics.checkpoint import write_checkpoint
+
+        extra = self.to_resume() | dict(start=self.ledger.start, work=list(self.ledger.work.values()),
+                                        record=dataclasses.astuple(self.stepper.record))
+        write_checkpoint(self.folder / CHECKPOINT, self.system, self.state, extra)
+        self.write_history()
+        self.comm.barrier()
