@@ -44,7 +44,9 @@ def check_shape(case: Case, file) -> None:
             if getattr(column, key) is not None:
                 refuse(f"column.{key}", getattr(column, key), "is read from column.mesh_file; leave it out")
         return
-    needed, idle = NEEDED[column.shape], [key for key in _IDLE[column.shape] if getattr(column, key) is not None]
+    # a finished case states the wall of a solid cylinder, its radius
+    implied = {"wall_m": column.outer_diameter_m / 2} if column.shape == "solid" and column.outer_diameter_m else {}
+    needed, idle = NEEDED[column.shape], [key for key in _IDLE[column.shape] if getattr(column, key) not in (None, implied.get(key))]
     missing = [key for key in needed if getattr(column, key) is None]
     if missing:
         refuse(", ".join(f"column.{key}" for key in missing), None,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from fecolumn.case import read_case
+from fecolumn.case import finished, read_case
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.schema import InputError
 
@@ -115,3 +115,11 @@ def test_a_block_has_no_rim_to_resist_rolling(tmp_path):
     (tmp_path / "case.toml").write_text(f'extends = "{block}"\n[contact]\nrolling_resistance = 1e-3\n')
     with pytest.raises(InputError, match="contact.rolling_resistance.*only a round foot rolls"):
         read_case(tmp_path / "case.toml")
+
+
+@pytest.mark.parametrize("column", ['shape = "solid"\nouter_diameter_m = 0.5\nheight_m = 1.6', 'shape = "block"\nlength_m = 0.4\nwidth_m = 0.3\nheight_m = 1.2',
+                                    "outer_diameter_m = 0.02\nwall_m = 0.0015\nheight_m = 0.15"])
+def test_finishing_a_finished_case_changes_nothing(tmp_path, column):
+    (tmp_path / "case.toml").write_text(f"[column]\n{column}\n")
+    case = read_case(tmp_path / "case.toml")
+    assert finished(case, "case.toml") == case
