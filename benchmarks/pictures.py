@@ -23,7 +23,7 @@ from fecolumn.study.run import run_study
 from fecolumn.study.table import write_figure
 
 ROOT = Path(__file__).parents[1]
-# The stout column in motion 3 of the Lick ensemble, once more as strong: it rocks to two thirds of its critical tilt
+# The stout column in motion 3 of the Lick ensemble, half again as strong
 ROCKING = {"mesh": {"coarse_size_m": 0.02, "cap_size_m": 0.025, "base_size_m": 0.03},
            "motion": {"source": "lick:3", "scale": 1.5}, "integration": {"engine": "reduced", "duration_s": 6.0},
            "output": {"fields_every_s": 0.02}}
