@@ -98,7 +98,7 @@ class Contact(Section):
     law: str = parameter("augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty"))
     friction_coefficient: float = parameter(0.3, doc="Coulomb friction coefficient", low=0, high=10)
     penalty_factor: float = parameter(100.0, doc="penalty stiffness per area as a multiple of E / fine_size_m", above=0, high=1e9)
-    interior_points: int = parameter(36, doc="contact points inside the outlines of the foot, evenly spread; all nodes on the outlines are points", low=0, high=10**6, since="0.2")
+    interior_points: int = parameter(64, doc="contact points inside the outlines of the foot, evenly spread; all nodes on the outlines are points", low=0, high=10**6, since="0.2")
     impact: str = parameter("plastic", doc="treatment of closing contacts; none is the literal HHT scheme", choices=("plastic", "none"))
     restitution: float = parameter(0.0, doc="velocity after over before an impact; 0 is the plastic impact", low=0, high=1, since="0.2")
     rolling_resistance: float = parameter(0.0, doc="energy that a rolling rim loses per length rolled, over the contact force", low=0, high=0.1, since="0.2")

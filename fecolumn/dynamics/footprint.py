@@ -16,8 +16,9 @@ from fecolumn.dynamics.free_body import FreeBody
 BATCH = 40
 # Largest factor on the relief of the points
 MOST = 1.5
-# Least share of its compliance that the stiffest distribution of forces keeps
-STIFFEST = 0.1
+# Least share of its compliance that the stiffest distribution of forces keeps: with 0.12 the reduced engine found no forces at the moment at
+# which a sliding marble block of 85 points came to rest, with 0.3 it did
+STIFFEST = 0.3
 # Places of nodes count as equal up to this, over the foot's width
 _SAME = 1e-9
 
@@ -81,7 +82,7 @@ def relief(body, plate, foot: Footprint) -> np.ndarray:
 
     The pressure on a patch presses it in less than the same force on one node in its middle. Each inner point gets the difference of
     the two, of the column and of the base below its nodes; one factor on all of them makes the stiffness of the standing foot against
-    its weight exactly that of the foot with all its nodes. Zero where all nodes are points.
+    its weight that of the foot with all its nodes, as far as STIFFEST allows. Zero where all nodes are points.
 
     Args:
         body: of the column. plate: BasePlate or another holder of its compliance.
@@ -111,7 +112,7 @@ def relief(body, plate, foot: Footprint) -> np.ndarray:
     high = 1.0
     while beyond(high) > 0 and high < MOST:
         high *= 1.1
-    # every pressure must still press in: the least of it keeps a tenth of its compliance
+    # every pressure must still press in: the least of it keeps so much of its compliance
     least = STIFFEST * np.linalg.eigvalsh(points)[0]
     while np.linalg.eigvalsh(points + high * np.diag(given.ravel()))[0] < least:
         high *= 0.97
