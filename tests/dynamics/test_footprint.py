@@ -41,7 +41,7 @@ def test_a_tube_of_one_brick_keeps_every_node():
     assert np.array_equal(found.nodes, found.all_nodes) and not found.inner.any()
 
 
-@pytest.mark.parametrize("shape, within", [("drum", 0.01), ("block", 0.025)])
+@pytest.mark.parametrize("shape, within", [("drum", 0.01), ("block", 0.04)])
 def test_few_points_carry_the_weight_and_sink_as_far_as_all(shape, within):
     """Forces on single nodes press deeper than the pressure that they stand for: by 4 and 10 % without relief, which is limited for the block."""
     sunk = []
