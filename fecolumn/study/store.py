@@ -186,7 +186,7 @@ def read_study(folder) -> Study:
         for ledger in ledgers:
             ledger.close()
     for row in rows:
-        if row["axes"].keys() != identity["axes"].keys():
+        if identity["axes"].keys() - row["axes"].keys():
             raise InputError(folder, "", None, f"its ledger says nothing of some axes of analysis {row['id']}; run fecolumn study on this folder again")
     return Study(identity["title"], identity["axes"], rows, identity["analyses"])
 
