@@ -34,6 +34,8 @@ def run(case: Case | str | Path, folder, *, comm=None, file: str = "", quiet: bo
     """
     from mpi4py import MPI
 
+    from fecolumn.dynamics.gravity import NoEquilibrium
+
     comm = comm or MPI.COMM_WORLD
     if isinstance(case, (str, Path)):
         case, file = read_case(case), str(case)
@@ -47,7 +49,10 @@ def run(case: Case | str | Path, folder, *, comm=None, file: str = "", quiet: bo
             return summary
         if damage and comm.rank == 0:
             warnings.warn(f"{folder / NAME} {damage}; the analysis is made again", stacklevel=2)
-        analysis = _analysis_class(case, comm, file)(case, folder, comm, file, quiet)
+        try:
+            analysis = _analysis_class(case, comm, file)(case, folder, comm, file, quiet)
+        except NoEquilibrium as error:
+            raise AnalysisFailed(f"{file}: {error}") from None
         claim()
         return analysis.run(stop)
 

@@ -52,7 +52,7 @@ class FullAnalysis(Analysis):
 
         try:
             state = gravity.standing(self.system)
-        except RuntimeError:
+        except gravity.NoEquilibrium:
             if not self.case.initial.tilt_rad:
                 raise
             return None

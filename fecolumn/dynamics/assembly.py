@@ -13,7 +13,7 @@ from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded
 from fecolumn.dynamics.body import Body
 from fecolumn.dynamics.corotated import Corotated
 from fecolumn.dynamics.damping import ModalDamping
-from fecolumn.dynamics.footprint import Footprint, footprint, relief
+from fecolumn.dynamics.footprint import Footprint, footprint
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
 from fecolumn.mesh.base_plate import levels
@@ -113,7 +113,7 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
         kinematics = Corotated(column)
     foot = foot_of(case, specimen, column)
     base = base_of(case, column.all_X[foot.nodes]) or BasePlate(base_body(case, specimen, comm))
-    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas) + relief(column, base, foot)
+    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas)
     damping = ModalDamping(column, case.integration.n_modes, ratio) if (ratio := case.material.damping_ratio) else None
     pad = pad_of(case, foot.areas, column.total_mass)
     return System(column, kinematics, base, foot, case.contact.friction_coefficient,

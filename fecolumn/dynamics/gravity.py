@@ -4,14 +4,29 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.dynamics.free_body import rigid_fields
 from fecolumn.dynamics.rotation import rotation_matrix
 from fecolumn.dynamics.stage import Stage, Stop, equilibrate
 from fecolumn.dynamics.system import State
 
-# Inertia factor of the pseudo-time iteration [1/s2]: it only holds what contact and friction leave free.
-PSEUDO_INERTIA = 400.0
+# Inertia factor of the pseudo-time iteration over the rate of falling, see `pseudo_inertia`: it only holds what contact and friction leave
+# free. The contact's compliance leaves out that a tilt moves the weight; the iteration that mends this contracts by the inverse
+FIRMNESS = 10.0
 # A step that moves the column less is at rest, above the rounding of positions [m]
 REST = 1e-11
+
+
+class NoEquilibrium(RuntimeError):
+    """The column does not stand: its centre of mass is not over its foot, or contact does not converge."""
+
+
+def pseudo_inertia(weight: float, depth: float, inertia: np.ndarray) -> float:
+    """Inertia factor [1/s2] of the proximal steps of a column of `weight` [N] with its centre of mass `depth` [m] above its foot.
+
+    Args:
+        inertia: (3, 3) about the centre of mass [kg m2].
+    """
+    return FIRMNESS * weight * depth / float(np.linalg.eigvalsh(inertia[:2, :2])[0])
 
 
 def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State:
@@ -21,26 +36,27 @@ def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State
     by the ratio of inertia to stiffness, about 1e-4, so that a handful reaches rounding.
 
     Raises:
-        RuntimeError: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
+        NoEquilibrium: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
     column, interface = system.column, system.interface
     interface.place(None)
     load, x = system.load(np.zeros(3)), column.X.copy()
     anchors = interface.reference[:, :2].copy()
     forces = np.zeros((interface.size, 3))
-    factors = PSEUDO_INERTIA, 1.0
+    depth = column.center[2] - interface.reference[:, 2].mean()
+    factors = pseudo_inertia(system.weight, depth, rigid_fields(column)[2][3:, 3:]), 1.0
     for _ in range(max_iterations):
         stage = Stage(target=x, load=load, start=x, scale=1.0, anchors=anchors, forces=forces,
                       spring=interface.spring(np.inf, np.zeros_like(forces)), rotation=np.eye(3))
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
         if outcome.stop is not Stop.CONVERGED:
-            raise RuntimeError(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
+            raise NoEquilibrium(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
         moved = column.max(np.abs(outcome.x - x).max(initial=0.0))
         x, forces = outcome.x, outcome.forces
         if moved < REST:
             break
     else:
-        raise RuntimeError(f"gravity equilibrium: still moving by {moved:.2e} m after {max_iterations} iterations")
+        raise NoEquilibrium(f"gravity equilibrium: still moving by {moved:.2e} m after {max_iterations} iterations")
     system.forget(*factors)
     push = interface.acceleration(forces, outcome.rotation) if interface.foot.filtered else np.zeros_like(x)
     return State(

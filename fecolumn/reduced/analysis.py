@@ -14,6 +14,7 @@ from fecolumn.case import GRAVITY
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
+from fecolumn.dynamics.gravity import NoEquilibrium
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS
 from fecolumn.dynamics.stepper import StepFailed
@@ -30,7 +31,7 @@ CHUNK = 500
 
 def engine_of(case, model, base, upright: bool = False) -> Engine:
     """The reduced engine of a case at its start, or in gravity equilibrium."""
-    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas) + model.relief
+    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas)
     plan, pad = case.integration, pad_of(case, model.areas, model.mass)
 
     def begin(engine):
@@ -46,7 +47,7 @@ def standing_energy(case, model, base) -> float:
     """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained column, where there is none."""
     try:
         return engine_of(case, model, base, upright=True).mechanical()
-    except RuntimeError:
+    except NoEquilibrium:
         return 0.0
 
 

@@ -13,7 +13,7 @@ from fecolumn.reduced.model import ColumnModel
 BATCH = 120
 
 
-def column_model(body, foot_nodes, areas, top_nodes, top_weights, n_modes: int, relief=None) -> tuple[ColumnModel, np.ndarray]:
+def column_model(body, foot_nodes, areas, top_nodes, top_weights, n_modes: int) -> tuple[ColumnModel, np.ndarray]:
     """Reduce a column; also the shapes (n_modes, n_owned, 3) of the modes all over it.
 
     Args:
@@ -21,7 +21,6 @@ def column_model(body, foot_nodes, areas, top_nodes, top_weights, n_modes: int, 
         foot_nodes: (n,) nodes that may touch; areas: (n,) tributary to them [m2].
         top_nodes, top_weights: (k,) nodes of the top's face and their shares in its mean.
         n_modes: elastic modes to keep.
-        relief: (n, 3) of the points; none where each node stands for itself.
     """
     frequencies, fields = elastic_modes(body, n_modes)
     free, n = FreeBody(body), len(foot_nodes)
@@ -38,7 +37,6 @@ def column_model(body, foot_nodes, areas, top_nodes, top_weights, n_modes: int, 
     model = ColumnModel(
         mass=float(body.total_mass), inertia=free.masses[3:, 3:], center=body.center, frequencies=frequencies, shapes=at(foot_nodes),
         flexibility=blocks(flexibility), arms=body.all_X[foot_nodes] - body.center, areas=np.asarray(areas),
-        relief=np.zeros((n, 3)) if relief is None else relief,
         top_arm=top_weights @ body.all_X[top_nodes] - body.center, top_shape=np.einsum("i,iam->am", top_weights, at(top_nodes)),
         dofs=3 * body.n_nodes)
     return model, fields

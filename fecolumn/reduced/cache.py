@@ -28,7 +28,7 @@ from fecolumn.lock import alone
 from fecolumn.reduced.model import ColumnModel
 
 # A new number makes all models afresh
-FORMAT = 3
+FORMAT = 4
 # Elastic modes that a model keeps at least, so that analyses with fewer share it
 KEPT_MODES = 40
 # Least reach of the first compliance of the base around the foot, over the foot's width
@@ -154,14 +154,13 @@ def make_bodies(case: Case):
 
 def _make(case: Case, folder: Path) -> None:
     from fecolumn.dynamics.assembly import base_of, foot_of
-    from fecolumn.dynamics.footprint import relief
     from fecolumn.dynamics.observer import top_of
     from fecolumn.reduced.build import column_model
 
     body, plate, specimen = make_bodies(case)
     foot = foot_of(case, specimen, body)
     below = plate or base_of(case, body.all_X[foot.nodes])
-    model, fields = column_model(body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES), relief(body, below, foot))
+    model, fields = column_model(body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES))
     if plate:
         allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
         plate.need(_under(plate.grid.points, model.reference, allowance))

@@ -19,7 +19,7 @@ class ColumnModel:
     frequencies: (m,) [rad/s], rising, of the free-free elastic modes with unit modal mass; shapes: (n, 3, m) [1/sqrt(kg)] at the
         foot's nodes.
     flexibility: (n, n, 3, 3) [m/N] of the foot's nodes by all elastic modes, the exact static one of the free body.
-    arms: (n, 3) [m] of the foot's nodes; areas: (n,) [m2] tributary to them; relief: (n, 3) [m/N] as of `dynamics.footprint`.
+    arms: (n, 3) [m] of the foot's nodes; areas: (n,) [m2] tributary to them.
     top_arm: (3,) [m] and top_shape: (3, m): mean over the top's face.
     dofs: of the mesh it was made from.
     """
@@ -32,7 +32,6 @@ class ColumnModel:
     flexibility: np.ndarray
     arms: np.ndarray
     areas: np.ndarray
-    relief: np.ndarray
     top_arm: np.ndarray
     top_shape: np.ndarray
     dofs: int

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.gravity import PSEUDO_INERTIA, REST, leaning, spun
+from fecolumn.dynamics.gravity import REST, NoEquilibrium, leaning, pseudo_inertia, spun
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.equilibrium import FAR_BASE, OK
 from fecolumn.reduced.model import resting_scheme
@@ -15,7 +15,7 @@ def standing(engine, max_iterations: int = 50) -> motions.Motion:
     """Gravity equilibrium, by the same proximal steps as the full-order engine: it needs no factorisation.
 
     Raises:
-        RuntimeError: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
+        NoEquilibrium: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
     column, model = engine.column, engine.model
     n, m = len(model.arms), len(model.frequencies)
@@ -24,7 +24,7 @@ def standing(engine, max_iterations: int = 50) -> motions.Motion:
     start.anchors[:] = model.reference[:, :2]
     engine.points.anchors[:] = start.anchors
     engine.points.forces[:] = 0.0
-    resting = resting_scheme(column, PSEUDO_INERTIA)
+    resting = resting_scheme(column, pseudo_inertia(engine.eye.stance.weight, -model.arms[:, 2].mean(), model.inertia))
     moved = np.inf
     for _ in range(max_iterations):
         while True:
@@ -33,7 +33,7 @@ def standing(engine, max_iterations: int = 50) -> motions.Motion:
                 break
             engine.extend_base(end)
         if answer != OK:
-            raise RuntimeError("gravity equilibrium: contact does not converge")
+            raise NoEquilibrium("gravity equilibrium: contact does not converge")
         moved = max(np.abs(end.center - start.center).max(), np.abs(engine.sway.turn).max() * np.abs(model.center).max(),
                     np.abs(end.elastic - start.elastic).max())
         end.anchors[:] = start.anchors
@@ -42,7 +42,7 @@ def standing(engine, max_iterations: int = 50) -> motions.Motion:
         if moved < REST:
             break
     else:
-        raise RuntimeError(f"gravity equilibrium: still moving by {moved:.2e} m after {max_iterations} iterations")
+        raise NoEquilibrium(f"gravity equilibrium: still moving by {moved:.2e} m after {max_iterations} iterations")
     engine.counts[:] = 0
     start.acceleration[:] = -start.forces.sum(axis=0) / column.mass
     start.modal_acceleration[:] = -column.squares * start.modal
