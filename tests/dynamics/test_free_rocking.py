@@ -12,7 +12,10 @@ from fecolumn.dynamics.stepper import Stepper
 
 @pytest.mark.parametrize("alpha", [0.0, -0.2])
 def test_quarter_period_loss_and_ledger_of_free_rocking(alpha):
-    """T/4 = acosh(1 / (1 - th0/al)) / p; loss at the impact between Housner's 1 - r^2 and nothing."""
+    """T/4 = acosh(1 / (1 - th0/al)) / p; loss at the impact near Housner's 1 - r^2.
+
+    At this step it is 0.64 to 1.04 of Housner's, by the moment of the impact within the step (ten tilts from 0.4 to 0.404 of the critical one).
+    """
     system = coarse_system(integration={"dt_s": 1e-3, "alpha_hht": alpha})
     column = system.column
     radius = np.linalg.norm(system.interface.reference[:, :2], axis=1).max()
@@ -37,7 +40,7 @@ def test_quarter_period_loss_and_ledger_of_free_rocking(alpha):
     assert crossing == pytest.approx(quarter, rel=0.02)
     row = ledger.row(state)
     lost = ledger.start - row[:3].sum()
-    assert 0 < lost < 1.02 * rocking * (1 - restitution**2)
+    assert 0.6 < lost / (rocking * (1 - restitution**2)) < 1.08
     assert abs(row[-1]) < 1e-3 * rocking
     assert tilt_angle(state.rotation) > 0.2 * slenderness
 
