@@ -24,14 +24,14 @@ MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine
 class Column(Section):
     """Upright column, its axis along z, its foot at z = 0: tube, solid cylinder, block, or the user's own mesh."""
 
-    outer_diameter_m: float | None = parameter(None, doc="outer diameter of a tube or solid cylinder", unit="m", above=0, high=100)
-    height_m: float | None = parameter(None, doc="height of the column without cap and flange", unit="m", above=0, high=1000)
-    wall_m: float | None = parameter(None, doc="wall thickness of a tube; half the diameter makes a solid cylinder", unit="m", above=0, high=50)
+    outer_diameter_m: float | None = parameter(None, doc="outer diameter; a tube and a solid cylinder need it", unit="m", above=0, high=100)
+    height_m: float | None = parameter(None, doc="height of the column without cap and flange; every built column needs it", unit="m", above=0, high=1000)
+    wall_m: float | None = parameter(None, doc="wall thickness, which a tube needs; half the diameter makes a solid cylinder", unit="m", above=0, high=50)
     fine_height_m: float | None = parameter(None, doc="height of the finely meshed lower part; left out: half the width of the foot", unit="m", low=0, high=1000)
     mesh_file: str = parameter("", doc="mesh of 8-node bricks or of tetrahedra in any format meshio reads, lengths in metres; replaces the built column")
     shape: str = parameter("tube", doc="built column: tube, solid cylinder or rectangular block", choices=("tube", "solid", "block"), since="0.2")
-    length_m: float | None = parameter(None, doc="length of a block along x", unit="m", above=0, high=100, since="0.2")
-    width_m: float | None = parameter(None, doc="length of a block along y", unit="m", above=0, high=100, since="0.2")
+    length_m: float | None = parameter(None, doc="length along x, which a block needs", unit="m", above=0, high=100, since="0.2")
+    width_m: float | None = parameter(None, doc="width along y, which a block needs", unit="m", above=0, high=100, since="0.2")
 
 
 @dataclass(frozen=True, slots=True)
