@@ -69,9 +69,14 @@ def _overturns(settings) -> str:
         where = f" at {_name(values)}" if len(settings) > 1 else ""
         return f"{100 * k / len(runs):.1f} % [{100 * low:.1f}, {100 * high:.1f}]{where} ({k} of {len(runs)})"
 
-    ranked = sorted(settings, key=lambda setting: np.mean([bool(run["overturned"]) for run in setting[1].values()]))
+    def share(setting):
+        return np.mean([bool(run["overturned"]) for run in setting[1].values()])
+
+    ranked = sorted(settings, key=share)
     if len(settings) == 1:
         return f"P(overturn) is {said(ranked[0])}; in brackets the 95 % interval."
+    if share(ranked[0]) == share(ranked[-1]):
+        return f"P(overturn) is the same at every setting, such as {said(ranked[0])}; in brackets the 95 % interval."
     return f"P(overturn) lies between {said(ranked[0])} and {said(ranked[-1])}; in brackets the 95 % interval."
 
 

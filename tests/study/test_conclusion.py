@@ -50,4 +50,4 @@ def test_few_motions_give_no_verdict(tmp_path, pulses, sentences):
 def test_a_real_study_is_concluded(tmp_path):
     plan = read_plan(write_study(tmp_path, alpha=(0,), pulses=range(8)))
     rows = run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO())
-    assert "P(overturn) lies between" in conclusion(plan, rows)
+    assert "P(overturn) is the same at every setting, such as" in conclusion(plan, rows)
