@@ -89,7 +89,9 @@ def test_free_vibration_goes_on_until_rest(tmp_path):
     asked = iter([False, True])
     with pytest.raises(KeyboardInterrupt):
         simulation.run(case, tmp_path / "two", quiet=True, stop=lambda: next(asked))
-    two = simulation.run(case, tmp_path / "two", quiet=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # it goes on, and does not start afresh
+        two = simulation.run(case, tmp_path / "two", quiet=True)
     assert (two["steps"], two["u_max_m"], two["ended_by"]) == (whole["steps"], whole["u_max_m"], whole["ended_by"])
     with h5py.File(tmp_path / "two" / "history.h5") as history:
         assert len(history["time"]) == two["steps"] + 1
