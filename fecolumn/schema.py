@@ -46,10 +46,6 @@ class InputError(ValueError):
         error.args = ("\n".join(str(one) for one in error.all) if len(error.all) > 1 else str(first),)
         return error
 
-    def told_as(self, file, key_of=lambda key: key) -> InputError:
-        """The same error told of another file, with keys renamed."""
-        return InputError.of_several([InputError(file, key_of(one.key), one.value, one.allowed) for one in self.all])
-
 
 class _Shown(reprlib.Repr):
     """Values for messages: long ones shortened."""

@@ -159,14 +159,14 @@ def _make(case: Case, folder: Path) -> None:
 
     body, plate, specimen = make_bodies(case)
     foot = foot_of(case, specimen, body)
-    below = plate or base_of(case, body.all_X[foot.nodes])
     model, fields = column_model(body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES))
     if plate:
         allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
         plate.need(_under(plate.grid.points, model.reference, allowance))
         base = dict(points=plate.grid.points, frequency=plate.frequency, dofs=plate.dofs, foot=model.reference, allowance=allowance)
     else:
-        base = dict(size=below.grid.size, response=below.response, frequency=below.frequency)
+        flat = base_of(case, model.reference)
+        base = dict(size=flat.grid.size, response=flat.response, frequency=flat.frequency)
     folder.parent.mkdir(parents=True, exist_ok=True)
     partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     partial.chmod(0o755)
