@@ -23,7 +23,7 @@ from benchmarks.profile import shares
 from fecolumn._mpi import launch_environment
 from fecolumn.case import case_from_tables, read_toml
 from fecolumn.dynamics.assembly import build_system, column_body
-from fecolumn.dynamics.modes import free_modes
+from fecolumn.fem.modes import free_modes
 from fecolumn.mesh.bending import free_free_bending_frequency
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.motions.load import load_motion

@@ -8,14 +8,14 @@ import pstats
 
 # (file ending, function): part; each is counted with all it calls, and none calls another
 PARTS = {
-    ("dynamics/effective.py", "solve"): "solves with the effective matrix",
-    ("contact/foot.py", "position"): "filtered positions of the foot",
+    ("fem/effective.py", "solve"): "solves with the effective matrix",
+    ("fem/foot.py", "position"): "filtered positions of the foot",
     ("contact/friction.py", "solve_contact"): "friction problem",
     ("contact/interface.py", "static_compliance"): "compliance of base and foot",
     ("contact/interface.py", "static_displacement"): "static displacement of base and foot",
-    ("dynamics/total_lagrangian.py", "internal"): "internal forces and energy",
-    ("dynamics/total_lagrangian.py", "tangent"): "tangent",
-    ("dynamics/corotated.py", "internal"): "internal forces and energy",
+    ("fem/total_lagrangian.py", "internal"): "internal forces and energy",
+    ("fem/total_lagrangian.py", "tangent"): "tangent",
+    ("fem/corotated.py", "internal"): "internal forces and energy",
 }
 
 

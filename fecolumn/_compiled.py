@@ -13,7 +13,7 @@ from llvmlite.binding import get_host_cpu_name
 from fecolumn._kernel import Kernel, is_kept, is_tested
 
 # Folders of which compiled functions take code or constants
-_SOURCES = ("contact", "dynamics", "reduced")
+_SOURCES = ("fem", "contact", "dynamics", "reduced")
 
 
 def cache_folder() -> Path:

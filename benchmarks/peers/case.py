@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.peers.theory import Housner, housner
 from fecolumn.case import GRAVITY, Case, case_from_tables, read_toml
-from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.mesh.quality import MassProperties, mass_properties
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.schema import merge

@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import shear_frequency
-from fecolumn.dynamics.effective import effective_factor, unit_loads
+from fecolumn.fem.effective import effective_factor, unit_loads
 
 
 class BasePlate:

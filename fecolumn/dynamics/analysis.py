@@ -78,7 +78,7 @@ class FullAnalysis(Analysis):
         return FieldWriter(self.folder / "fields", system.column, plate, system.footprint, specimen)
 
     def _write_fields(self) -> None:
-        from fecolumn.dynamics.free_body import FreeBody
+        from fecolumn.fem.free_body import FreeBody
 
         system, state = self.system, self.state
         interface, column, R = system.interface, system.column, state.rotation

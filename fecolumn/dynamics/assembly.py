@@ -10,10 +10,10 @@ from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded_base
-from fecolumn.dynamics.body import Body
-from fecolumn.dynamics.corotated import Corotated
-from fecolumn.dynamics.damping import ModalDamping
-from fecolumn.dynamics.footprint import Footprint, footprint
+from fecolumn.fem.body import Body
+from fecolumn.fem.corotated import Corotated
+from fecolumn.fem.damping import ModalDamping
+from fecolumn.contact.footprint import Footprint, footprint
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
 from fecolumn.mesh.base_plate import levels
@@ -106,7 +106,7 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
     specimen = specimen or share_specimen_mesh(case, comm)
     column = column_body(case, specimen, comm)
     if case.integration.kinematics == "total_lagrangian":
-        from fecolumn.dynamics.total_lagrangian import TotalLagrangian
+        from fecolumn.fem.total_lagrangian import TotalLagrangian
 
         kinematics = TotalLagrangian(column)
     else:

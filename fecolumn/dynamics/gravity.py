@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.free_body import rigid_fields
-from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.fem.free_body import rigid_fields
+from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.dynamics.stage import Stage, Stop, equilibrate
 from fecolumn.dynamics.system import State
 

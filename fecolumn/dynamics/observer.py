@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.free_body import rigid_fields
+from fecolumn.fem.free_body import rigid_fields
 from fecolumn.dynamics.overturning import STANDS, fallen, stance
-from fecolumn.dynamics.rotation import tilt_angle, twist_angle
+from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.mesh.bricks import boundary_faces
 from fecolumn.mesh.surface import face_points, nodal_areas
 

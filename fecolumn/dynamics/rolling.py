@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.dynamics.free_body import rigid_fields
+from fecolumn.fem.free_body import rigid_fields
 
 # Tilt below which the points stay where they are on the rim: circle and polygon are then nanometres apart [rad]
 FLAT = 1e-4

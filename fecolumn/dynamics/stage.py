@@ -9,7 +9,7 @@ import numpy as np
 
 from fecolumn.contact.base_top import OffBase
 from fecolumn.contact.interface import NEAR, Footing, Spring
-from fecolumn.dynamics.rotation import polar_rotation
+from fecolumn.fem.rotation import polar_rotation
 
 # Lengths over the foot's width: points of the foot that are not in the contact problem may not sink deeper than this,
 PENETRATION = 1e-10

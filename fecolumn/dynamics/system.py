@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from fecolumn.contact.foot import FilteredFoot, PlainFoot, Response
+from fecolumn.fem.foot import FilteredFoot, PlainFoot, Response
 from fecolumn.contact.interface import Interface
-from fecolumn.dynamics.damping import DampedFactor
-from fecolumn.dynamics.effective import Factor, effective_factor
+from fecolumn.fem.damping import DampedFactor
+from fecolumn.fem.effective import Factor, effective_factor
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.rolling import Resistance
 

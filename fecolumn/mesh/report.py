@@ -73,7 +73,7 @@ def _bending(case: Case, specimen) -> tuple[float, float | None, str]:
     from mpi4py import MPI
 
     from fecolumn.dynamics.assembly import column_body
-    from fecolumn.dynamics.modes import free_modes
+    from fecolumn.fem.modes import free_modes
 
     if case.column.mesh_file:
         bare, mesh, name = case, specimen, "mesh of the file" + (" with cap" if case.cap else "")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.effective import blocks, unit_loads
-from fecolumn.dynamics.free_body import FreeBody
-from fecolumn.dynamics.modes import elastic_modes
+from fecolumn.fem.effective import blocks, unit_loads
+from fecolumn.fem.free_body import FreeBody
+from fecolumn.fem.modes import elastic_modes
 from fecolumn.reduced.model import ColumnModel
 
 # Unit forces solved for at once: bounds the memory, 3 n_nodes x BATCH numbers a block

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.dynamics.assembly import foot_of
-from fecolumn.dynamics.free_body import FreeBody
+from fecolumn.fem.free_body import FreeBody
 from fecolumn.post.fields import FieldWriter
 from fecolumn.reduced.cache import make_bodies
 from fecolumn.reduced.motion import TIME, point_positions

@@ -54,7 +54,7 @@ class ColumnModel:
 class Column(NamedTuple):
     """A ColumnModel as a time step sees it, for compiled code.
 
-    With F = 2 s - s^2, s = 1 / (1 + beta (1 + alpha) w^2 dt^2) of each mode (`contact.foot`): pushes: (n, 3, m) F phi, by which
+    With F = 2 s - s^2, s = 1 / (1 + beta (1 + alpha) w^2 dt^2) of each mode (`fem.foot`): pushes: (n, 3, m) F phi, by which
     contact forces drive modes and modes move the foot; static: (3 n, 3 n) = flexibility - sum F^2 phi phi / w^2, the memoryless
     rest; mobility: (3 n, 3 n) = sum F^2 phi phi, velocity per impulse of the modes.
     own: (n, 3) [m/N] of the contact law at each point; springs: (n, 3) [N/m] and relaxation [s] of a pad (`contact.pad`), soft: whether there is one.

@@ -42,7 +42,7 @@ from mpi4py import MPI
 
 from fecolumn.contact.interface import Interface
 from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
-from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.post.style import LINES
 from fecolumn.verification import FULL

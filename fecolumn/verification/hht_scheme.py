@@ -30,7 +30,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.modes import free_modes
+from fecolumn.fem.modes import free_modes
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import Result, Row

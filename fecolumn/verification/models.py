@@ -8,13 +8,13 @@ from mpi4py import MPI
 from fecolumn.case import Material, case_from_tables
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.dynamics.assembly import build_system
-from fecolumn.dynamics.body import Body
-from fecolumn.dynamics.corotated import Corotated
-from fecolumn.dynamics.damping import ModalDamping
-from fecolumn.dynamics.footprint import Footprint
+from fecolumn.fem.body import Body
+from fecolumn.fem.corotated import Corotated
+from fecolumn.fem.damping import ModalDamping
+from fecolumn.contact.footprint import Footprint
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System
-from fecolumn.dynamics.total_lagrangian import TotalLagrangian
+from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas

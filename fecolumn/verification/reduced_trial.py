@@ -8,9 +8,9 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.dynamics.free_body import rigid_fields
+from fecolumn.fem.free_body import rigid_fields
 from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.dynamics.system import State
 from fecolumn.reduced import start as starts
 from fecolumn.reduced.build import column_model

@@ -31,7 +31,7 @@ from scipy.optimize import brentq
 
 from fecolumn.case import GRAVITY
 from fecolumn.dynamics.gravity import tilted
-from fecolumn.dynamics.rotation import tilt_angle
+from fecolumn.fem.rotation import tilt_angle
 from fecolumn.verification.models import column_system
 from fecolumn.verification.result import Result, Row
 from fecolumn.verification.trial import RigidRocking, Trial, begin

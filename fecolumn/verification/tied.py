@@ -6,10 +6,10 @@ import numpy as np
 from mpi4py import MPI
 
 from fecolumn.dynamics.assembly import column_body
-from fecolumn.dynamics.corotated import Corotated
-from fecolumn.dynamics.effective import effective_factor
-from fecolumn.dynamics.rotation import rotation_matrix
-from fecolumn.dynamics.total_lagrangian import TotalLagrangian
+from fecolumn.fem.corotated import Corotated
+from fecolumn.fem.effective import effective_factor
+from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.mesh.bricks import LOWER, UPPER, boundary_faces, merge
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.specimen import SpecimenMesh

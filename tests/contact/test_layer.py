@@ -6,7 +6,7 @@ from fecolumn.case import Material
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.layer import layer_response
 from fecolumn.contact.unbounded_base import unbounded_base
-from fecolumn.dynamics.body import Body
+from fecolumn.fem.body import Body
 from fecolumn.mesh.bricks import BASE
 from fecolumn.mesh.gmsh_section import swept_grid
 

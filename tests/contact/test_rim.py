@@ -41,7 +41,7 @@ def test_forces_at_the_points_do_the_same_work_as_on_the_nodes():
 
 def test_lowest_point_of_a_tilted_plane():
     """A body that leans towards azimuth 0.7 touches there."""
-    from fecolumn.dynamics.rotation import rotation_matrix
+    from fecolumn.fem.rotation import rotation_matrix
 
     angle, tilt = Rim.lowest(rotation_matrix(0.02 * np.array([-np.sin(0.7), np.cos(0.7), 0.0])))
     assert angle == pytest.approx(0.7, abs=1e-12) and tilt == pytest.approx(np.sin(0.02), rel=1e-12)

@@ -6,7 +6,7 @@ from coarse_column import coarse_system
 
 from fecolumn.dynamics.energy import Ledger
 from fecolumn.dynamics.gravity import tilted
-from fecolumn.dynamics.rotation import tilt_angle
+from fecolumn.fem.rotation import tilt_angle
 from fecolumn.dynamics.stepper import Stepper
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fecolumn.dynamics.overturning import CAPPED, NO_RETURN, STANDS, barrier, critical_displacement, fallen, stance, steepest_to_come
-from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.fem.rotation import rotation_matrix
 
 G = 9.80665
 RADIUS, HALF = 0.25, 0.8  # a marble drum, solid, 0.5 m x 1.6 m

@@ -10,7 +10,7 @@ from mpi4py import MPI
 
 from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.modes import free_modes
+from fecolumn.fem.modes import free_modes
 from fecolumn.simulation import run
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "mesh"))

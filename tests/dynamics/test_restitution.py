@@ -6,7 +6,7 @@ from small_block import ENGINES, block, centre, lowest, trial
 
 from fecolumn.case import Initial
 from fecolumn.dynamics.gravity import begin
-from fecolumn.dynamics.rotation import rotation_matrix
+from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.verification.trial import afloat
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pair import reduced, system_of
 
-from fecolumn.dynamics.free_body import FreeBody
+from fecolumn.fem.free_body import FreeBody
 from fecolumn.reduced.build import column_model
 from fecolumn.reduced.model import scheme, step_column
 

@@ -6,7 +6,7 @@ import pytest
 from fecolumn.contact.interface import SOLVED
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.modes import free_modes
+from fecolumn.fem.modes import free_modes
 from fecolumn.verification.bar_impact import FORCE, SPEED, strike
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.trial import afloat, begin

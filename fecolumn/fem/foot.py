@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.effective import blocks, unit_loads
+from fecolumn.fem.effective import blocks, unit_loads
 
 
 class FilteredFoot:

@@ -9,7 +9,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 from fecolumn import _dolfinx
-from fecolumn.dynamics.corotated import mean_rotation
+from fecolumn.fem.corotated import mean_rotation
 from fecolumn.material.elasticity import isotropic_stress
 from fecolumn.material.kinematics import green_lagrange_strain
 

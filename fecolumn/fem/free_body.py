@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.effective import effective_factor
+from fecolumn.fem.effective import effective_factor
 
 # Shift of the singular free-free stiffness [1/s2]: far below the square of any column's first elastic frequency
 SHIFT = 400.0

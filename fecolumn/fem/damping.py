@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.modes import elastic_modes
+from fecolumn.fem.modes import elastic_modes
 
 
 class ModalDamping:
@@ -42,7 +42,7 @@ class ModalDamping:
 
 
 class DampedFactor:
-    """A `dynamics.effective.Factor` and what damping changes of its inverse: `change` (m,) times phi phi^T of each mode."""
+    """A `fem.effective.Factor` and what damping changes of its inverse: `change` (m,) times phi phi^T of each mode."""
 
     def __init__(self, factor, shapes: np.ndarray, change: np.ndarray):
         self._factor, self._change = factor, change

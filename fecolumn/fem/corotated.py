@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.rotation import polar_rotation
+from fecolumn.fem.rotation import polar_rotation
 
 
 def mean_rotation(body, x: np.ndarray) -> np.ndarray:
