@@ -10,6 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 from scipy import sparse
+from scipy.sparse.linalg import splu
 
 from benchmarks.friction.problem import Problem
 
@@ -27,7 +28,7 @@ def read_problem(path: Path) -> Problem:
     # both have the normal component first
     order = (3 * np.arange(len(mu))[:, None] + [1, 2, 0]).ravel()
     mu = float(mu[0]) if np.ptp(mu) == 0 else mu
-    # those that were measured or stored in single steps are not quite symmetric
+    # stored W is symmetric to its writer's rounding only
     W = (W + W.T) / 2
     return Problem(path.name.split(".")[0], W[np.ix_(order, order)], q[order].reshape(-1, 3), mu)
 
@@ -42,7 +43,7 @@ def _hdf5(path):
         if local:
             return _matrix(group["W"]).toarray(), vectors["q"], vectors["mu"]
         H, M = _matrix(group["H"]), _matrix(group["M"]).tocsc()
-        inverse = sparse.linalg.splu(M).solve(np.column_stack([H.toarray(), vectors["f"]]))
+        inverse = splu(M).solve(np.column_stack([H.toarray(), vectors["f"]]))
         return H.T @ inverse[:, :-1], H.T @ inverse[:, -1] + vectors["w"], vectors["mu"]
 
 

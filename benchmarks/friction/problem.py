@@ -47,7 +47,8 @@ class Problem:
 def on_cone(x, mu) -> np.ndarray:
     """Nearest points (n, 3) of Coulomb's cone |x_t| <= mu x_n, mu (n,), to x (n, 3)."""
     tangential = np.hypot(x[:, 0], x[:, 1])
-    inside, polar = tangential <= mu * x[:, 2], mu * tangential <= -x[:, 2]
+    # without friction the cone is a line, and half of the other one it would lie in, too
+    inside, polar = (tangential <= mu * x[:, 2]) & (x[:, 2] >= 0), mu * tangential <= -x[:, 2]
     normal = (mu * tangential + x[:, 2]) / (1 + mu**2)
     factor = np.divide(mu * normal, tangential, out=np.zeros_like(normal), where=tangential > 0)
     nearest = np.column_stack([factor * x[:, 0], factor * x[:, 1], normal])
@@ -58,11 +59,12 @@ def violation(problem: Problem, forces) -> float:
     """Natural map of the bipotential (De Saxce and Feng 1998): largest |r - P(r - rho (u + mu |u_t| n))| / rho over max |q|.
 
     P: on Coulomb's cone; rho: 3 over the trace of the point's own block of W. Zero exactly at a solution. The project's own residual
-    projects on the disk of the present normal force instead: the two agree at solutions only. NaN where a solver gave none.
+    projects on the disk of the present normal force instead: the two agree at solutions only. Infinite where forces are no numbers, or too
+    large for one.
     """
     forces, mu = np.reshape(forces, (-1, 3)), np.broadcast_to(problem.mu, problem.points)
-    if not np.isfinite(forces).all():
-        return np.nan
+    if not np.abs(forces).max() < 1e100:
+        return np.inf
     u = problem.relative(forces)
     u[:, 2] += mu * np.hypot(u[:, 0], u[:, 1])
     rho = 3 / np.diag(problem.W).reshape(-1, 3).sum(1)[:, None]

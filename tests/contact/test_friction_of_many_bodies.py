@@ -169,6 +169,12 @@ def test_measure_tells_what_is_no_solution():
         assert violation(problem, wrong) > 0.01
 
 
+def test_point_that_opens_without_friction_and_without_slip_violates_nothing():
+    """The cone without friction is a half-line: the trial force straight below it belongs to its tip."""
+    assert violation(Problem("open", np.eye(3), np.array([[0.0, 0.0, 1.0]]), 0.0), np.zeros(3)) == 0.0
+    assert violation(Problem("pulled", np.eye(3), np.array([[0.0, 0.0, 1.0]]), 0.0), np.array([0.0, 0.0, -1.0])) == 1.0
+
+
 @pytest.mark.parametrize("make", [lambda: scatter(8, 4, 3), lambda: arch(5), lambda: heap(2)], ids=["scatter", "arch", "heap"])
 def test_problem_is_made_of_its_seed_alone_and_symmetric(make):
     first, second, other = (make().problem("impact", 0.3, seed) for seed in (1, 1, 2))
