@@ -66,3 +66,8 @@ def compile_for(function, arguments) -> None:
     """Have a function of `njit` ready for arguments like these, without calling it: so that its first call costs what all cost."""
     if not numba.config.DISABLE_JIT:
         function.compile(tuple(numba.typeof(argument) for argument in arguments))
+
+
+def interpreted(function):
+    """A function of `njit` as plain Python, which calls compiled ones: for a single call it is not worth compiling it by itself."""
+    return getattr(function, "py_func", function)

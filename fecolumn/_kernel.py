@@ -13,7 +13,7 @@ import contextlib
 from pathlib import Path
 
 import numba
-from numba import _dynfunc
+from numba import _dynfunc, types
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.cpu import CPUContext
 from numba.core.environment import lookup_environment
@@ -123,7 +123,8 @@ class Kernel(CPUDispatcher):
             return super().compile(sig)
 
     def get_call_template(self, args, kws):
-        return self._part.get_call_template(args, kws)
+        # numba would compile a function again for each constant that it is called with
+        return self._part.get_call_template(tuple(types.unliteral(one) for one in args), {name: types.unliteral(one) for name, one in kws.items()})
 
     def get_overload(self, sig):
         return self._part.get_overload(sig)

@@ -195,7 +195,7 @@ class Analysis:
 
     def slid_off(self, failure, base, foot: np.ndarray) -> Ending | None:
         """The ending of a column whose step failed because its foot, at (n, 3) [m] before, met the edge of the base; None for another failure."""
-        from fecolumn.dynamics.stage import Stop
+        from fecolumn.dynamics.cuts import Stop
 
         if failure.stop is not Stop.OFF_BASE or not base.grid.at_edge(foot, EDGE * np.ptp(foot, axis=0)[:2].max()):
             return None

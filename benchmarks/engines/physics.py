@@ -81,7 +81,7 @@ def reduced_order(case, shaking, disturbance=(0.0, 0.0)) -> np.ndarray:
     """Displacements (n, 2) [m] of the top in the reduced engine, its velocity changed by `disturbance` (2,) [m/s] after AFTER steps."""
     one = engine(case)
     rows = one.advance(shaking[:AFTER])[0]
-    one.motion.velocity[:2] += disturbance
+    one.motion.frames["velocity"][0, :2] += disturbance
     return column(np.vstack([rows, one.advance(shaking[AFTER:])[0]]), "u_top")[:, :2]
 
 

@@ -53,7 +53,6 @@ def reduced(given: Release, steps: int):
     """Rows of the track of a compiled engine."""
     from fecolumn.reduced.analysis import engine_of
     from fecolumn.reduced.cache import load_model
-    from fecolumn.reduced.motion import TIME
 
     model, base, _ = load_model(given.case)
     still = np.zeros((steps, 3))
@@ -72,8 +71,8 @@ def reduced(given: Release, steps: int):
         if step:
             engine.advance(still[:1])
         motion, seen, before = engine.motion, engine.record.iterations, seen
-        R = motion.rotation
-        yield (motion.scalars[TIME], np.arctan2(R[0, 2], R[2, 2]), *(motion.relative[toes, 0] - reference[toes, 0]),
+        R = motion.rotation[0]
+        yield (motion.time, np.arctan2(R[0, 2], R[2, 2]), *(motion.contact["relative"][toes, 0] - reference[toes, 0]),
                engine.mechanical() - standing, step * spent / made, seen - before, 1)
 
 

@@ -1,68 +1,116 @@
-"""The top of the base plate: a grid of bricks on which the column's foot stands, slides and rolls."""
+"""The top of the base: a grid of bricks on which feet stand, slide and roll."""
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
+from fecolumn._compiled import interpreted, njit
+from fecolumn.contact.bodies import node_matrix
+from fecolumn.contact.points import POINT
 
-class OffBase(RuntimeError):
-    """A contact point has left the base plate: nothing is below it."""
+# Answers of `project`
+ON, OFF, UNKNOWN = range(3)
+
+
+class Base(NamedTuple):
+    """Top of the base for compiled code: grid lines x, y [m]; number: (n_x, n_y) of its nodes; slot: (n_top,) of a node in `compliance`, -1 where it
+    is not known yet; compliance: (3 k, 3 k) [m/N]. square: side of the squares [m] by which an unbounded base follows the foot, 0 for a plate that stays."""
+
+    x: np.ndarray
+    y: np.ndarray
+    number: np.ndarray
+    slot: np.ndarray
+    compliance: np.ndarray
+    square: float
+
+
+def base_for_steps(base) -> Base:
+    """The Base of a `contact.base_plate.BasePlate`, or what answers as it does, as far as its compliance is known."""
+    return Base(base.grid.x, base.grid.y, base.grid.number, base.slot.copy(), node_matrix(base.compliance), base.grid.square)
 
 
 class BaseTop:
-    """Bilinear interpolation on the deformed top of the base.
-
-    The top is a tensor-product grid, so that the facet under a point is found by two bisections at any slide. The
-    projection is vertical: the top's slope under load is about 1e-5 rad and changes gap and cone by 1e-5 of themselves.
+    """Grid of the nodes on top of the base, a tensor product.
 
     Args:
         points: (n, 3) [m] reference positions of the top's nodes in any order.
     """
 
-    #: Size of the squares by which the top follows the foot [m]; this one stays.
-    size = 0.0
+    #: Side of the squares by which the top follows the foot [m]; this one stays.
+    square = 0.0
 
     def __init__(self, points: np.ndarray):
         self.points = points
         self.x, self.y = (_lines(points[:, axis]) for axis in (0, 1))
-        self.z = float(points[:, 2].max())
         if len(self.x) * len(self.y) != len(points):
             raise ValueError("the top of the base must be a tensor-product grid")
         self.number = np.empty((len(self.x), len(self.y)), np.int64)
-        self.number[_cell(self.x, points[:, 0]), _cell(self.y, points[:, 1])] = np.arange(len(points))
+        self.number[_line(self.x, points[:, 0]), _line(self.y, points[:, 1])] = np.arange(len(points))
+
+    def around(self, positions: np.ndarray, rows: int) -> np.ndarray:
+        """Nodes (k,) under `positions` (n, 3) [m] and so many rows around them, those at the edge where a position is beyond it."""
+        spans = []
+        for axis, lines in enumerate((self.x, self.y)):
+            cell = np.clip(np.searchsorted(lines, positions[:, axis], side="right") - 1, 0, len(lines) - 2)
+            spans.append(np.clip(cell[:, None] + np.arange(-rows, rows + 2), 0, len(lines) - 1))
+        return np.unique(self.number[spans[0][:, :, None], spans[1][:, None, :]])
+
+    def under(self, positions: np.ndarray, wanted: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Nodes (n, 4) under `positions` (n, 3) [m] and their shares (n, 4), of the wanted ones (mask) if it is given; see `project`."""
+        points, everyone = np.zeros(len(positions), POINT), np.ones(len(positions), bool)
+        base = Base(self.x, self.y, self.number, np.arange(len(self.points)), np.empty((0, 0)), self.square)
+        interpreted(project)(base, positions, everyone if wanted is None else wanted, points)
+        return points["below"], points["shares"]
 
     def at_edge(self, positions: np.ndarray, margin: float) -> bool:
         """Whether any of the `positions` (n, 3) [m] is beyond the edge or nearer to it than `margin` [m]."""
         return any((positions[:, axis].min() < lines[0] + margin or positions[:, axis].max() > lines[-1] - margin)
                    for axis, lines in enumerate((self.x, self.y)))
 
-    def project(self, positions: np.ndarray, touching: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Top nodes (n, 4) and weights (n, 4) under `positions` (n, 3) [m].
 
-        Args:
-            touching: (n,) points that need the base below them, all of them if not given. Others may be beyond its edge: they get the
-                nodes there.
+@njit
+def project(base, positions, wanted, points):
+    """Find the base's nodes under the wanted points (mask) at positions (n, 3): ON, OFF its top, or UNKNOWN compliance.
 
-        Raises:
-            OffBase: a position lies outside the plate.
-        """
-        cells, local = [], []
-        for axis, lines in enumerate((self.x, self.y)):
-            coordinate = positions[:, axis]
-            outside = (coordinate < lines[0]) | (coordinate > lines[-1])
-            if touching is not None:
-                coordinate, outside = np.clip(coordinate, lines[0], lines[-1]), outside & touching
-            if outside.any():
-                coordinate = positions[:, axis]
-                worst = coordinate[np.argmax(np.abs(coordinate - (lines[0] + lines[-1]) / 2))]
-                raise OffBase(f"a contact point left the base plate: {'xy'[axis]} = {worst:.4g} m, the plate ends at {lines[0]:.4g} and {lines[-1]:.4g} m")
-            cell = np.clip(np.searchsorted(lines, coordinate, side="right") - 1, 0, len(lines) - 2)
-            cells.append(cell)
-            local.append((coordinate - lines[cell]) / (lines[cell + 1] - lines[cell]))
-        (i, j), (s, t) = cells, local
-        nodes = np.stack([self.number[i, j], self.number[i + 1, j], self.number[i, j + 1], self.number[i + 1, j + 1]], axis=1)
-        weights = np.stack([(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t], axis=1)
-        return nodes, weights
+    Bilinear interpolation on the facet vertically below: the top's slope under load is about 1e-5 rad and changes gap and cone by 1e-5 of themselves.
+    An unbounded base is moved along with the middle of the positions by whole squares.
+    """
+    answer, dx, dy = ON, 0.0, 0.0
+    if base.square > 0:
+        for i in range(len(positions)):
+            dx += positions[i, 0] / len(positions)
+            dy += positions[i, 1] / len(positions)
+        dx, dy = base.square * np.rint(dx / base.square), base.square * np.rint(dy / base.square)
+    for i in range(len(wanted)):
+        if not wanted[i]:
+            continue
+        x, y = positions[i, 0] - dx, positions[i, 1] - dy
+        if not (base.x[0] <= x <= base.x[-1] and base.y[0] <= y <= base.y[-1]):
+            return OFF
+        a, b = _cell(base.x, x), _cell(base.y, y)
+        s, t = (x - base.x[a]) / (base.x[a + 1] - base.x[a]), (y - base.y[b]) / (base.y[b + 1] - base.y[b])
+        for q in range(4):
+            slot = base.slot[base.number[a + q % 2, b + q // 2]]
+            points[i].below[q] = slot
+            points[i].shares[q] = (s if q % 2 else 1 - s) * (t if q // 2 else 1 - t)
+            if slot < 0:
+                answer = UNKNOWN
+    return answer
+
+
+@njit
+def _cell(lines, value):
+    """Number of the cell of the rising `lines` that holds `value`, by bisection."""
+    low, high = 0, len(lines) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if lines[middle] <= value:
+            low = middle
+        else:
+            high = middle
+    return low
 
 
 def _lines(values: np.ndarray) -> np.ndarray:
@@ -71,7 +119,6 @@ def _lines(values: np.ndarray) -> np.ndarray:
     return values[np.concatenate([[True], np.diff(values) > 1e-9 * np.ptp(values)])]
 
 
-def _cell(lines: np.ndarray, values: np.ndarray) -> np.ndarray:
+def _line(lines: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Number of the line nearest to each value."""
-    middles = (lines[1:] + lines[:-1]) / 2
-    return np.searchsorted(middles, values)
+    return np.searchsorted((lines[1:] + lines[:-1]) / 2, values)

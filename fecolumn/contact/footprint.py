@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-# Places of nodes count as equal up to this, over the foot's width
-_SAME = 1e-9
+from fecolumn.contact.tolerances import SAME_PLACE
 
 
 @dataclass(frozen=True)
@@ -54,10 +53,10 @@ def footprint(nodes: np.ndarray, positions: np.ndarray, areas: np.ndarray, on_ou
         away = cKDTree(plane[kept]).query(plane)[0] if kept.any() else np.full(len(nodes), np.inf)
         while kept[inside].sum() < interior:
             # rounded, so that rounding does not decide between mirror images
-            farthest = inside[np.argmax(np.round(away[inside] / width / _SAME))]
+            farthest = inside[np.argmax(np.round(away[inside] / width / SAME_PLACE))]
             images = middle + (plane[farthest] - middle) * np.array([[1, 1], [-1, 1], [1, -1], [-1, -1]])
             distance, found = tree.query(images)
-            chosen = np.unique(found[(distance < _SAME * width) & ~kept[found]])
+            chosen = np.unique(found[(distance < SAME_PLACE * width) & ~kept[found]])
             kept[chosen] = True
             away = np.minimum(away, cKDTree(plane[chosen]).query(plane)[0])
     nearest = cKDTree(positions[kept]).query(positions)[1]

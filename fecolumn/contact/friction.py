@@ -7,13 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn._compiled import compiled, njit
+from fecolumn.contact import tolerances
+from fecolumn.contact.arrays import flat, marked, put, put_points
 from fecolumn.contact.interior_point import approach, in_cones
-
-# Newton steps from a given guess, at most and without a better residual, after which another way is tried; and from frictionless forces,
-# from where Newton finds its way late rather than never
-STEPS, STALLED, LONG, LATE = 25, 6, 60, 15
-# More points than that, and an interior point helps; its iterations before Newton's first try, between two tries, and at most
-FEW, FIRST, TURN, INSIDE = 4, 6, 3, 30
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,13 +25,17 @@ class ContactSolution:
 @njit
 def slips_and_gaps(W, q, forces):
     """W r + q as (n, 3)."""
-    n = len(q)
+    n, result = len(q), np.empty((len(q), 3))
     if n > 8:
-        return (W @ forces.ravel()).reshape(n, 3) + q
+        put_points(W @ flat(forces), result)
+        for i in range(n):
+            for a in range(3):
+                result[i, a] += q[i, a]
+        return result
     # so small, a call of BLAS costs more than the product
-    result = q.copy()
     for i in range(n):
         for a in range(3):
+            result[i, a] = q[i, a]
             line = W[3 * i + a]
             for j in range(n):
                 result[i, a] += line[3 * j] * forces[j, 0] + line[3 * j + 1] * forces[j, 1] + line[3 * j + 2] * forces[j, 2]
@@ -43,45 +43,48 @@ def slips_and_gaps(W, q, forces):
 
 
 @njit
-def natural_residual(W, q, forces, mu, rho):
-    """Violation of the contact laws at each point [m]: distance of r from its projection, over rho.
-
-    Zero exactly when gap >= 0, r_n >= 0, r_n gap = 0, |r_t| <= mu r_n and slip is opposed by r_t.
-    """
-    n = len(q)
-    relative = slips_and_gaps(W, q, forces)
-    error = np.zeros(n)
-    for i in range(n):
-        normal = max(0.0, forces[i, 2] - rho[i] * relative[i, 2])
-        t0 = forces[i, 0] - rho[i] * relative[i, 0]
-        t1 = forces[i, 1] - rho[i] * relative[i, 1]
-        length = np.sqrt(t0 * t0 + t1 * t1)
-        if length > mu * normal:
-            t0 *= mu * normal / length
-            t1 *= mu * normal / length
-        d0, d1, d2 = forces[i, 0] - t0, forces[i, 1] - t1, forces[i, 2] - normal
-        error[i] = np.sqrt(d0 * d0 + d1 * d1 + d2 * d2) / rho[i]
-    return error
+def in_cone(x, y, normal, friction):
+    """Coulomb's projection of a trial force: its normal part not below 0, its tangential part not above friction times that."""
+    normal = max(0.0, normal)
+    length = np.sqrt(x * x + y * y)
+    if length > friction * normal:
+        share = friction * normal / length
+        return x * share, y * share, normal
+    return x, y, normal
 
 
 @njit
-def gauss_seidel(W, q, forces, mu, rho, sweeps, tolerance):
+def law_error(r0, r1, r2, s0, s1, s2, stiffness, friction):
+    """Violation of the contact laws by a force r and a slip and gap s [m]: distance of r from the projection of r - stiffness s, over stiffness.
+
+    Zero exactly when gap >= 0, r_n >= 0, r_n gap = 0, |r_t| <= friction r_n and slip is opposed by r_t.
+    """
+    x, y, normal = in_cone(r0 - stiffness * s0, r1 - stiffness * s1, r2 - stiffness * s2, friction)
+    return np.sqrt((r0 - x) ** 2 + (r1 - y) ** 2 + (r2 - normal) ** 2) / stiffness
+
+
+@njit
+def natural_residual(W, q, forces, friction, rho):
+    """Largest violation of the contact laws [m], see `law_error`; rho: (n,) stiffness by which it is measured [N/m]."""
+    relative, worst = slips_and_gaps(W, q, forces), 0.0
+    for i in range(len(q)):
+        worst = max(worst, law_error(forces[i, 0], forces[i, 1], forces[i, 2], relative[i, 0], relative[i, 1], relative[i, 2], rho[i], friction[i]))
+    return worst
+
+
+@njit
+def gauss_seidel(W, q, forces, friction, rho, sweeps, tolerance):
     """Projected nonlinear Gauss-Seidel (Jourdan, Alart, Jean 1998); changes `forces`, returns the sweeps made."""
-    n = len(q)
+    n, s = len(q), np.empty(3)
     for sweep in range(sweeps):
         change = 0.0
         for i in range(n):
-            s = q[i].copy()
             for a in range(3):
-                row = W[3 * i + a]
+                s[a], row = q[i, a], W[3 * i + a]
                 for j in range(n):
                     s[a] += row[3 * j] * forces[j, 0] + row[3 * j + 1] * forces[j, 1] + row[3 * j + 2] * forces[j, 2]
-            normal = max(0.0, forces[i, 2] - s[2] / W[3 * i + 2, 3 * i + 2])
-            t0, t1 = forces[i, 0] - rho[i] * s[0], forces[i, 1] - rho[i] * s[1]
-            length = np.sqrt(t0 * t0 + t1 * t1)
-            if length > mu * normal:
-                t0 *= mu * normal / length
-                t1 *= mu * normal / length
+            normal = forces[i, 2] - s[2] / W[3 * i + 2, 3 * i + 2]
+            t0, t1, normal = in_cone(forces[i, 0] - rho[i] * s[0], forces[i, 1] - rho[i] * s[1], normal, friction[i])
             change = max(change, abs(t0 - forces[i, 0]), abs(t1 - forces[i, 1]), abs(normal - forces[i, 2]))
             forces[i, 0], forces[i, 1], forces[i, 2] = t0, t1, normal
         if change <= tolerance:
@@ -90,12 +93,14 @@ def gauss_seidel(W, q, forces, mu, rho, sweeps, tolerance):
 
 
 @njit
-def frictionless(W, q, start, most=20):
+def frictionless(W, q, start):
     """Forces (n, 3) without friction by primal-dual active sets, or the last ones before they cycle: a guess of the points that press."""
     n = len(q)
-    forces, pressed = np.zeros((n, 3)), start[:, 2] > 0
-    for _ in range(most):
-        listed = np.flatnonzero(pressed)
+    forces, pressed = np.zeros((n, 3)), np.empty(n, np.bool_)
+    for i in range(n):
+        pressed[i] = start[i, 2] > 0
+    for _ in range(20):
+        listed = marked(pressed)
         k = len(listed)
         matrix, normal = np.empty((k, k)), np.empty(k)
         for i in range(k):
@@ -104,7 +109,8 @@ def frictionless(W, q, start, most=20):
                 matrix[i, j] = W[3 * listed[i] + 2, 3 * listed[j] + 2]
         if k and not solve_in_place(matrix, normal):
             break
-        forces[:] = 0.0
+        for i in range(n):
+            forces[i, 2] = 0.0
         for i in range(k):
             forces[listed[i], 2] = normal[i]
         changed = False
@@ -117,26 +123,30 @@ def frictionless(W, q, start, most=20):
             pressed[i] = new
         if not changed:
             break
-    forces[:, 2] = np.maximum(forces[:, 2], 0.0)
+    for i in range(n):
+        forces[i, 2] = max(forces[i, 2], 0.0)
     return forces
 
 
 @njit
-def newton_step(W, q, forces, mu, rho):
+def newton_step(W, q, forces, friction, rho):
     """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular.
 
     With d the direction of the trial force and e across it, a slipping point has r_t = mu r_n d + y e. Linearised in r_t, r_n and the
     slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c = mu r_n / |trial|: two unknowns, three for a sticking point.
     """
     n = len(q)
-    trial = forces - rho.reshape(n, 1) * slips_and_gaps(W, q, forces)
-    updated = np.zeros_like(forces)
+    trial, updated = slips_and_gaps(W, q, forces), np.zeros((n, 3))
+    for i in range(n):
+        for a in range(3):
+            trial[i, a] = forces[i, a] - rho[i] * trial[i, a]
     # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or gap along test[u]
     point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
-    own, count = np.zeros(3 * n), 0
+    stiffening, count = np.zeros(3 * n), 0
     for i in range(n):
         if not trial[i, 2] > 0:
             continue
+        mu = friction[i]
         length = np.hypot(trial[i, 0], trial[i, 1])
         if length <= mu * trial[i, 2]:
             for a in range(3):
@@ -152,7 +162,7 @@ def newton_step(W, q, forces, mu, rho):
         basis[count + 1, 0], basis[count + 1, 1] = -y, x
         # of the size of the others' equations
         test[count + 1, 0], test[count + 1, 1] = -share * y, share * x
-        own[count + 1] = (1 - share) / rho[i]
+        stiffening[count + 1] = (1 - share) / rho[i]
         count += 2
     if count == 0:
         return updated, True
@@ -168,7 +178,7 @@ def newton_step(W, q, forces, mu, rho):
         for v in range(count):
             column = 3 * point[v]
             matrix[u, v] = basis[v, 0] * half[u, column] + basis[v, 1] * half[u, column + 1] + basis[v, 2] * half[u, column + 2]
-        matrix[u, u] += own[u]
+        matrix[u, u] += stiffening[u]
     if not solve_in_place(matrix, right):
         return updated, False
     for u in range(count):
@@ -183,7 +193,7 @@ def solve_in_place(matrix, right):
     n = len(right)
     if n > 40:
         try:
-            right[:] = np.linalg.solve(matrix, right)
+            put(np.linalg.solve(matrix, right), right)
         except Exception:
             return False
         return True
@@ -214,48 +224,58 @@ def solve_in_place(matrix, right):
 
 
 @njit
-def iterate(W, q, mu, start, tolerance, near=True, sweeps=800):
+def stiffness_together(W, i):
+    """Stiffness [N/m] of point i when all points move: it is less than alone, with which each would seem to slip to and fro."""
+    total = 0.0
+    for a in range(3):
+        for j in range(W.shape[1]):
+            total += abs(W[3 * i + a, j])
+    return 3 / total
+
+
+@njit
+def iterate(W, q, friction, start, tolerance, near, sweeps):
     """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and others.
 
     near: whether `start` is a good guess; else only where it presses counts.
     """
-    n = len(q)
+    n, rubs, stiffest = len(q), True, np.inf
     rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
         xx, yy, zz = W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1], W[3 * i + 2, 3 * i + 2]
         rho[i], rho_t[i] = 3 / (xx + yy + zz), 1 / np.hypot(xx, yy)
-        # points that move together are more compliant than one alone: with its own rho each would seem to slip to and fro
-        rho_all[i] = 3 / np.abs(W[3 * i:3 * i + 3]).sum()
+        rho_all[i] = stiffness_together(W, i)
+        rubs, stiffest = rubs and friction[i] > 0, min(stiffest, rho[i])
     if n == 0:
         return start.copy(), 0.0, 0, 0
     best, least, iterations, others = start, np.inf, 0, 0
     if near:
-        best, least, iterations = _newtons(W, q, mu, start, tolerance, rho_all, rho, STEPS, STALLED)
+        best, least, iterations = _newtons(W, q, friction, start, tolerance, rho_all, rho, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
     if least > tolerance:
-        forces, residual, made = _newtons(W, q, mu, frictionless(W, q, start), tolerance, rho, rho, LONG, LATE)
+        forces, residual, made = _newtons(W, q, friction, frictionless(W, q, start), tolerance, rho, rho, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
-    if least > tolerance and mu > 0 and n > FEW:
-        A, Q = in_cones(W, q, mu)
-        R, U, inside, most = np.zeros((n, 3)), np.zeros((n, 3)), 0, FIRST
-        while inside < INSIDE:
-            forces, made = approach(A, Q, mu, R, U, most)
+    if least > tolerance and rubs and n > tolerances.FEW_POINTS:
+        A, Q = in_cones(W, q, friction)
+        R, U, inside, most = np.zeros((n, 3)), np.zeros((n, 3)), 0, tolerances.INSIDE_FIRST
+        while inside < tolerances.INSIDE_MOST:
+            forces, made = approach(A, Q, friction, R, U, most)
             inside += made
             # from inside Newton needs a step or two when the active set is right, and costs a tenth
-            forces, residual, newtons = _newtons(W, q, mu, forces, tolerance, rho, rho, STALLED, 2)
+            forces, residual, newtons = _newtons(W, q, friction, forces, tolerance, rho, rho, tolerances.NEWTON_STALLED, 2)
             iterations += newtons
             if residual < least:
                 best, least = forces, residual
             if least <= tolerance or made < most:
                 break
-            most = TURN
+            most = tolerances.INSIDE_TURN
         others += inside
-    count = 50
+    count = tolerances.SWEEPS_FIRST
     while least > tolerance and count <= sweeps:
         forces = best.copy()
-        others += gauss_seidel(W, q, forces, mu, rho_t, count, tolerance * rho.min())
-        forces, residual, made = _newtons(W, q, mu, forces, tolerance, rho, rho, STEPS, STALLED)
+        others += gauss_seidel(W, q, forces, friction, rho_t, count, tolerance * stiffest)
+        forces, residual, made = _newtons(W, q, friction, forces, tolerance, rho, rho, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
@@ -264,31 +284,31 @@ def iterate(W, q, mu, start, tolerance, near=True, sweeps=800):
 
 
 @njit
-def _newtons(W, q, mu, start, tolerance, rho, rho_own, most, patience):
+def _newtons(W, q, friction, start, tolerance, rho, rho_alone, most, patience):
     """Newton steps until the tolerance is met, or the residual has not fallen for more than `patience`: best forces, residual, steps made."""
     forces, least, stalled, made = start, np.inf, 0, 0
     best = start
     while True:
-        residual = natural_residual(W, q, forces, mu, rho_own).max()
+        residual = natural_residual(W, q, forces, friction, rho_alone)
         stalled += 1
         if residual < least:
             best, least, stalled = forces, residual, 0
         if residual <= tolerance or stalled > patience or made == most:
             break
-        forces, regular = newton_step(W, q, forces, mu, rho)
+        forces, regular = newton_step(W, q, forces, friction, rho)
         if not regular:
             break
         made += 1
     return best.copy(), least, made
 
 
-def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, sweeps: int = 800) -> ContactSolution:
+def solve_contact(W, q, mu, start, tolerance: float = 1e-12, sweeps: int = tolerances.SWEEPS_MOST) -> ContactSolution:
     """Solve the frictional contact problem of n points.
 
     Args:
         W: (3 n, 3 n) compliance [m/N], symmetric positive definite; per point x, y (tangential), z (normal).
         q: (n, 3) [m] slip (x, y) and gap (z) without contact forces; gap > 0 is open.
-        mu: Coulomb friction coefficient.
+        mu: Coulomb friction coefficient, of all points or (n,) of each.
         start: (n, 3) [N] first guess.
         tolerance: residual at convergence [m].
 
@@ -297,7 +317,8 @@ def solve_contact(W, q, mu: float, start, tolerance: float = 1e-12, sweeps: int 
     is the true one: the caller decides what to do with a solution that has not converged.
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
-    return ContactSolution(*iterate(W, q, float(mu), start, tolerance, True, sweeps))
+    friction = np.ascontiguousarray(np.broadcast_to(np.asarray(mu, float), len(q)))
+    return ContactSolution(*iterate(W, q, friction, start, tolerance, True, sweeps))
 
 
 def prepare_solver(say=lambda text: None) -> None:

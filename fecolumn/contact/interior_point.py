@@ -11,76 +11,88 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
-
-# Share of the way to the boundary of the cones in an iteration, and residuals, over the first ones, at which there is no more to gain
-BOLD, END = 0.95, 1e-12
+from fecolumn.contact.arrays import flat, largest, put_matrix, put_points
+from fecolumn.contact.tolerances import INSIDE_END, INSIDE_WAY
 
 
 @njit(error_model="numpy")
-def in_cones(W, q, mu):
-    """Compliance (3 n, 3 n) and slip (n, 3) without forces in the units of R and U; arguments as of `friction.solve_contact`, mu > 0."""
+def in_cones(W, q, friction):
+    """Compliance (3 n, 3 n) and slip (n, 3) without forces in the units of R and U; arguments as of `friction.solve_contact`, friction (n,) > 0."""
     n = len(q)
-    A, Q = W.copy(), q.copy()
-    for i in range(2, 3 * n, 3):
-        A[i] /= mu
+    A, Q = np.empty((3 * n, 3 * n)), np.empty((n, 3))
+    put_matrix(W, A)
+    put_matrix(q, Q)
+    for i in range(n):
+        mu, k = friction[i], 3 * i + 2
         for j in range(3 * n):
-            A[j, i] /= mu
-    Q[:, 2] /= mu
+            A[k, j] /= mu
+        for j in range(3 * n):
+            A[j, k] /= mu
+        Q[i, 2] /= mu
     return A, Q
 
 
 @njit(error_model="numpy")
-def approach(A, Q, mu, R, U, most):
+def approach(A, Q, friction, R, U, most):
     """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the middle where they are zero; both change.
 
     A, Q: of `in_cones`.
     Returns: forces (n, 3), iterations made: fewer where it is at its end.
     """
     n = len(Q)
-    unit = np.ones(3 * n)
-    unit[2::3] = 1 / mu
-    length = max(np.abs(Q).max(), 1e-300)
-    force = length * 3 * n / np.abs(A).sum()
+    length, total = max(largest(Q), 1e-300), 0.0
+    for i in range(3 * n):
+        for j in range(3 * n):
+            total += abs(A[i, j])
+    force = length * 3 * n / total
     if R[0, 2] == 0.0:
-        R[:, 2], U[:, 2] = force, length
-    P, inverse, scaled, matrix = np.empty((n, 3, 3)), np.empty((n, 3, 3)), np.empty((n, 3)), np.empty((3 * n, 3 * n))
-    wanted = np.empty((n, 3))
-    for iteration in range(most):
-        infeasible = (A @ R.ravel()).reshape(n, 3) + Q - U
         for i in range(n):
+            R[i, 2], U[i, 2] = force, length
+    P, inverse, scaled, matrix = np.empty((n, 3, 3)), np.empty((n, 3, 3)), np.empty((n, 3)), np.empty((3 * n, 3 * n))
+    wanted, infeasible, dR, dU = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3))
+    for iteration in range(most):
+        put_points(A @ flat(R), infeasible)
+        for i in range(n):
+            for a in range(3):
+                infeasible[i, a] += Q[i, a] - U[i, a]
             infeasible[i, 2] += np.hypot(U[i, 0], U[i, 1])
-        gap = np.sum(R * U) / n
-        if gap <= END * length * force and np.abs(infeasible).max() <= END * length:
-            return (R.ravel() * unit).reshape(n, 3), iteration
-        matrix[:] = A
+        gap = _product(R, R, U, U, 0.0) / n
+        if gap <= INSIDE_END * length * force and largest(infeasible) <= INSIDE_END * length:
+            return _unscaled(R, friction), iteration
+        put_matrix(A, matrix)
+        finite = 0.0
         for i in range(n):
             _scaling(R[i], U[i], P[i], inverse[i])
             for a in range(3):
+                finite += P[i, a, 0] + P[i, a, 1] + P[i, a, 2]
                 scaled[i, a] = P[i, a, 0] * R[i, 0] + P[i, a, 1] * R[i, 1] + P[i, a, 2] * R[i, 2]
                 for b in range(3):
                     matrix[3 * i + a, 3 * i + b] += P[i, a, 0] * P[i, 0, b] + P[i, a, 1] * P[i, 1, b] + P[i, a, 2] * P[i, 2, b]
         # at the cones' very boundary, where rounding rules, there is no scaling
-        if not np.isfinite(np.sum(P)):
-            return (R.ravel() * unit).reshape(n, 3), iteration
+        if not np.isfinite(finite):
+            return _unscaled(R, friction), iteration
         try:
             factor = np.linalg.cholesky(matrix)
         except Exception:
-            return (R.ravel() * unit).reshape(n, 3), iteration
-        dR = _solve(factor, -U - infeasible)
-        dU = (A @ dR.ravel()).reshape(n, 3) + infeasible
+            return _unscaled(R, friction), iteration
+        for i in range(n):
+            for a in range(3):
+                wanted[i, a] = -U[i, a]
+        _direction(A, factor, wanted, infeasible, dR, dU)
         t = min(1.0, _way(R, dR), _way(U, dU))
-        after = max(np.sum((R + t * dR) * (U + t * dU)) / n, 0.0)
+        after = max(_product(R, dR, U, dU, t) / n, 0.0)
         centring = min(max((after / gap) ** 3, 1e-4), 1.0)
         for i in range(n):
             _corrected(P[i], inverse[i], scaled[i], dR[i], dU[i], centring * gap, wanted[i])
-        dR = _solve(factor, wanted - infeasible)
-        dU = (A @ dR.ravel()).reshape(n, 3) + infeasible
-        if not np.isfinite(np.sum(dR) + np.sum(dU)):
-            return (R.ravel() * unit).reshape(n, 3), iteration
-        t = min(1.0, BOLD * min(_way(R, dR), _way(U, dU)))
-        R += t * dR
-        U += t * dU
-    return (R.ravel() * unit).reshape(n, 3), most
+        _direction(A, factor, wanted, infeasible, dR, dU)
+        if not np.isfinite(_product(dR, dR, dU, dU, 0.0)):
+            return _unscaled(R, friction), iteration
+        t = min(1.0, INSIDE_WAY * min(_way(R, dR), _way(U, dU)))
+        for i in range(n):
+            for a in range(3):
+                R[i, a] += t * dR[i, a]
+                U[i, a] += t * dU[i, a]
+    return _unscaled(R, friction), most
 
 
 @njit(error_model="numpy")
@@ -95,10 +107,12 @@ def _scaling(r, u, P, inverse):
     P[0, 0], P[1, 1], P[0, 1] = 1 + w0 * w0 / (1 + w2), 1 + w1 * w1 / (1 + w2), w0 * w1 / (1 + w2)
     P[0, 2], P[1, 2], P[2, 2] = w0, w1, w2
     P[1, 0], P[2, 0], P[2, 1] = P[0, 1], P[0, 2], P[1, 2]
-    inverse[:] = P / eta
+    for a in range(3):
+        for b in range(3):
+            inverse[a, b] = P[a, b] / eta
+            P[a, b] *= eta
     inverse[0, 2], inverse[1, 2] = -inverse[0, 2], -inverse[1, 2]
     inverse[2, 0], inverse[2, 1] = -inverse[2, 0], -inverse[2, 1]
-    P *= eta
 
 
 @njit(error_model="numpy")
@@ -138,12 +152,32 @@ def _way(x, d):
     return least
 
 
+@njit
+def _unscaled(R, friction):
+    """Forces (n, 3) from R."""
+    forces = np.empty((len(R), 3))
+    for i in range(len(R)):
+        forces[i, 0], forces[i, 1], forces[i, 2] = R[i, 0], R[i, 1], R[i, 2] / friction[i]
+    return forces
+
+
+@njit
+def _product(R, dR, U, dU, t):
+    """(R + t dR) . (U + t dU)"""
+    total = 0.0
+    for i in range(len(R)):
+        for a in range(3):
+            total += (R[i, a] + t * dR[i, a]) * (U[i, a] + t * dU[i, a])
+    return total
+
+
 @njit(error_model="numpy")
-def _solve(factor, right):
-    """Solve factor factor^T x = right (n, 3)."""
-    x, m = right.copy().ravel(), right.size
+def _direction(A, factor, wanted, infeasible, dR, dU):
+    """dR (n, 3) of factor factor^T dR = wanted - infeasible, and dU = A dR + infeasible."""
+    m, n = 3 * len(wanted), len(wanted)
+    x = np.empty(m)
     for i in range(m):
-        value = x[i]
+        value = wanted[i // 3, i % 3] - infeasible[i // 3, i % 3]
         for j in range(i):
             value -= factor[i, j] * x[j]
         x[i] = value / factor[i, i]
@@ -152,4 +186,8 @@ def _solve(factor, right):
         value = x[i]
         for j in range(i):
             x[j] -= factor[i, j] * value
-    return x.reshape(right.shape)
+    put_points(x, dR)
+    put_points(A @ x, dU)
+    for i in range(n):
+        for a in range(3):
+            dU[i, a] += infeasible[i, a]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -58,24 +59,43 @@ def pad_of(case, areas: np.ndarray, mass: float) -> Pad | None:
     return Pad(stiffness, 2 * base.damping_ratio / w, w / (2 * math.pi))
 
 
+class Springs(NamedTuple):
+    """What points give alone in a step. own: (n, 3) [m/N] of contact law and pad; give: (n, 3) [m/N] of the pad, kept: share of its indentation
+    that is left without force, see `Pad.give`."""
+
+    own: np.ndarray
+    give: np.ndarray
+    kept: float
+
+
+def springs_of(points: np.ndarray, interface, dt: float) -> Springs:
+    """What points (n,) of POINT give alone in a step dt [s]; infinite: at rest."""
+    if not interface["on_pad"]:
+        return Springs(points["law"].copy(), np.zeros((len(points), 3)), 0.0)
+    give, kept = Pad(points["springs"], float(interface["relaxation"])).give(dt)
+    return Springs(points["law"] + give, give, kept)
+
+
 @njit
-def indent(give, kept, forces, before, after):
-    """after (n, 3): indentation [m] of the pad by forces (n, 3) that found it indented by `before` (n, 3)."""
-    for i in range(len(forces)):
-        pressed = forces[i, 2] > 0
+def indent(springs, before, after):
+    """Indentation of the pad at the end of a step in `after` (n,) of CONTACT by the forces there, which found it as in `before`."""
+    for i in range(len(after)):
+        pressed = after[i].force[2] > 0
         for a in range(3):
-            after[i, a] = give[i, a] * forces[i, a] + kept * before[i, a] if pressed else max(kept, 0.0) * before[i, a]
+            left = before[i].indentation[a]
+            after[i].indentation[a] = springs.give[i, a] * after[i].force[a] + springs.kept * left if pressed else max(springs.kept, 0.0) * left
         # a foot that has left in the step leaves the pad level
-        after[i, 2] = max(after[i, 2], 0.0)
+        after[i].indentation[2] = max(after[i].indentation[2], 0.0)
 
 
 @njit
-def dashpot_work(stiffness, give, kept, forces, before, after):
-    """Energy [J] that the dashpots take in a step, at least 0: work of the forces (n, 3) on the pad less what its springs then hold."""
+def dashpot_work(points, springs, before, after):
+    """Energy [J] that the dashpots take in a step, at least 0: work of the forces on the pad less what its springs then hold."""
     taken = 0.0
-    for i in range(len(forces)):
+    for i in range(len(after)):
         for a in range(3):
-            if forces[i, 2] > 0:
-                taken += forces[i, a] * (give[i, a] * forces[i, a] + (kept - 1.0) * before[i, a])
-            taken -= stiffness[i, a] * (after[i, a] ** 2 - before[i, a] ** 2) / 2
+            was, now, force = before[i].indentation[a], after[i].indentation[a], after[i].force[a]
+            if after[i].force[2] > 0:
+                taken += force * (springs.give[i, a] * force + (springs.kept - 1.0) * was)
+            taken -= points[i].springs[a] * (now**2 - was**2) / 2
     return taken

@@ -2,34 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from fecolumn._compiled import njit
-
-# Nodes count as a circle: so many at least, their distances from its centre and their sectors equal up to this
-_FEWEST, _ROUND = 12, 1e-6
-
-
-@dataclass(frozen=True, slots=True)
-class RimPoints:
-    """Points of the circle, one for each of its nodes, all turned along it by the same angle.
-
-    slots: (n,) foot nodes whose places in the contact they take, the nearest ones. carriers: (n, 4) foot nodes that carry them;
-    weights: (4,) their shares, which reproduce the circle's points in any rigid motion. index: node of the rim whose point is
-    that of the angle asked for. phase: how far each point is past the node whose place it takes, in sectors, -1/2 to 1/2.
-    """
-
-    slots: np.ndarray
-    carriers: np.ndarray
-    weights: np.ndarray
-    index: int
-    phase: float
-
-    def of(self, values: np.ndarray) -> np.ndarray:
-        """Values (n, ...) at the points from those at the foot's nodes, along the first axis."""
-        return np.tensordot(self.weights, values[self.carriers], (0, 1))
+from fecolumn.contact.tolerances import ROUND, ROUND_NODES
 
 
 class Rim:
@@ -53,32 +29,27 @@ class Rim:
         """Rim of a foot with nodes at (n, 3) [m]; None where its farthest nodes are not evenly spaced on a circle."""
         plane = reference[:, :2] - reference[:, :2].mean(axis=0)
         distance = np.linalg.norm(plane, axis=1)
-        outer = np.flatnonzero(distance > (1 - _ROUND) * distance.max())
+        outer = np.flatnonzero(distance > (1 - ROUND) * distance.max())
         angles = np.arctan2(plane[outer, 1], plane[outer, 0])
         order = np.argsort(angles)
         sectors = np.diff(angles[order], append=angles[order[0]] + 2 * np.pi)
-        even = len(outer) >= _FEWEST and np.ptp(sectors) < _ROUND
+        even = len(outer) >= ROUND_NODES and np.ptp(sectors) < ROUND
         return cls(outer[order], float(angles[order[0]]), float(distance.max())) if even else None
-
-    @staticmethod
-    def lowest(rotation: np.ndarray) -> tuple[float, float]:
-        """Angle of the circle's lowest point and tilt of its plane [rad] in the rotation (3, 3)."""
-        return float(np.arctan2(-rotation[2, 1], -rotation[2, 0])), float(np.hypot(rotation[2, 0], rotation[2, 1]))
-
-    def points(self, angle: float) -> RimPoints:
-        """Points of the circle of which one is at `angle` [rad].
-
-        Each is carried by the two nodes beside it and, as it lies outside their chord, by a pull of 1 / n^2 from the far side.
-        """
-        n = len(self.nodes)
-        index, phase, offsets, weights = on_circle(angle, self.first, self.sector, n)
-        return RimPoints(self.nodes, self.nodes[(np.arange(n)[:, None] + offsets) % n], weights, index, phase)
 
 
 @njit
-def on_circle(angle, first, sector, n):
-    """Number of the node of n whose point is at `angle`, how far that is past it in sectors, and from each node on: offsets (4,) of its
-    point's carriers, weights (4,)."""
+def lowest(rotation):
+    """Angle [rad] of the circle's lowest point and tilt [rad] of its plane in the rotation (3, 3)."""
+    return np.arctan2(-rotation[2, 1], -rotation[2, 0]), np.hypot(rotation[2, 0], rotation[2, 1])
+
+
+@njit
+def on_circle(angle, first, sector, n, offsets, weights):
+    """Put the points of a circle of n nodes where one is at `angle`: number of the node whose place that one takes, and how far it is past it in sectors.
+
+    Each is carried by the two nodes beside it and, as it lies outside their chord, by a pull of 1 / n^2 from the far side: weights (4,) that
+    reproduce the circle in any rigid motion, of the nodes at `offsets` (4,) from its own, each counted from 0 to n - 1.
+    """
     index = int(np.rint((angle - first) / sector))
     turn = angle - first - index * sector
     side = 1 if turn >= 0 else -1
@@ -90,5 +61,6 @@ def on_circle(angle, first, sector, n):
     right, up = np.cos(turn) - 1, abs(np.sin(turn))
     determinant = a * d - b * c
     beside, pull = (right * d - b * up) / determinant, (a * up - c * right) / determinant
-    offsets = side * np.array([0, 1, n // 2 + 1, (n + 1) // 2])
-    return index % n, turn / sector, offsets, np.array([1 - beside - pull, beside, pull / 2, pull / 2])
+    offsets[0], offsets[1], offsets[2], offsets[3] = 0, side % n, side * (n // 2 + 1) % n, side * ((n + 1) // 2) % n
+    weights[0], weights[1], weights[2], weights[3] = 1 - beside - pull, beside, pull / 2, pull / 2
+    return index % n, turn / sector

@@ -54,13 +54,13 @@ class MovingTop(BaseTop):
         lines = size * np.arange(-count, count + 1)
         x, y = np.meshgrid(lines, lines, indexing="ij")
         super().__init__(np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1))
-        self.size = size
+        self.square = size
 
-    def project(self, positions: np.ndarray, touching: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Nodes (n, 4) of the window and weights (n, 4) under all points of the foot at `positions` (n, 3) [m]."""
+    def around(self, positions: np.ndarray, rows: int) -> np.ndarray:
+        """Nodes (k,) of the window around all points of the foot at `positions` (n, 3) [m]."""
         moved = np.zeros(3)
-        moved[:2] = self.size * np.round(positions[:, :2].mean(axis=0) / self.size)
-        return super().project(positions - moved, touching)
+        moved[:2] = self.square * np.round(positions[:, :2].mean(axis=0) / self.square)
+        return super().around(positions - moved, rows)
 
     def at_edge(self, positions: np.ndarray, margin: float) -> bool:
         return False

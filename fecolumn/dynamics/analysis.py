@@ -62,7 +62,7 @@ class FullAnalysis(Analysis):
     def _take(self, arrays: dict) -> None:
         from fecolumn.dynamics.checkpoint import read_state
         from fecolumn.dynamics.energy import TERMS
-        from fecolumn.dynamics.stepper import Record
+        from fecolumn.dynamics.record import Record
 
         state, extra = read_state(arrays, self.system)
         start = float(extra["start"])
@@ -90,11 +90,11 @@ class FullAnalysis(Analysis):
             forces = at_nodes @ R
             unresolved = column.spread(system.foot_nodes, forces) - interface.foot.load(forces)
             rest = self.free.response(unresolved.reshape(-1, 1)).reshape(-1, 3)
-        self.fields.write(state.time, state.x + rest @ R.T, local + rest, interface.dynamic_position(state.x, R), state.forces, at_nodes)
+        self.fields.write(state.time, state.x + rest @ R.T, local + rest, interface.positions(state.x, R), state.forces, at_nodes)
 
     def run(self, stop) -> dict:
         from fecolumn.dynamics.overturning import STANDS
-        from fecolumn.dynamics.stepper import StepFailed
+        from fecolumn.dynamics.cuts import StepFailed
         from fecolumn.progress import Progress
 
         cadence = self.case.output

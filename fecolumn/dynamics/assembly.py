@@ -113,10 +113,10 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
         kinematics = Corotated(column)
     foot = foot_of(case, specimen, column)
     base = base_of(case, column.all_X[foot.nodes]) or BasePlate(base_body(case, specimen, comm))
-    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas)
+    law = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas)
     damping = ModalDamping(column, case.integration.n_modes, ratio) if (ratio := case.material.damping_ratio) else None
     pad = pad_of(case, foot.areas, column.total_mass)
     return System(column, kinematics, base, foot, case.contact.friction_coefficient,
-                  own, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
+                  law, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
                   filtered=case.contact.impact == "plastic", rim=None if pad else Rim.find(column.all_X[foot.nodes]), damping=damping,
                   restitution=case.contact.restitution, rolling=case.contact.rolling_resistance, pad=pad)

@@ -12,9 +12,9 @@ from fecolumn.dynamics.system import State
 from fecolumn.files import read_bytes
 
 _FIELDS = ("x", "v", "a", "contact_a", "internal")
-# arrays with the angle of the rim's lowest point, nan while the foot touches with its nodes only
-_WITH_RIM = {"rim_angle", "motion.scalars", "bed.key"}
-_SHARED = ("time", "strain", "rotation", "forces", "anchors", "relative", "static", "ground", "indent", "rim_angle", "rim_lift")
+# arrays and fields with the angle of the rim's lowest point, nan while the foot touches with its nodes only
+_WITH_RIM = {"angle", "stick.key"}
+_SHARED = ("time", "strain", "rotation", "contact", "static", "ground", "rims")
 
 
 def node_order(body) -> np.ndarray:
@@ -54,8 +54,10 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
     with np.load(io.BytesIO(read_bytes(path))) as file:
         arrays = {name: file[name] for name in file.files}
     for name, values in arrays.items():
-        if values.dtype.kind == "f" and not np.isfinite(values).all() and name not in _WITH_RIM:
-            raise ValueError(f"{name} is not finite")
+        parts = {part: values[part] for part in values.dtype.names} if values.dtype.names else {name: values}
+        for part, numbers in parts.items():
+            if numbers.dtype.kind == "f" and not np.isfinite(numbers).all() and part not in _WITH_RIM:
+                raise ValueError(f"{name} is not finite")
     return arrays
 
 

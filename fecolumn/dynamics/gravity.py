@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from fecolumn.contact.tolerances import FIRMNESS, REST, REST_ITERATIONS
+from fecolumn.dynamics.cuts import Stop
+from fecolumn.dynamics.stage import Stage, equilibrate
+from fecolumn.dynamics.system import State
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.dynamics.stage import Stage, Stop, equilibrate
-from fecolumn.dynamics.system import State
-
-# Inertia factor of the pseudo-time iteration over the rate of falling, see `pseudo_inertia`: it only holds what contact and friction leave
-# free. The contact's compliance leaves out that a tilt moves the weight; the iteration that mends this contracts by the inverse
-FIRMNESS = 10.0
-# A step that moves the column less is at rest, above the rounding of positions [m]
-REST = 1e-11
 
 
 class NoEquilibrium(RuntimeError):
@@ -29,40 +27,50 @@ def pseudo_inertia(weight: float, depth: float, inertia: np.ndarray) -> float:
     return FIRMNESS * weight * depth / float(np.linalg.eigvalsh(inertia[:2, :2])[0])
 
 
-def standing(system, tolerance: float = 1e-9, max_iterations: int = 50) -> State:
-    """Gravity equilibrium on the elastic base with friction.
+def iterate_to_rest(proximal_step, height: float) -> None:
+    """Make proximal steps until one moves the structure by less than the rounding of its `height` [m] allows to tell; a step returns by how much it moved.
 
     Backward-Euler steps without velocity: each is a proximal-point iteration on the energy with contact and contracts
     by the ratio of inertia to stiffness, about 1e-4, so that a handful reaches rounding.
 
     Raises:
+        NoEquilibrium: it does not come to rest.
+    """
+    moved = np.inf
+    for _ in range(REST_ITERATIONS):
+        moved = proximal_step()
+        if moved < REST * height:
+            return
+    raise NoEquilibrium(f"gravity equilibrium: still moving by {moved:.2e} m after {REST_ITERATIONS} iterations")
+
+
+def standing(system, tolerance: float = 1e-9) -> State:
+    """Gravity equilibrium on the elastic base with friction.
+
+    Raises:
         NoEquilibrium: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
     column, interface = system.column, system.interface
-    interface.place(None)
-    load, x = system.load(np.zeros(3)), column.X.copy()
-    anchors = interface.reference[:, :2].copy()
-    forces = np.zeros((interface.size, 3))
+    state = system.unstrained(column.X)
     depth = column.center[2] - interface.reference[:, 2].mean()
     factors = pseudo_inertia(system.weight, depth, rigid_fields(column)[2][3:, 3:]), 1.0
-    for _ in range(max_iterations):
-        stage = Stage(target=x, load=load, start=x, scale=1.0, anchors=anchors, forces=forces,
-                      spring=interface.spring(np.inf, np.zeros_like(forces)), rotation=np.eye(3))
+    load = system.load(np.zeros(3))
+
+    def proximal_step():
+        nonlocal state
+        stage = Stage(target=state.x, load=load, start=state.x, scale=1.0, before=state.contact, dt=np.inf, rotation=np.eye(3))
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
         if outcome.stop is not Stop.CONVERGED:
             raise NoEquilibrium(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
-        moved = column.max(np.abs(outcome.x - x).max(initial=0.0))
-        x, forces = outcome.x, outcome.forces
-        if moved < REST:
-            break
-    else:
-        raise NoEquilibrium(f"gravity equilibrium: still moving by {moved:.2e} m after {max_iterations} iterations")
+        moved = column.max(np.abs(outcome.x - state.x).max(initial=0.0))
+        outcome.contact["anchor"] = state.contact["anchor"]
+        state = replace(state, x=outcome.x, internal=outcome.internal, strain=outcome.strain, rotation=outcome.rotation, contact=outcome.contact, static=outcome.static)
+        return moved
+
+    iterate_to_rest(proximal_step, 2 * depth)
     system.forget(*factors)
-    push = interface.acceleration(forces, outcome.rotation) if interface.foot.filtered else np.zeros_like(x)
-    return State(
-        time=0.0, x=x, v=np.zeros_like(x), a=-push, contact_a=push, internal=outcome.internal, strain=outcome.strain,
-        rotation=outcome.rotation, forces=forces, anchors=anchors, relative=outcome.relative,
-        static=outcome.static, ground=np.zeros(3), indent=stage.spring.indented(forces))
+    push = interface.acceleration(state.forces, state.rotation) if interface.foot.filtered else np.zeros_like(state.x)
+    return replace(state, a=-push, contact_a=push)
 
 
 def leaning(foot, round_rim: bool, tilt: float, direction: float) -> tuple[np.ndarray, np.ndarray, float]:
@@ -91,27 +99,25 @@ def spun(foot, round_rim: bool, tilt: float, direction: float, spin) -> tuple[np
     return toe, np.zeros(3) if upright else toe
 
 
+def moving(foot, round_rim: bool, initial, x: np.ndarray) -> np.ndarray:
+    """Velocities (n, 3) [m/s] at positions x (n, 3) of a column that the [initial] section of a case sets moving; further arguments as of `spun`."""
+    spin = np.array(initial.spin_rad_s)
+    tip, axis = spun(foot, round_rim, initial.tilt_rad, np.radians(initial.direction_deg), spin)
+    level = spin * [1.0, 1.0, 0.0]
+    return np.asarray(initial.velocity_m_s) + np.cross(level, x - tip) + np.cross(spin - level, x - axis)
+
+
 def begin(system, initial) -> State:
     """The state that the [initial] section of a case describes."""
-    tilt, direction, spin = initial.tilt_rad, np.radians(initial.direction_deg), np.array(initial.spin_rad_s)
-    state = tilted(system, tilt, direction) if tilt else standing(system)
+    state = tilted(system, initial.tilt_rad, np.radians(initial.direction_deg)) if initial.tilt_rad else standing(system)
     if initial.moves:
-        tip, axis = spun(system.interface.reference, system.interface.rim is not None, tilt, direction, spin)
-        level = spin * [1.0, 1.0, 0.0]
-        state.v = initial.velocity_m_s + np.cross(level, state.x - tip) + np.cross(spin - level, state.x - axis)
+        state.v = moving(system.interface.reference, system.interface.rim is not None, initial, state.x)
     return state
 
 
 def tilted(system, tilt: float, direction: float) -> State:
     """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest point on the base."""
     column, interface = system.column, system.interface
-    interface.place(None)
     turn, pivot, lift = leaning(interface.reference, interface.rim is not None, tilt, direction)
-    x = (column.X - pivot) @ turn.T + pivot + [0.0, 0.0, lift]
-    rotation, internal, strain = system.kinematics.internal(x)
-    relative = interface.dynamic_position(x, rotation)
-    fall = np.tile(system.gravity, (len(x), 1))
-    return State(
-        time=0.0, x=x, v=np.zeros_like(x), a=fall, contact_a=np.zeros_like(x), internal=internal, strain=strain, rotation=rotation,
-        forces=np.zeros((interface.size, 3)), anchors=relative[:, :2].copy(), relative=relative, static=0.0, ground=np.zeros(3),
-        indent=np.zeros((interface.size, 3)))
+    state = system.unstrained((column.X - pivot) @ turn.T + pivot + [0.0, 0.0, lift])
+    return replace(state, a=np.tile(system.gravity, (len(state.x), 1)))

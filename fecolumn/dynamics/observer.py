@@ -34,7 +34,7 @@ class Observer:
         self.system, column = system, system.column
         self._top, self._weights = top_of(column, specimen)
         foot = column.all_X[system.foot_nodes] - column.center
-        self.stance = stance(foot, rigid_fields(column)[2][3:, 3:], system.weight, system.interface.friction, cap)
+        self.stance = stance(foot, rigid_fields(column)[2][3:, 3:], system.weight, system.interface.laws["friction"], cap)
         #: (3,) [m] of the top's centre from the centre of mass.
         self.top_arm = self._weights @ column.all_X[self._top] - column.center
 

@@ -35,13 +35,10 @@ from scipy.spatial import ConvexHull
 
 from fecolumn._compiled import njit
 from fecolumn.contact.rim import Rim
+from fecolumn.contact.tolerances import ROUND_CORNERS, STICKS
 
 # Answers of `fallen`
 STANDS, NO_RETURN, CAPPED = range(3)
-# Share of the largest friction force below which an edge sticks: the force of one that slides meets it to 1e-6
-STICKS = 0.999
-# Corners that stand for a round rim; its radius comes out 1e-5 too small between them
-_ROUND = 720
 
 
 class Stance(NamedTuple):
@@ -66,7 +63,7 @@ def stance(arms: np.ndarray, inertia: np.ndarray, weight: float, friction: float
     """Stance of a column whose foot's nodes are at `arms` (n, 3) [m] from its centre of mass; further arguments as of Stance, cap 0 for none."""
     plane = np.asarray(arms, float)[:, :2]
     if rim := Rim.find(arms):
-        angles = 2 * np.pi * np.arange(_ROUND) / _ROUND
+        angles = 2 * np.pi * np.arange(ROUND_CORNERS) / ROUND_CORNERS
         plane = plane.mean(axis=0) + rim.radius * np.column_stack([np.cos(angles), np.sin(angles)])
     corners = plane[ConvexHull(plane).vertices]
     depth = float(-np.mean(np.asarray(arms)[:, 2]))

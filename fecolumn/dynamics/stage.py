@@ -2,29 +2,13 @@
 
 from __future__ import annotations
 
-import enum
 from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.contact.base_top import OffBase
-from fecolumn.contact.interface import NEAR, Footing, Spring
+from fecolumn.contact.tolerances import SOLVED
+from fecolumn.dynamics.cuts import Stop
 from fecolumn.fem.rotation import polar_rotation
-
-# Lengths over the foot's width: points of the foot that are not in the contact problem may not sink deeper than this,
-PENETRATION = 1e-10
-# and the residual of the contact laws above which a stage has failed
-CONTACT_TOLERANCE = 1e-9
-
-
-class Stop(enum.Enum):
-    """Why the iteration of a stage ended."""
-
-    CONVERGED = "converged"
-    ITERATIONS = "no convergence within max_iterations"
-    CONTACT = "the contact problem did not converge"
-    DIVERGED = "the residual grew without bound"
-    OFF_BASE = "the foot reached the edge of the base plate"
 
 
 @dataclass(slots=True)
@@ -35,8 +19,7 @@ class Stage:
     load: (n_owned, 3) effective forces known beforehand [N].
     start: (n_owned, 3) first guess of the positions [m].
     scale: effective force per contact force.
-    anchors: (n, 2) stick positions [m]. forces: (n, 3) first guess of the contact forces [N].
-    spring: what the contact points give alone.
+    before: (n,) of CONTACT, what the points bring to the stage; the forces are the first guess. dt: length of the step [s], inf at rest.
     rotation: (3, 3) of the column at the start. Contact forces act on the column in the rotation halfway, so that their
         work over a turn of the column by t is that of the foot's path up to t^3.
     velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target [m/s]; None where nothing is damped.
@@ -46,16 +29,15 @@ class Stage:
     load: np.ndarray
     start: np.ndarray
     scale: float
-    anchors: np.ndarray
-    forces: np.ndarray
-    spring: Spring
+    before: np.ndarray
+    dt: float
     rotation: np.ndarray
     velocity: np.ndarray | None = None
 
 
 @dataclass(slots=True)
 class Outcome:
-    """Positions, internal forces and strain energy of the column, contact forces and kinematics, the energy `static` [J]
+    """Positions, internal forces and strain energy of the column, what its points carry now (n,) of CONTACT, the energy `static` [J]
     of base, foot's static rest, penalty springs and pad, and the record."""
 
     stop: Stop
@@ -64,13 +46,10 @@ class Outcome:
     strain: float
     rotation: np.ndarray
     halfway: np.ndarray
-    forces: np.ndarray
-    relative: np.ndarray | None
+    contact: np.ndarray
     static: float
-    footing: Footing | None
     iterations: int
     residual: float
-    contact_iterations: int
     message: str = ""
 
 
@@ -78,19 +57,20 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     """Newton iteration with the factored operators turned into the column's present rotation.
 
     The strains are small, so that the turned operator is an almost exact tangent: one or two iterations reach the
-    tolerance. A total Lagrangian column whose residual falls too slowly gets its tangent afresh.
+    tolerance. A total Lagrangian column whose residual falls too slowly gets its tangent afresh. Within an iteration the column answers contact
+    forces linearly, and the contact problem is solved on the points alone; at its end the laws hold for the exact positions.
 
     Args:
         tolerance: largest unbalanced nodal force allowed, relative to the larger of weight and contact forces;
             never below the rounding of the internal forces.
     """
     interface, column, scale = system.interface, system.column, stage.scale
-    x, forces, active = np.array(stage.start), stage.forces, np.zeros(0, np.int64)
+    x, contact, static = np.array(stage.start), stage.before.copy(), 0.0
     first = previous = size = np.inf
-    contact_iterations, relative, footing, static_energy = 0, None, None, 0.0
 
     def ended(stop, message=""):
-        return Outcome(stop, x, internal, strain, rotation, halfway, forces, relative, static_energy, footing, iteration, size, contact_iterations, message)
+        contact["located"] = True
+        return Outcome(stop, x, internal, strain, rotation, halfway, contact, static, iteration, size, message)
 
     for iteration in range(max_iterations + 1):
         rotation, internal, strain = system.kinematics.internal(x)
@@ -98,44 +78,40 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         residual = operators.mass_factor * column.apply(column.mass, stage.target - x) + stage.load - operators.stiffness_factor * internal
         if stage.velocity is not None:
             residual -= operators.stiffness_factor * system.damping.force(stage.velocity + operators.rate_factor * (x - stage.target), rotation)
-        position = interface.dynamic_position(x, rotation)
-        try:
-            footing = interface.project(position, forces)
-        except OffBase as error:
-            return ended(Stop.OFF_BASE, str(error))
-        total = residual + scale * interface.load(forces, halfway)
-        reference = max(system.weight, scale * np.abs(forces).max(initial=0.0))
+        total = residual + scale * interface.load(contact["force"], halfway)
+        reference = max(system.weight, scale * np.abs(contact["force"]).max(initial=0.0))
         size = column.max(np.abs(total).max(initial=0.0)) / reference
-        sunk = np.zeros(interface.size, bool)
+        nodal, violation = _nodal(interface, operators, scale), np.inf
         if iteration:
-            given = interface.static_displacement(forces, rotation, footing)
-            relative = position + given
-            static_energy = interface.stored(forces, given, stage.spring.indented(forces))
-            sunk = relative[:, 2] < -PENETRATION * interface.width
-            sunk[active] = False
-            if size <= max(tolerance, system.rounding(operators.mass_factor) / reference) and not sunk.any():
+            stop, violation = interface.solve(nodal, rotation, interface.positions(x, rotation), stage.dt, stage.before, contact, 0)
+            if stop is not Stop.CONVERGED:
+                return ended(stop)
+            static = interface.stored(stage.dt, stage.before, contact)
+            if size <= max(tolerance, system.rounding(operators.mass_factor) / reference) and violation <= SOLVED * interface.width:
                 return ended(Stop.CONVERGED)
         if iteration == max_iterations:
             break
         first = size if iteration == 1 else first
         if not np.isfinite(size) or (iteration > 1 and size > 1e3 * max(first, 1.0)):
             return ended(Stop.DIVERGED)
-        if iteration > 1 and size > 0.3 * previous and not sunk.any() and hasattr(system.kinematics, "tangent"):
+        if iteration > 1 and size > 0.3 * previous and size > tolerance and system.kinematics.has_tangent:
             operators = system.refresh(operators, x)
+            nodal = _nodal(interface, operators, scale)
         previous = size
 
         # Newton about the present forces, so that a slightly turned compliance does not matter at convergence
         turn, along = rotation @ operators.rotation.T, halfway @ operators.rotation.T
         x = system.kinematics.moved(x, operators.factor.solve(total @ turn) @ turn.T)
-        position = interface.dynamic_position(x, rotation)
-        active = np.flatnonzero((position[:, 2] < NEAR * interface.width) | (forces[:, 2] > 0) | sunk)
-        dynamic = scale * interface.turned(operators.response.compliance, active, along)
-        static = interface.static_compliance(active, rotation, footing, stage.spring.own)
-        moved = position + interface.static_displacement(forces, rotation, footing)
-        old = forces
-        forces, solution = interface.solve(active, dynamic + static, moved, stage.anchors, old, stage.spring)
-        contact_iterations += solution.iterations + solution.sweeps
-        if solution.residual > CONTACT_TOLERANCE * interface.width:
-            return ended(Stop.CONTACT, f"contact residual {solution.residual:.2e} m")
-        x = system.kinematics.moved(x, scale * operators.response.displacement(interface.at_nodes(forces - old) @ along) @ along.T)
+        old = contact["force"].copy()
+        stop, violation = interface.solve(nodal, rotation, interface.positions(x, rotation), stage.dt, stage.before, contact)
+        if stop is not Stop.CONVERGED:
+            return ended(stop, "" if stop is Stop.OFF_BASE else f"contact residual {violation:.2e} m")
+        x = system.kinematics.moved(x, scale * operators.response.displacement(interface.at_nodes(contact["force"] - old) @ along) @ along.T)
     return ended(Stop.ITERATIONS)
+
+
+def _nodal(interface, operators, scale):
+    """Compliance of the foot's nodes in a stage, found once for its operators."""
+    if operators.nodal is None:
+        operators.nodal = interface.nodal(operators.response.compliance, scale, operators.rotation)
+    return operators.nodal

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from fecolumn.fem.foot import FilteredFoot, PlainFoot, Response
-from fecolumn.contact.interface import Interface
+from fecolumn.contact.points import CONTACT
+from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.interface import Interface, Nodal, rims_at_nodes
+from fecolumn.dynamics.resistance import Resistance
 from fecolumn.fem.damping import DampedFactor
 from fecolumn.fem.effective import Factor, effective_factor
-from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.rolling import Resistance
+from fecolumn.fem.foot import FilteredFoot, PlainFoot, Response
 
 
 @dataclass(slots=True)
@@ -22,12 +23,8 @@ class State:
     a: (n_owned, 3) acceleration that HHT remembers [m/s2]; with the plastic impact law it is that of all forces but the
         contact's. contact_a: (n_owned, 3) that of the contact forces.
     internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (3, 3) mean rotation.
-    forces: (n, 3) contact forces on the foot [N]; anchors: (n, 2) where its points stick [m];
-    relative: (n, 3) position of its points relative to the base, the third column the gap [m];
-    static: strain energy of base, foot's static rest, penalty springs and pad [J].
-    ground: (3,) acceleration of the base [m/s2]. indent: (n, 3) indentation of the pad at the points [m]; see `contact.pad`.
-    rim_angle: where the round rim's lowest contact point is [rad], nan while the foot touches with its nodes only; rim_lift: (5,)
-        how far it and its neighbours are above the rim there [m].
+    contact: (n,) of CONTACT, what the foot's points carry. static: strain energy of base, foot's static rest, penalty springs and pad [J].
+    ground: (3,) acceleration of the base [m/s2]. rims: (1,) of RIM.
     """
 
     time: float
@@ -38,23 +35,34 @@ class State:
     internal: np.ndarray
     strain: float
     rotation: np.ndarray
-    forces: np.ndarray
-    anchors: np.ndarray
-    relative: np.ndarray
+    contact: np.ndarray
     static: float
     ground: np.ndarray
-    indent: np.ndarray
-    rim_angle: float = np.nan
-    rim_lift: np.ndarray = field(default_factory=lambda: np.zeros(5))
+    rims: np.ndarray = field(default_factory=rims_at_nodes)
+
+    @property
+    def forces(self) -> np.ndarray:
+        """Contact forces (n, 3) on the foot [N]."""
+        return self.contact["force"]
+
+    @property
+    def anchors(self) -> np.ndarray:
+        """Positions (n, 2) at which the foot's points stick [m]."""
+        return self.contact["anchor"]
+
+    @property
+    def relative(self) -> np.ndarray:
+        """Positions (n, 3) of the foot's points relative to the base, the third column the gap [m]."""
+        return self.contact["relative"]
 
     def copy(self) -> "State":
-        return State(*(np.copy(value) if isinstance(value, np.ndarray) else value
-                       for value in (getattr(self, one.name) for one in fields(self))))
+        return replace(self, **{name: getattr(self, name).copy() for name in ("x", "v", "a", "contact_a", "internal", "rotation", "contact", "ground", "rims")})
 
 
 @dataclass(slots=True)
 class Operators:
-    """Factored effective matrix of one stage and what contact forces do in it; `rotation` is the frame of the matrix."""
+    """Factored effective matrix of one stage and what contact forces do in it; `rotation` is the frame of the matrix, `nodal` the compliance of the
+    foot's nodes once it has been asked for."""
 
     mass_factor: float
     stiffness_factor: float
@@ -62,6 +70,7 @@ class Operators:
     factor: Factor | DampedFactor
     response: Response
     rotation: np.ndarray
+    nodal: Nodal | None = None
 
 
 class System:
@@ -72,15 +81,15 @@ class System:
         kinematics: Corotated or TotalLagrangian of the column.
         base: BasePlate.
         foot: Footprint, the column nodes that may touch.
-        friction, own, pad: of the Interface.
+        friction, law, pad: of the Interface.
         gravity: (3,) [m/s2].
         hht: time integration whose step decides the filter of the contact.
         filtered: contact by FilteredFoot, as the plastic impact law needs it, or PlainFoot.
         rim, restitution: of the Interface.
-        damping: ModalDamping of the column, or None. rolling: coefficient of the rim's `rolling.Resistance` [-].
+        damping: ModalDamping of the column, or None. rolling: coefficient of the rim's Resistance [-].
     """
 
-    def __init__(self, column, kinematics, base, foot, friction, own, gravity, hht: HHT, filtered=True,
+    def __init__(self, column, kinematics, base, foot, friction, law, gravity, hht: HHT, filtered=True,
                  rim=None, damping=None, restitution: float = 0.0, rolling: float = 0.0, pad=None):
         self.column, self.kinematics, self.base, self.damping = column, kinematics, base, damping
         self.footprint, self.foot_nodes, self.areas = foot, foot.nodes, foot.areas
@@ -91,9 +100,20 @@ class System:
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)
         response = FilteredFoot(column, foot.nodes, factor, hht.mass_factor, hht.stiffness_factor) if filtered \
             else PlainFoot(column, foot.nodes)
-        self.interface = Interface(response, column.all_X[foot.nodes], base, friction, own, rim, restitution, pad)
+        self.interface = Interface(response, column.all_X[foot.nodes], base, friction, law, rim, restitution, rolling, pad)
         self._add(hht.mass_factor, hht.stiffness_factor, hht.rate_factor, factor, np.eye(3))
         self.rolling, self.resistance = rolling, Resistance(column, rim, rolling) if rim and rolling else None
+
+    def unstrained(self, x: np.ndarray) -> State:
+        """The column at rest at positions x (n_owned, 3) to which a rigid motion has carried it; nothing touches yet."""
+        interface = self.interface
+        rotation, internal, strain = self.kinematics.internal(x)
+        contact = np.zeros(interface.size, CONTACT)
+        contact["relative"], contact["located"] = interface.node_positions(x, rotation), True
+        contact["anchor"] = contact["relative"][:, :2]
+        zero = np.zeros_like(x)
+        return State(time=0.0, x=x.copy(), v=zero, a=zero.copy(), contact_a=zero.copy(), internal=internal, strain=strain, rotation=rotation, contact=contact,
+                     static=0.0, ground=np.zeros(3))
 
     def _factor(self, mass_factor, stiffness_factor, tangent=None) -> Factor:
         self.factorizations += 1

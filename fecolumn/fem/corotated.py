@@ -20,6 +20,8 @@ class Corotated:
     """
 
     name = "corotated"
+    #: Whether `tangent` gives the stiffness at strained positions; else that of the reference serves, turned.
+    has_tangent = False
 
     def __init__(self, body):
         self.body = body

@@ -18,6 +18,8 @@ class TotalLagrangian:
     """Internal forces as the derivative of the St. Venant-Kirchhoff energy, its tangent by `ufl.derivative`."""
 
     name = "total_lagrangian"
+    #: Whether `tangent` gives the stiffness at strained positions; else that of the reference serves, turned.
+    has_tangent = True
 
     def __init__(self, body):
         self.body = body

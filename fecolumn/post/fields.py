@@ -67,7 +67,7 @@ class FieldWriter:
         column, plate = self.column, self.plate
         displacement, stress = [gather_all(column, x - column.X)], [self._stress[column].values(local)]
         if plate:
-            sunk = plate.displacement(*plate.grid.project(positions, forces[:, 2] > 0), -forces)
+            sunk = plate.displacement(*plate.grid.under(positions, forces[:, 2] > 0), -forces)
             displacement.append(gather_all(plate.body, sunk))
             stress.append(self._stress[plate.body].values(sunk))
         if column.comm.rank:

@@ -14,15 +14,14 @@ from fecolumn.case import GRAVITY
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
+from fecolumn.dynamics.cuts import StepFailed
 from fecolumn.dynamics.gravity import NoEquilibrium
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS
-from fecolumn.dynamics.stepper import StepFailed
 from fecolumn.progress import Progress
-from fecolumn.reduced import motion as motions
 from fecolumn.reduced import start
 from fecolumn.reduced.cache import load_model
-from fecolumn.reduced.observe import COLUMNS, lost, view
+from fecolumn.reduced.observe import COLUMNS, view
 from fecolumn.reduced.run import Engine, advance
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
@@ -31,16 +30,16 @@ CHUNK = 500
 
 def engine_of(case, model, base, upright: bool = False) -> Engine:
     """The reduced engine of a case at its start, or in gravity equilibrium."""
-    own = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas)
+    law = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas)
     plan, pad = case.integration, pad_of(case, model.areas, model.mass)
 
     def begin(engine):
         return start.standing(engine) if upright else start.begin(engine, case.initial)
 
     eye = view(model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m)
-    return Engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), [0.0, 0.0, -GRAVITY], case.contact.friction_coefficient, own,
-                  None if pad else Rim.find(model.reference), begin, plan.max_cuts, case.material.damping_ratio, case.contact.restitution,
-                  case.contact.rolling_resistance, pad)
+    return Engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), begin, [0.0, 0.0, -GRAVITY], plan.max_cuts, case.material.damping_ratio,
+                  friction=case.contact.friction_coefficient, law=law, rim=None if pad else Rim.find(model.reference), restitution=case.contact.restitution,
+                  rolling=case.contact.rolling_resistance, pad=pad)
 
 
 def standing_energy(case, model, base) -> float:
@@ -65,10 +64,10 @@ class ReducedAnalysis(Analysis):
         self.stance, self.top_arm = self.engine.eye.stance, self.model.top_arm
         self.fields = self._fields() if self.field_steps else None
         if self.went_on(self._take):
-            self.say(f"resuming at t = {self.engine.motion.scalars[motions.TIME]:.4f} s")
+            self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
             self.standing_j = standing_energy(case, self.model, self.base) if case.initial.tilt_rad else self.engine.mechanical()
-            self.engine.motion.ground[:] = self.ground(0)
+            self.engine.motion.whole["ground"] = self.ground(0)
             self._note(self.engine.row()[None])
             if self.fields:
                 self.fields.write(self.engine)
@@ -110,14 +109,14 @@ class ReducedAnalysis(Analysis):
         except StepFailed as failure:
             self._note(engine.made)
             self.step += len(engine.made)
-            off = self.slid_off(failure, self.base, engine.motion.center + self.model.arms @ engine.motion.rotation.T)
+            off = self.slid_off(failure, self.base, engine.motion.frames["center"][0] + self.model.arms @ engine.motion.rotation[0].T)
             if off is None:
                 self._save()
                 raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
         finally:
             progress.end()
-        fallen = lost(engine.eye, engine.motion, engine.row(), self.steepest(self.step)) if over else STANDS
-        return self.finish(off or self.ending(fallen, engine.motion.rotation), self.model.dofs + self.base.dofs, engine.record, 0)
+        fallen = engine.fallen(self.steepest(self.step)) if over else STANDS
+        return self.finish(off or self.ending(fallen, engine.motion.rotation[0]), self.model.dofs + self.base.dofs, engine.record, 0)
 
     def _note(self, rows: np.ndarray) -> None:
         columns, place = {}, 0
@@ -128,23 +127,23 @@ class ReducedAnalysis(Analysis):
         self.history.extend(columns)
 
     def _save(self) -> None:
-        engine = self.engine
-        arrays = {f"motion.{name}": values for name, values in engine.motion._asdict().items()}
-        # with its bed, so that an analysis that was interrupted goes on to the last digit as if it had not been
-        arrays |= {f"bed.{name}": values for name, values in engine.bed._asdict().items()}
-        arrays |= dict(ledger=engine.ledger, counts=engine.counts)
+        arrays = self._arrays()
         content = io.BytesIO()
         np.savez(content, **arrays, **self.to_resume())
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
-    def _take(self, saved: dict) -> None:
+    def _arrays(self) -> dict[str, np.ndarray]:
+        """What a checkpoint keeps: with the stick operator, so that an analysis that was interrupted goes on to the last digit as if it had not been."""
         engine = self.engine
-        targets = {f"{prefix}.{name}": values for prefix, target in (("motion", engine.motion), ("bed", engine.bed))
-                   for name, values in target._asdict().items()}
-        targets |= dict(ledger=engine.ledger, counts=engine.counts)
+        parts = {"motion": engine.motion, "stick": engine.work.stick}
+        arrays = {f"{part}.{name}": values for part, target in parts.items() for name, values in target._asdict().items()}
+        return arrays | dict(ledger=engine.ledger, counts=engine.counts)
+
+    def _take(self, saved: dict) -> None:
+        targets = self._arrays()
         for name, values in targets.items():
-            if saved[name].shape != values.shape or not np.can_cast(saved[name].dtype, values.dtype):
+            if saved[name].shape != values.shape or not np.can_cast(saved[name].dtype, values.dtype, "equiv"):
                 raise ValueError(f"{name} does not fit")
         self.resumed(saved)
         for name, values in targets.items():

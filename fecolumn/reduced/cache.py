@@ -166,7 +166,7 @@ def _make(case: Case, folder: Path) -> None:
         base = dict(points=plate.grid.points, frequency=plate.frequency, dofs=plate.dofs, foot=model.reference, allowance=allowance)
     else:
         flat = base_of(case, model.reference)
-        base = dict(size=flat.grid.size, response=flat.response, frequency=flat.frequency)
+        base = dict(size=flat.grid.square, response=flat.response, frequency=flat.frequency)
     folder.parent.mkdir(parents=True, exist_ok=True)
     partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     partial.chmod(0o755)

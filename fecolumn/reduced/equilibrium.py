@@ -2,176 +2,135 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.friction import iterate
-from fecolumn.contact.interface import SOLVED
-from fecolumn.contact.pad import indent
-from fecolumn.dynamics.rolling import FLAT
-from fecolumn.dynamics.stage import CONTACT_TOLERANCE, PENETRATION
-from fecolumn.reduced import bed as beds
-from fecolumn.reduced.compliance import add_below, assemble, even, static_displacement
-from fecolumn.reduced.bed import SOFT_TURN, TURN, WAY
-from fecolumn.reduced.motion import STATIC, follow, point_positions
-from fecolumn.reduced.plate import ON, UNKNOWN, project
-
-# Ways a step can end; FAR_BASE asks for more of the base's compliance, ENDED ends the analysis
-OK, FAR_BASE, OFF_BASE, CONTACT, ITERATIONS, IMPACT, ENDED = range(7)
-# Gap, over the foot's width, below which a point takes part in the contact problem: tighter than in the full-order engine, since all that
-# a point costs here grows with it, and one that is missed shows below the base and is taken in; up to CLOSE it is told its static displacement
-NEAR, CLOSE = 2e-5, 4e-5
-# Iterations of a step
-MOST = 25
-# Residual to which a contact problem is solved, over the one at which the laws hold on the moved points
-SHARP = 0.1
-# Places in a record of counts
-N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_FAST, N_ASSEMBLED = range(6)
+from fecolumn.contact.arrays import put_matrix
+from fecolumn.contact.points import CONTACT
+from fecolumn.contact.problem import (
+    ITERATIONS_SPENT,
+    N_ITERATIONS,
+    OK,
+    STICKS_STILL,
+    Problem,
+    begin_problem,
+    find_forces,
+    find_residual,
+    mark_close,
+    room,
+    stored_energy,
+)
+from fecolumn.contact.stick import Stick, holds, no_stick
+from fecolumn.contact.tolerances import CLOSE, FLAT, ITERATIONS, PAD_TURN, SOLVED, STICK_STAYS, STICK_TURN, STICK_WAY
+from fecolumn.reduced.motion import COORDINATE, END, START, Action, Elastic, find_elastic, find_position, follow, locate_start, no_action, no_elastic
 
 
-@njit
-def law_residual(column, scheme, points, relative, forces, active, rho, slack):
-    """Largest violation of the contact laws [m] among the active points (mask); see `friction.natural_residual`.
+class Work(NamedTuple):
+    """Room and memory of steps. points: (P,) of POINT in the step; before: (P,) of CONTACT, what the start brings to them; problem, stick: of
+    `contact`; action, elastic: of `reduced.motion`; positions, early, late: (P, 3); places: (N, 3); marked, landing, turning: (P,) or (N,) masks."""
 
-    slack: (n, 3) gets slips and gaps [m], with the give of contact law and pad.
-    """
-    worst, mu, kept = 0.0, column.friction, scheme.kept
-    for i in range(len(active)):
-        r0, r1, r2 = forces[i, 0], forces[i, 1], forces[i, 2]
-        s0 = relative[i, 0] + scheme.own[i, 0] * r0 + kept * points.indent[i, 0] - points.anchors[i, 0]
-        s1 = relative[i, 1] + scheme.own[i, 1] * r1 + kept * points.indent[i, 1] - points.anchors[i, 1]
-        s2 = relative[i, 2] + scheme.own[i, 2] * r2 + kept * points.indent[i, 2]
-        slack[i, 0], slack[i, 1], slack[i, 2] = s0, s1, s2
-        if not active[i]:
-            continue
-        normal = max(0.0, r2 - rho[i] * s2)
-        t0, t1 = r0 - rho[i] * s0, r1 - rho[i] * s1
-        length = np.sqrt(t0 * t0 + t1 * t1)
-        if length > mu * normal:
-            t0 *= mu * normal / length
-            t1 *= mu * normal / length
-        worst = max(worst, ((r0 - t0) ** 2 + (r1 - t1) ** 2 + (r2 - normal) ** 2) / rho[i] ** 2)
-    return np.sqrt(worst)
+    points: np.ndarray
+    before: np.ndarray
+    problem: Problem
+    stick: Stick
+    action: Action
+    elastic: Elastic
+    positions: np.ndarray
+    early: np.ndarray
+    late: np.ndarray
+    places: np.ndarray
+    wanted: np.ndarray
+    landing: np.ndarray
+    turning: np.ndarray
+
+
+def work_of(structure, points) -> Work:
+    """For the points (P,) of a Structure."""
+    n, nodes = len(points), len(structure.bodies.arms)
+    bodies, modes = structure.squares.shape
+    return Work(points.copy(), np.zeros(n, CONTACT), room(n), no_stick(n), no_action(modes, bodies), no_elastic(nodes, n),
+                *(np.zeros((n, 3)) for _ in range(3)), np.zeros((nodes, 3)), np.zeros(nodes, bool), np.zeros(n, bool), np.zeros(n, bool))
 
 
 @njit
-def settled(column, points, start, free_center, advance):
-    """Whether the foot stays in its place long enough to make a bed for it."""
+def stays(interface, start, free_center, advance):
+    """Whether the foot stays in its place long enough for finding its stick operator to pay."""
     way, turn = 0.0, 0.0
     for a in range(3):
-        turn = max(turn, abs(advance[a]))
+        turn = max(turn, abs(advance[0, a]))
         if a < 2:
-            way = max(way, abs(free_center[a] - start.center[a]))
-    if column.soft:
-        return turn < SOFT_TURN / 5
-    flat = np.hypot(start.rotation[2, 0], start.rotation[2, 1]) < FLAT
-    return flat and turn < TURN / 5 and way < WAY * column.width / 5
+            way = max(way, abs(free_center[0, a] - start.frames[0].center[a]))
+    if interface.on_pad:
+        return turn < STICK_STAYS * PAD_TURN
+    flat = np.hypot(start.rotation[0, 2, 0], start.rotation[0, 2, 1]) < FLAT
+    return flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interface.width
 
 
 @njit
-def equilibrate(column, plate, scheme, points, footing, bed, start, free_center, free_modal, advance, end, sway, record):
-    """Find forces and motion at the end of a step.
+def find_positions(structure, work, start, end):
+    """Positions of the points at the END of the step; those of points too high to matter without their elastic displacement."""
+    interface, points, elastic, positions = structure.interfaces[0], work.points, work.elastic, work.positions
+    all_of_them = work.problem.flags[STICKS_STILL]
+    for b in range(len(end.frames)):
+        stored = 0.0
+        for k in range(end.modal.shape[2]):
+            stored += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
+        # no node moves farther than the modes' energy allows
+        reach = np.sqrt(stored)
+        for i in range(len(points)):
+            if points[i].slave != b:
+                continue
+            for a in range(3):
+                positions[i, a] = end.frames[b].center[a]
+                for c in range(3):
+                    positions[i, a] += end.rotation[b, a, c] * points[i].arm[c]
+            positions[i, 2] += points[i].lift
+            # a point of the rim moves with four nodes near to its own
+            high = positions[i, 2] > CLOSE * interface.width + 2 * reach * structure.reach[points[i].node]
+            if high and not all_of_them and not (work.before[i].force[2] > 0 or end.contact[i].force[2] > 0):
+                continue
+            if work.before[i].force[2] <= 0:
+                locate_start(structure, points, i, start, elastic, work.before, work.places[0])
+            find_elastic(structure, points, i, end, elastic, END)
+            find_position(points, i, end, elastic, END, positions[i])
 
-    Newton about the present forces: the motion is evaluated exactly for them, the contact problem is solved with the compliance W that
-    the column has in that place. It is done when the laws hold for the exact positions.
+
+@njit
+def equilibrate(structure, base, scheme, work, start, free_center, free_modal, advance, rim_angle, end, counts):
+    """Find forces and motion at the end of a step; the motion is exact for the forces at every iteration of `contact.problem`.
 
     Args:
-        start: Motion at the start; points bring the first guess of the forces and the anchors.
-        free_center, free_modal, advance: see `motion.follow`.
-        end: gets center, rotation, modal, elastic, forces, relative, indent, static energy.
+        start: Motion at the start; work.points and work.before bring the first guess of the forces, and the anchors.
+        free_center, free_modal, advance: see `motion.follow`. rim_angle: of the first interface.
+        end: gets center, rotation, modal coordinates, contact, static energy.
     Returns: a way to end.
     """
-    n, mu, tight = len(points.forces), column.friction, SHARP * SOLVED * column.width
-    positions, given, slack, relative = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3)), end.relative
-    close, active, evened = np.ones(n, np.bool_), np.zeros(n, np.bool_), np.zeros(n, np.bool_)
-    W, rho, listed, assembled = np.empty((0, 0)), np.empty(n), np.empty(0, np.int64), False
-    forces = end.forces
-    forces[:] = points.forces
-    end.elastic[:] = start.elastic
-    sway.turn[:] = advance
-    in_bed = beds.fits(bed, column, points, scheme.half, start.center, start.rotation)
-    may_bed = not in_bed and settled(column, points, start, free_center, advance)
-    for iteration in range(MOST):
-        record[N_ITERATIONS] += 1
-        follow(column, scheme, points, start, free_center, free_modal, advance, forces, end, sway)
-        point_positions(points, end, positions)
-        if iteration == 0 or not in_bed:
-            for i in range(n):
-                close[i] = in_bed or positions[i, 2] < CLOSE * column.width or forces[i, 2] > 0 or points.forces[i, 2] > 0
-            answer = project(plate, positions, close, footing)
-            if answer != ON:
-                return FAR_BASE if answer == UNKNOWN else OFF_BASE
-            for i in range(n):
-                # the foot turns too little in an iteration to change it
-                if not in_bed and forces[i, 2] > 0 and not evened[i]:
-                    even(column, points, plate, footing, end.rotation, i)
-                    evened[i] = True
-        if may_bed and 2 * np.sum(close) > n:
-            may_bed = False
-            if close.all():
-                for i in range(n):
-                    even(column, points, plate, footing, end.rotation, i)
-                beds.make(bed, column, plate, scheme, points, footing, end.center, end.rotation)
-                record[N_ASSEMBLED] += 1
-                in_bed = True
-        if in_bed:
-            given[:] = (bed.static @ forces.ravel()).reshape(n, 3)
-        else:
-            static_displacement(column, points, plate, footing, end.rotation, forces, close, given)
-        changed, count = not assembled, 0
-        for i in range(n):
+    interface, points, before, problem, elastic = structure.interfaces[0], work.points, work.before, work.problem, work.elastic
+    for i in range(len(points)):
+        end.contact[i] = before[i]
+        if before[i].force[2] > 0:
+            find_elastic(structure, points, i, start, elastic, START)
             for a in range(3):
-                relative[i, a] = positions[i, a] + given[i, a]
-            new = positions[i, 2] < NEAR * column.width or forces[i, 2] > 0 or relative[i, 2] < -PENETRATION * column.width
-            changed |= new != active[i]
-            active[i] = new
-            count += new
-        if in_bed:
-            rho[:] = bed.rho
-        elif changed:
-            listed, assembled = np.flatnonzero(active), True
-            W = np.empty((3 * count, 3 * count))
-            for i in listed:
-                if not evened[i]:
-                    even(column, points, plate, footing, end.rotation, i)
-                    evened[i] = True
-            assemble(column, points, points.arms, listed, end.rotation, scheme.half, scheme.elastic, W)
-            add_below(scheme.own, plate, footing, listed, W, 1.0)
-            record[N_ASSEMBLED] += 1
-            for j in range(count):
-                rho[listed[j]] = 3 / (W[3 * j, 3 * j] + W[3 * j + 1, 3 * j + 1] + W[3 * j + 2, 3 * j + 2])
-        residual = law_residual(column, scheme, points, relative, forces, active, rho, slack)
-        if residual <= SOLVED * column.width:
-            energy = 0.0
-            if column.soft:
-                indent(scheme.give, scheme.kept, forces, points.indent, end.indent)
-            for i in range(n):
-                for a in range(3):
-                    energy += forces[i, a] * (given[i, a] + column.own[i, a] * forces[i, a])
-                    energy += column.springs[i, a] * end.indent[i, a] ** 2
-            end.scalars[STATIC] = energy / 2
+                elastic.point[END, i, a] = elastic.point[START, i, a]
+    put_matrix(advance, work.action.turn)
+    still = holds(work.stick, interface, rim_angle, scheme.half, points[0].arm[2], start.frames[0].center, start.rotation[0])
+    begin_problem(problem, still, not still and stays(interface, start, free_center, advance))
+    for iteration in range(ITERATIONS):
+        counts[N_ITERATIONS] += 1
+        follow(structure, scheme, points, start, free_center, free_modal, advance, elastic, end, work.action)
+        find_positions(structure, work, start, end)
+        if iteration == 0 or not problem.flags[STICKS_STILL]:
+            mark_close(problem, interface, work.positions, before, end.contact)
+        answer, residual = find_residual(problem, structure.bodies, base, points, interface, scheme.springs, scheme.dynamic, scheme.half, work.stick,
+                                         rim_angle, end.frames[0].center, end.rotation, work.positions, iteration == 0, before, end.contact, counts)
+        if answer != OK:
+            return answer
+        if residual <= SOLVED * interface.width:
+            end.whole[0].static = stored_energy(problem, points, interface, scheme.springs, before, end.contact)
             return OK
-        if in_bed:
-            residual, newtons = beds.solve(bed, mu, slack, active, forces, tight, CONTACT_TOLERANCE * column.width)
-            record[N_CONTACT] += newtons
-            if residual <= CONTACT_TOLERANCE * column.width:
-                continue
-            listed = np.flatnonzero(active)
-            W = np.empty((3 * count, 3 * count))
-            for i in range(count):
-                for j in range(count):
-                    W[3 * i:3 * i + 3, 3 * j:3 * j + 3] = bed.W[3 * listed[i]:3 * listed[i] + 3, 3 * listed[j]:3 * listed[j] + 3]
-        q, old = np.empty((count, 3)), np.empty((count, 3))
-        for j in range(count):
-            for a in range(3):
-                old[j, a] = forces[listed[j], a]
-                q[j, a] = slack[listed[j], a]
-        q -= (W @ old.ravel()).reshape(count, 3)
-        new_forces, residual, newtons, sweeps = iterate(W, q, mu, old, tight)
-        record[N_CONTACT] += newtons + sweeps
-        if not residual <= CONTACT_TOLERANCE * column.width:
-            return CONTACT
-        for j in range(count):
-            for a in range(3):
-                forces[listed[j], a] = new_forces[j, a]
-    return ITERATIONS
+        answer = find_forces(problem, points, interface, work.stick, end.contact, counts)
+        if answer != OK:
+            return answer
+    return ITERATIONS_SPENT

@@ -8,7 +8,7 @@ from fecolumn.dynamics.assembly import foot_of
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.post.fields import FieldWriter
 from fecolumn.reduced.cache import make_bodies
-from fecolumn.reduced.motion import TIME, point_positions
+from fecolumn.reduced.motion import COORDINATE
 
 
 class ReducedFields:
@@ -32,19 +32,22 @@ class ReducedFields:
 
     def write(self, engine) -> None:
         """Add the frame of the engine's motion."""
-        motion, points, body = engine.motion, engine.points, self._body
-        positions = np.empty_like(motion.forces)
-        point_positions(points, motion, positions)
+        motion, points, body = engine.motion, engine.work.points, self._body
         at_nodes = np.zeros_like(motion.forces)
-        np.add.at(at_nodes, points.carriers, points.weights[:, :, None] * motion.forces[:, None])
+        np.add.at(at_nodes, points["carriers"], points["weights"][:, :, None] * motion.forces[:, None])
+        moved = np.einsum("iam,m->ia", engine.structure.pushes, motion.modal[0, COORDINATE])
+        arms = points["arm"] + np.einsum("pq,pqa->pa", points["weights"], moved[points["carriers"]])
+        center, rotation = motion.frames["center"][0], motion.rotation[0]
+        positions = center + arms @ rotation.T
+        positions[:, 2] += points["lift"]
         local = self.displacement(engine, at_nodes)
-        x = motion.center + (body.X - self._model.center + local) @ motion.rotation.T
-        self._writer.write(float(motion.scalars[TIME]), x, local, positions, motion.forces, at_nodes)
+        x = center + (body.X - self._model.center + local) @ rotation.T
+        self._writer.write(motion.time, x, local, positions, motion.forces, at_nodes)
 
     def displacement(self, engine, at_nodes) -> np.ndarray:
         """Displacement (n_nodes, 3) [m] in the column's frame; at_nodes: (n, 3) contact forces on the foot's nodes [N]."""
-        motion, column = engine.motion, engine.column
-        forces = at_nodes @ motion.rotation
-        given = np.einsum("iam,ia->m", column.pushes, forces) / column.squares
+        motion, structure = engine.motion, engine.structure
+        forces = at_nodes @ motion.rotation[0]
+        given = np.einsum("iam,ia->m", structure.pushes, forces) / structure.squares[0]
         load = self._body.spread(self._foot, forces).reshape(-1, 1)
-        return np.tensordot(motion.modal - given, self._shapes, 1) + self._free.response(load).reshape(-1, 3)
+        return np.tensordot(motion.modal[0, COORDINATE] - given, self._shapes, 1) + self._free.response(load).reshape(-1, 3)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from fecolumn._compiled import njit
-from fecolumn.contact.pad import dashpot_work
-from fecolumn.reduced.motion import STATIC, total_force
+from fecolumn.contact.work import losses
+from fecolumn.reduced.motion import ACCELERATION, COORDINATE, RATE
 
 # Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS [J]
 START, BASE, FRICTION, HIT, CONTACT_WORK, ALGORITHMIC, DAMPING, ROLLING = range(8)
@@ -12,65 +12,66 @@ N_PLACES = ROLLING + 1
 
 
 @njit
-def kinetic(column, motion):
+def kinetic(structure, motion):
     """Kinetic energy [J]."""
-    v, w, J, total = motion.velocity, motion.spin, column.inertia, 0.0
-    for a in range(3):
-        total += column.mass * v[a] * v[a] + w[a] * (J[a, 0] * w[0] + J[a, 1] * w[1] + J[a, 2] * w[2])
-    for k in range(len(motion.modal)):
-        total += motion.modal_rate[k] ** 2
+    total = 0.0
+    for b in range(len(motion.frames)):
+        v, w, J = motion.frames[b].velocity, motion.frames[b].spin, structure.bodies.body[b].inertia
+        for a in range(3):
+            total += structure.bodies.body[b].mass * v[a] * v[a] + w[a] * (J[a, 0] * w[0] + J[a, 1] * w[1] + J[a, 2] * w[2])
+        for k in range(motion.modal.shape[2]):
+            total += motion.modal[b, RATE, k] ** 2
     return total / 2
 
 
 @njit
-def strain(column, motion):
+def strain(structure, motion):
     """Strain energy of the modes, and of what responds statically [J]."""
     total = 0.0
-    for k in range(len(motion.modal)):
-        total += column.squares[k] * motion.modal[k] ** 2
-    return total / 2 + motion.scalars[STATIC]
+    for b in range(len(motion.frames)):
+        for k in range(motion.modal.shape[2]):
+            total += structure.squares[b, k] * motion.modal[b, COORDINATE, k] ** 2
+    return total / 2 + motion.whole[0].static
 
 
 @njit
-def weight_energy(column, reference, motion):
-    """Gravity energy relative to the centre of mass at `reference` (3,) [J]."""
-    g, c = column.gravity, motion.center
-    return -column.mass * (g[0] * (c[0] - reference[0]) + g[1] * (c[1] - reference[1]) + g[2] * (c[2] - reference[2]))
+def weight_energy(structure, reference, motion):
+    """Gravity energy relative to the centres of mass at `reference` (nb, 3) [J]."""
+    total = 0.0
+    for b in range(len(motion.frames)):
+        for a in range(3):
+            total -= structure.bodies.body[b].mass * structure.gravity[a] * (motion.frames[b].center[a] - reference[b, a])
+    return total
 
 
 @njit
-def book(column, scheme, points, start, end, sway, ledger):
-    """Book a step before its impact, as Stepper._book; returns the work of contact [J]."""
-    al, ga, dt, work, algorithmic, base = scheme.alpha, scheme.gamma, scheme.dt, 0.0, 0.0, 0.0
+def book(structure, scheme, work, start, end, ledger):
+    """Book a step before its impact; returns the work of contact [J]. Of the bodies as `dynamics.stepper`, of contact as `contact.work`."""
+    al, ga, dt, action, done, algorithmic, moved_base = scheme.alpha, scheme.gamma, scheme.dt, work.action, 0.0, 0.0, 0.0
     numerical = dt**2 * al**2 / 4
     damping = rolling = 0.0
-    total = total_force(end.forces)
-    for a in range(3):
-        moved, push = end.center[a] - start.center[a], total[a]
-        mean = column.mass * ((1 - ga) * start.acceleration[a] + ga * end.acceleration[a])
-        load = column.mass * (column.gravity[a] - (start.ground[a] + end.ground[a]) / 2)
-        algorithmic += moved * (mean - load) - numerical * (end.acceleration[a] - start.acceleration[a]) * (mean + push)
-        work += moved * push + sway.turn[a] * sway.moment[a]
-        rolling += sway.turn[a] * sway.resistance[a]
-        base -= (start.ground[a] + end.ground[a]) / 2 * column.mass * moved
-    for k in range(len(end.modal)):
-        moved = end.modal[k] - start.modal[k]
-        mean = (1 - ga) * start.modal_acceleration[k] + ga * end.modal_acceleration[k]
-        algorithmic += moved * (mean + column.squares[k] * (start.modal[k] + end.modal[k]) / 2)
-        algorithmic -= numerical * (end.modal_acceleration[k] - start.modal_acceleration[k]) * (mean + sway.modal[k])
-        work += moved * sway.modal[k]
-        # with the rate that the damping meets, see Stepper._hht_step
-        rate = end.modal_rate[k] - dt * al**2 / (4 * scheme.beta) * sway.modal[k]
-        damping -= moved * column.damping[k] * (start.modal_rate[k] + rate) / 2
-    contact = work - rolling + end.scalars[STATIC] - start.scalars[STATIC]
-    dashpots = dashpot_work(column.springs, scheme.give, scheme.kept, end.forces, points.indent, end.indent) if column.soft else 0.0
-    friction = landed = 0.0
-    for i in range(len(end.forces)):
-        if end.forces[i, 2] > 0:
-            friction += end.forces[i, 0] * (end.anchors[i, 0] - points.anchors[i, 0]) + end.forces[i, 1] * (end.anchors[i, 1] - points.anchors[i, 1])
-            if points.forces[i, 2] <= 0 and not column.soft:
-                landed += end.forces[i, 2] * (end.relative[i, 2] - points.relative[i, 2])
-    ledger[BASE] += base
+    for b in range(len(start.frames)):
+        mass, before, after = structure.bodies.body[b].mass, start.frames[b], end.frames[b]
+        for a in range(3):
+            moved, push = after.center[a] - before.center[a], action.push[b, a]
+            mean = mass * ((1 - ga) * before.acceleration[a] + ga * after.acceleration[a])
+            shaken = (start.whole[0].ground[a] + end.whole[0].ground[a]) / 2
+            algorithmic += moved * (mean - mass * (structure.gravity[a] - shaken)) - numerical * (after.acceleration[a] - before.acceleration[a]) * (mean + push)
+            done += moved * push + action.turn[b, a] * action.moment[b, a]
+            rolling += action.turn[b, a] * action.resistance[b, a]
+            moved_base -= shaken * mass * moved
+        for k in range(start.modal.shape[2]):
+            q0, q1 = start.modal[b, COORDINATE, k], end.modal[b, COORDINATE, k]
+            a0, a1, push = start.modal[b, ACCELERATION, k], end.modal[b, ACCELERATION, k], action.modal[b, k]
+            mean = (1 - ga) * a0 + ga * a1
+            algorithmic += (q1 - q0) * (mean + structure.squares[b, k] * (q0 + q1) / 2) - numerical * (a1 - a0) * (mean + push)
+            done += (q1 - q0) * push
+            # with the rate that the damping meets, see dynamics.stepper
+            rate = end.modal[b, RATE, k] - dt * al**2 / (4 * scheme.beta) * push
+            damping -= (q1 - q0) * structure.damping[b, k] * (start.modal[b, RATE, k] + rate) / 2
+    contact = done - rolling + end.whole[0].static - start.whole[0].static
+    friction, landed, dashpots = losses(work.points, structure.interfaces[0], scheme.springs, work.before, end.contact)
+    ledger[BASE] += moved_base
     ledger[FRICTION] += friction
     ledger[HIT] += landed
     ledger[CONTACT_WORK] += contact - friction - landed + dashpots

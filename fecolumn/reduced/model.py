@@ -7,8 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.pad import Pad
-from fecolumn.contact.rim import Rim
+from fecolumn.contact.bodies import Bodies, node_matrix, one_body
+from fecolumn.contact.interface import interface_of
+from fecolumn.contact.pad import Springs, springs_of
+from fecolumn.contact.points import node_points
 
 
 @dataclass(frozen=True)
@@ -51,47 +53,30 @@ class ColumnModel:
                        top_shape=np.ascontiguousarray(self.top_shape[:, :count]))
 
 
-class Column(NamedTuple):
-    """A ColumnModel as a time step sees it, for compiled code.
+class Structure(NamedTuple):
+    """What moves and how it touches, for compiled code, filtered to the step.
 
-    With F = 2 s - s^2, s = 1 / (1 + beta (1 + alpha) w^2 dt^2) of each mode (`fem.foot`): pushes: (n, 3, m) F phi, by which
-    contact forces drive modes and modes move the foot; static: (3 n, 3 n) = flexibility - sum F^2 phi phi / w^2, the memoryless
-    rest; mobility: (3 n, 3 n) = sum F^2 phi phi, velocity per impulse of the modes.
-    own: (n, 3) [m/N] of the contact law at each point; springs: (n, 3) [N/m] and relaxation [s] of a pad (`contact.pad`), soft: whether there is one.
-    rim: (n_rim,) foot nodes on the circle, none if the foot is not round; on_rim: (n,) their numbers there, -1 off the rim.
-    damping: (m,) [1/s] damping force on a mode over its rate, 2 zeta w. restitution: see `contact.restitution`. rolling: see
-    `dynamics.rolling.rolling_moment`.
+    With F = 2 s - s^2, s = 1 / (1 + beta (1 + alpha) w^2 dt^2) of each mode (`fem.foot`), w = 0 where a body has fewer modes than another:
+    bodies: static part of the nodes, flexibility - sum F^2 phi phi / w^2, and mobility of the modes, sum F^2 phi phi.
+    pushes: (N, 3, m) F phi, by which contact forces drive modes and modes move the nodes. squares: (nb, m) w^2 [1/s2]; damping: (nb, m) [1/s]
+    damping force on a mode over its rate, 2 zeta w.
+    reach: (N,) [m/sqrt(J)] largest displacement of a node by modes that store the energy 1/2 J.
+    interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; points: (P,) of POINT at rest; gravity: (3,) [m/s2].
     """
 
-    mass: float
-    inertia: np.ndarray
-    inverse: np.ndarray
-    gravity: np.ndarray
-    arms: np.ndarray
-    squares: np.ndarray
+    bodies: Bodies
     pushes: np.ndarray
-    static: np.ndarray
-    mobility: np.ndarray
-    own: np.ndarray
-    springs: np.ndarray
-    relaxation: float
-    soft: bool
-    friction: float
-    width: float
-    rim: np.ndarray
-    on_rim: np.ndarray
-    rim_first: float
-    rim_sector: float
-    rim_radius: float
+    squares: np.ndarray
     damping: np.ndarray
-    restitution: float
-    rolling: float
+    reach: np.ndarray
+    interfaces: np.ndarray
+    rim: np.ndarray
+    gravity: np.ndarray
 
 
 class Scheme(NamedTuple):
-    """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (m,) s of each mode, here with its damping,
-    elastic: (3 n, 3 n) [m/N] modal and static compliance of the foot within a step.
-    own: (n, 3) [m/N] of contact law and pad at each point; give, kept: of the pad, see `contact.pad.Pad`."""
+    """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (nb, m) s of each mode, here with its damping,
+    dynamic: (3 N, 3 n) [m/N] modal and static compliance of the nodes within a step; springs: of the points alone."""
 
     dt: float
     half: float
@@ -99,59 +84,53 @@ class Scheme(NamedTuple):
     beta: float
     gamma: float
     shrink: np.ndarray
-    elastic: np.ndarray
-    own: np.ndarray
-    give: np.ndarray
-    kept: float
+    dynamic: np.ndarray
+    springs: Springs
 
 
-def step_column(model: ColumnModel, hht, gravity, friction: float, own: np.ndarray, rim: Rim | None, damping_ratio: float = 0.0,
-                restitution: float = 0.0, rolling: float = 0.0, pad: Pad | None = None) -> Column:
-    """The column as steps of `hht` see it; further arguments as of `contact.interface.Interface` and `dynamics.system.System`."""
+def structure_of(model: ColumnModel, hht, gravity, friction: float, law: np.ndarray, rim=None, damping_ratio: float = 0.0, restitution: float = 0.0,
+                 rolling: float = 0.0, pad=None) -> tuple[Structure, np.ndarray]:
+    """A column on the base as steps of `hht` see it, and its points (n,) of POINT.
+
+    Args:
+        law: (n, 3) compliance of the contact law [m/N]. rim: Rim of a round foot. damping_ratio: of the elastic modes.
+        restitution, rolling, pad: see `contact.interface`.
+    """
     squares = model.frequencies**2
     shrink = 1 / (1 + squares * hht.stiffness_factor / hht.mass_factor)
     pushes = model.shapes * (2 * shrink - shrink**2)
-    nodes = rim.nodes if rim else np.zeros(0, np.int64)
-    on_rim = np.full(len(model.arms), -1)
-    on_rim[nodes] = np.arange(len(nodes))
-    springs = pad.stiffness if pad else np.zeros_like(model.arms)
-    return Column(
-        mass=float(model.mass), inertia=np.ascontiguousarray(model.inertia), inverse=np.linalg.inv(model.inertia), gravity=np.array(gravity, float),
-        arms=np.ascontiguousarray(model.arms), squares=squares, pushes=pushes, static=_flat(model.flexibility) - _modal(pushes, 1 / squares),
-        mobility=_modal(pushes, np.ones_like(squares)), own=np.ascontiguousarray(own, float),
-        springs=np.ascontiguousarray(springs, float), relaxation=pad.relaxation if pad else 0.0, soft=pad is not None, friction=float(friction),
-        width=float(np.ptp(model.arms[:, 0])), rim=nodes.astype(np.int64), on_rim=on_rim, rim_first=rim.first if rim else 0.0,
-        rim_sector=rim.sector if rim else 1.0, rim_radius=rim.radius if rim else 0.0, damping=2 * damping_ratio * model.frequencies,
-        restitution=float(restitution), rolling=float(rolling) if rim else 0.0)
+    static = node_matrix(model.flexibility) - _modal(pushes, 1 / squares)
+    bodies = one_body(model.arms, static, _modal(pushes, np.ones_like(squares)), float(model.mass), model.inertia)
+    points = node_points(model.arms, friction, law, pad.stiffness if pad else None)
+    reach = np.sqrt((pushes**2 / squares).sum(axis=(1, 2)))
+    structure = Structure(bodies, pushes, squares[None], 2 * damping_ratio * model.frequencies[None], reach,
+                          interface_of(model.arms, rim, restitution, rolling, pad),
+                          np.asarray(rim.nodes, np.int64) if rim else np.zeros(0, np.int64), np.array(gravity, float))
+    return structure, points
 
 
-def scheme(column: Column, hht) -> Scheme:
-    """Coefficients of a step of `hht`; the filter of the contact stays that of the column."""
-    half, stiffness = hht.dt**2 / 2, column.squares * hht.stiffness_factor / hht.mass_factor
-    stiffness = stiffness + column.damping * hht.rate_factor * hht.stiffness_factor / hht.mass_factor
-    return _scheme(column, hht.dt, half, hht.alpha, hht.beta, hht.gamma, stiffness)
+def scheme(structure: Structure, points: np.ndarray, hht) -> Scheme:
+    """Coefficients of a step of `hht`; the filter of the contact stays that of the structure."""
+    half, stiffness = hht.dt**2 / 2, structure.squares * hht.stiffness_factor / hht.mass_factor
+    stiffness = stiffness + structure.damping * hht.rate_factor * hht.stiffness_factor / hht.mass_factor
+    return _scheme(structure, points, hht.dt, half, hht.alpha, hht.beta, hht.gamma, stiffness)
 
 
-def resting_scheme(column: Column, pseudo_inertia: float) -> Scheme:
+def resting_scheme(structure: Structure, points: np.ndarray, pseudo_inertia: float) -> Scheme:
     """Coefficients of a proximal step towards equilibrium: (pseudo_inertia M + K) x = pseudo_inertia M x0 + F + U r."""
-    return _scheme(column, np.inf, 1 / pseudo_inertia, 0.0, 0.25, 0.5, column.squares / pseudo_inertia)
+    return _scheme(structure, points, np.inf, 1 / pseudo_inertia, 0.0, 0.25, 0.5, structure.squares / pseudo_inertia)
 
 
-def _scheme(column, dt, half, alpha, beta, gamma, stiffness) -> Scheme:
+def _scheme(structure, points, dt, half, alpha, beta, gamma, stiffness) -> Scheme:
     shrink = 1 / (1 + stiffness)
-    give, kept = np.zeros_like(column.own), 0.0
-    if column.soft:
-        give, kept = Pad(column.springs, column.relaxation).give(dt)
-    return Scheme(dt, half, alpha, beta, gamma, shrink, column.static + half * _modal(column.pushes, shrink), column.own + give, give, kept)
+    dynamic = structure.bodies.static.copy()
+    for body, factors in zip(structure.bodies.body, shrink):
+        nodes = slice(body["first"], body["first"] + body["count"])
+        dynamic[3 * nodes.start:3 * nodes.stop, :3 * body["count"]] += half * _modal(structure.pushes[nodes], factors)
+    return Scheme(dt, half, alpha, beta, gamma, shrink, dynamic, springs_of(points, structure.interfaces[0], dt))
 
 
 def _modal(shapes: np.ndarray, factors: np.ndarray) -> np.ndarray:
     """Sum of factor phi phi^T over the modes, (3 n, 3 n)."""
     flat = shapes.reshape(3 * len(shapes), -1)
     return (flat * factors) @ flat.T
-
-
-def _flat(blocks: np.ndarray) -> np.ndarray:
-    """Node blocks (n, n, 3, 3) as a matrix (3 n, 3 n)."""
-    n = len(blocks)
-    return np.ascontiguousarray(blocks.transpose(0, 2, 1, 3)).reshape(3 * n, 3 * n)

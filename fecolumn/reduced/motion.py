@@ -1,4 +1,4 @@
-"""Motion of the floating frame and the modes under given contact forces, to the end of a step."""
+"""Motion of floating frames and modes under given contact forces, to the end of a step."""
 
 from __future__ import annotations
 
@@ -7,76 +7,101 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn._compiled import njit
+from fecolumn.contact.arrays import put_matrix
+from fecolumn.contact.interface import RIM
+from fecolumn.contact.points import CONTACT
+from fecolumn.contact.record import record
 
-# Places in `Motion.scalars`
-TIME, STATIC, RIM_ANGLE, RIM_LIFT = range(4)
+#: A body's frame: center of mass [m], its velocity [m/s] and the acceleration that HHT remembers, without contact [m/s2]; spin: angular velocity in
+#: the body's frame [rad/s].
+FRAME = record(("center", "f8", 3), ("velocity", "f8", 3), ("acceleration", "f8", 3), ("spin", "f8", 3))
+#: What belongs to no body: time [s]; static: strain energy of base, static rest of the bodies, penalty springs and pad [J]; ground: acceleration [m/s2].
+WHOLE = record(("time", "f8"), ("static", "f8"), ("ground", "f8", 3))
+
+# Rows of Motion.modal: coordinate, rate, and the acceleration that HHT remembers, without contact
+COORDINATE, RATE, ACCELERATION = range(3)
 
 
 class Motion(NamedTuple):
-    """State of the reduced column in the table frame; arrays, so that compiled code may change them.
+    """State of a structure in the table frame; arrays, so that compiled code may change them.
 
-    center, velocity, acceleration: (3,) of the centre of mass, the acceleration that HHT remembers, without contact.
-    rotation: (3, 3) column to table; spin: (3,) angular velocity in the column's frame [rad/s].
-    modal, modal_rate, modal_acceleration: (m,) of the modes, the last one without contact.
-    elastic: (n, 3) filtered displacement of the foot's nodes in the column's frame [m].
-    forces, anchors, relative, indent: (n, 3), (n, 2), (n, 3), (n, 3) as in `dynamics.system.State`. ground: (3,) acceleration of the base.
-    scalars: (8,) time [s]; strain energy of base, foot's static rest, penalty springs and pad [J]; place of the rim's lowest contact
-    point [rad], nan while the foot touches with its nodes only; from RIM_LIFT on the lift of it and its neighbours [m].
+    frames: (nb,) of FRAME; rotation: (nb, 3, 3) body to table; modal: (nb, 3, m) of unit modal mass; contact: (P,) of CONTACT; rims: (ni,) of RIM;
+    whole: (1,) of WHOLE.
     """
 
-    center: np.ndarray
-    velocity: np.ndarray
-    acceleration: np.ndarray
+    frames: np.ndarray
     rotation: np.ndarray
-    spin: np.ndarray
     modal: np.ndarray
-    modal_rate: np.ndarray
-    modal_acceleration: np.ndarray
-    elastic: np.ndarray
-    forces: np.ndarray
-    anchors: np.ndarray
-    relative: np.ndarray
-    indent: np.ndarray
-    ground: np.ndarray
-    scalars: np.ndarray
+    contact: np.ndarray
+    rims: np.ndarray
+    whole: np.ndarray
+
+    @property
+    def time(self) -> float:
+        """[s]"""
+        return float(self.whole["time"][0])
+
+    @property
+    def forces(self) -> np.ndarray:
+        """Contact forces (P, 3) on the bodies [N]."""
+        return self.contact["force"]
 
 
-def at_rest(n: int, m: int) -> Motion:
-    """A motion of n foot nodes and m modes with zeros everywhere but an upright rotation."""
-    return Motion(*(np.zeros(3) for _ in range(3)), np.eye(3), np.zeros(3), *(np.zeros(m) for _ in range(3)), np.zeros((n, 3)),
-                  np.zeros((n, 3)), np.zeros((n, 2)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(3), np.array([0.0, 0.0, np.nan, *np.zeros(5)]))
+def at_rest(points: int, modes: int, bodies: int = 1, interfaces: int = 1) -> Motion:
+    """Zeros everywhere but for upright rotations."""
+    motion = Motion(np.zeros(bodies, FRAME), np.tile(np.eye(3), (bodies, 1, 1)), np.zeros((bodies, 3, modes)), np.zeros(points, CONTACT),
+                    np.zeros(interfaces, RIM), np.zeros(1, WHOLE))
+    motion.rims["angle"] = np.nan
+    return motion
 
 
-class Sway(NamedTuple):
-    """What the contact does to the column in a step, for the ledger: turn (3,) [rad] in the column's frame, moment: (3,) [N m] there,
-    conjugate to the turn; modal: (m,) forces on the modes; halfway: (3, 3) rotation in the middle of the step; resistance: (3,) part of
+class Action(NamedTuple):
+    """What contact does to the bodies in a step, for the ledger: turn: (nb, 3) [rad] in a body's frame, moment: (nb, 3) [N m] there, conjugate to
+    the turn; push: (nb, 3) force [N]; modal: (nb, m) forces on the modes; halfway: (nb, 3, 3) rotation in the middle of the step; resistance: (nb, 3) part of
     the moment by which a rim resists to roll."""
 
     turn: np.ndarray
     moment: np.ndarray
+    push: np.ndarray
     modal: np.ndarray
     halfway: np.ndarray
     resistance: np.ndarray
 
 
+def no_action(modes: int, bodies: int = 1) -> Action:
+    return Action(*(np.zeros((bodies, 3)) for _ in range(3)), np.zeros((bodies, modes)), np.zeros((bodies, 3, 3)), np.zeros((bodies, 3)))
+
+
+class Elastic(NamedTuple):
+    """Elastic displacement at the START and at the END of a step, found where it is wanted. node: (2, N, 3) [m] of nodes, stamp: (2, N) with which they are
+    up to date, now: (2,) the present stamps; point: (2, P, 3) of points, in their slaves' frames."""
+
+    node: np.ndarray
+    stamp: np.ndarray
+    now: np.ndarray
+    point: np.ndarray
+
+
+START, END = range(2)
+
+
+def no_elastic(nodes: int, points: int) -> Elastic:
+    return Elastic(np.zeros((2, nodes, 3)), np.zeros((2, nodes), np.int64), np.zeros(2, np.int64), np.zeros((2, points, 3)))
+
+
 @njit
 def copy(source, target):
     """Copy a Motion."""
-    target.center[:] = source.center
-    target.velocity[:] = source.velocity
-    target.acceleration[:] = source.acceleration
-    target.rotation[:] = source.rotation
-    target.spin[:] = source.spin
-    target.modal[:] = source.modal
-    target.modal_rate[:] = source.modal_rate
-    target.modal_acceleration[:] = source.modal_acceleration
-    target.elastic[:] = source.elastic
-    target.forces[:] = source.forces
-    target.anchors[:] = source.anchors
-    target.relative[:] = source.relative
-    target.indent[:] = source.indent
-    target.ground[:] = source.ground
-    target.scalars[:] = source.scalars
+    for b in range(len(source.frames)):
+        target.frames[b] = source.frames[b]
+    for i in range(len(source.contact)):
+        target.contact[i] = source.contact[i]
+    for k in range(len(source.rims)):
+        target.rims[k] = source.rims[k]
+    target.whole[0] = source.whole[0]
+    for b in range(len(source.frames)):
+        put_matrix(source.rotation[b], target.rotation[b])
+        put_matrix(source.modal[b], target.modal[b])
 
 
 @njit
@@ -113,36 +138,92 @@ def orthonormal(rotation):
 
 
 @njit(fastmath={"reassoc", "contract"})
-def foot_displacement(pushes, modal, target):
-    """target (n, 3): filtered displacement of the foot's nodes by modal coordinates (m,)."""
-    n, m = len(target), len(modal)
-    for i in range(n):
-        for a in range(3):
-            value = 0.0
-            for k in range(m):
-                value += pushes[i, a, k] * modal[k]
-            target[i, a] = value
+def _node_displacement(pushes, coordinates, node, target):
+    """target (3,): filtered displacement of a node by modal coordinates (m,)."""
+    x = y = z = 0.0
+    for k in range(len(coordinates)):
+        x += pushes[node, 0, k] * coordinates[k]
+        y += pushes[node, 1, k] * coordinates[k]
+        z += pushes[node, 2, k] * coordinates[k]
+    target[0], target[1], target[2] = x, y, z
 
 
 @njit
-def turning(inertia, inverse, advance, rotation, half, spread, resistance, turn, moment, halfway):
+def find_elastic(structure, points, i, motion, elastic, when):
+    """Find the elastic displacement of point i in a motion at START or END of a step."""
+    b = points[i].slave
+    x = y = z = 0.0
+    for q in range(points[i].count):
+        node, w = points[i].carriers[q], points[i].weights[q]
+        if elastic.stamp[when, node] != elastic.now[when]:
+            elastic.stamp[when, node] = elastic.now[when]
+            _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node])
+        x += w * elastic.node[when, node, 0]
+        y += w * elastic.node[when, node, 1]
+        z += w * elastic.node[when, node, 2]
+    elastic.point[when, i, 0], elastic.point[when, i, 1], elastic.point[when, i, 2] = x, y, z
+
+
+@njit
+def find_places(structure, points, motion, elastic, wanted, places):
+    """places (N, 3): positions at the START of the wanted nodes (mask) of the points, without their static part."""
+    for i in range(len(points)):
+        node, b = points[i].node, points[i].slave
+        if not wanted[node]:
+            continue
+        if elastic.stamp[START, node] != elastic.now[START]:
+            elastic.stamp[START, node] = elastic.now[START]
+            _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[START, node])
+        arms, moved = structure.bodies.arms, elastic.node[START]
+        x, y, z = arms[node, 0] + moved[node, 0], arms[node, 1] + moved[node, 1], arms[node, 2] + moved[node, 2]
+        for a in range(3):
+            places[node, a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
+
+
+@njit
+def find_position(points, i, motion, elastic, when, target):
+    """target (3,): position of point i without its static part, its elastic displacement being known."""
+    b, u = points[i].slave, elastic.point[when, i]
+    x, y, z = points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2]
+    for a in range(3):
+        target[a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
+    target[2] += points[i].lift
+
+
+@njit
+def locate_start(structure, points, i, start, elastic, before, place):
+    """Elastic displacement at the START of a step of point i, which was open, and where it was, unless the step before located it; place: (3,) room."""
+    find_elastic(structure, points, i, start, elastic, START)
+    if before[i].located:
+        return
+    find_position(points, i, start, elastic, START, place)
+    for a in range(3):
+        before[i].relative[a] = place[a]
+        if a < 2:
+            before[i].anchor[a] = place[a]
+    before[i].located = True
+
+
+@njit
+def turning(body, advance, rotation, half, spread, resistance, turn, moment, halfway):
     """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its moment M, in the column's frame.
 
     Energy-momentum conserving (Simo and Wong 1991): with M = sinc(|Th|/2) sum (Rh A) x r, Th . M is the work of the forces on the path
     of rigid arms A.
 
     Args:
-        advance: (3,) dt times the spin at the start. spread: (3, 3) sum of A r^T, r in the table frame. resistance: (3,) added to M.
+        body: of BODY. advance: (3,) dt times the spin at the start. spread: (3, 3) sum of A r^T, r in the table frame. resistance: (3,) added to M.
         turn: first guess, and the result. moment, halfway: results; the moment in the column's frame at the start.
     """
-    momentum = np.empty(3)
+    momentum, part, inertia, inverse = np.empty(3), np.empty(3), body.inertia, body.inverse_inertia
     for i in range(3):
         momentum[i] = 0.5 * (inertia[i, 0] * advance[0] + inertia[i, 1] * advance[1] + inertia[i, 2] * advance[2])
     for _ in range(50):
         x, y, z = turn[0], turn[1], turn[2]
         quarter = (x * x + y * y + z * z) / 4
         sinc = 1 - quarter / 6 * (1 - quarter / 20) if quarter < 1e-4 else np.sin(np.sqrt(quarter)) / np.sqrt(quarter)
-        turn_by(rotation, turn / 2, halfway)
+        part[0], part[1], part[2] = x / 2, y / 2, z / 2
+        turn_by(rotation, part, halfway)
         # arms turned into the table frame: B = Rh spread
         m0 = m1 = m2 = 0.0
         for a in range(3):
@@ -172,108 +253,101 @@ def turning(inertia, inverse, advance, rotation, half, spread, resistance, turn,
 
 
 @njit
-def follow(column, scheme, points, start, free_center, free_modal, advance, forces, end, sway):
-    """Carry the column to the end of the step under contact forces (n, 3) at the points.
+def follow(structure, scheme, points, start, free_center, free_modal, advance, elastic, end, action):
+    """Carry the bodies to the end of the step under the forces of `end` at the points.
 
-    end.elastic is used as a guess and updated; end gets center, rotation, modal, elastic; sway the conjugates.
+    The elastic displacement of points that carry is the last one known at the END, a guess; end gets center, rotation and modal
+    coordinates, action the conjugates.
+
+    Args:
+        free_center: (nb, 3), free_modal: (nb, m): the end of the step without contact. advance: (nb, 3) dt times the spins at the start.
     """
-    m, total, spread, arm = len(free_modal), np.zeros(3), np.zeros((3, 3)), np.empty(3)
-    for i in range(len(forces)):
-        r0, r1, r2 = forces[i, 0], forces[i, 1], forces[i, 2]
-        if r2 == 0.0 and r0 == 0.0 and r1 == 0.0:
-            continue
+    bodies = structure.bodies.body
+    for b in range(len(bodies)):
+        spread, arm = np.zeros((3, 3)), np.empty(3)
         for a in range(3):
-            arm[a] = points.arms[i, a]
-        for q in range(points.count[i]):
-            carrier, w = points.carriers[i, q], points.weights[i, q] / 2
+            action.push[b, a] = 0.0
+        for i in range(len(points)):
+            if points[i].slave != b or end.contact[i].force[2] <= 0.0:
+                continue
             for a in range(3):
-                arm[a] += w * (start.elastic[carrier, a] + end.elastic[carrier, a])
+                arm[a] = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
+            for a in range(3):
+                for c in range(3):
+                    spread[a, c] += arm[a] * end.contact[i].force[c]
+                action.push[b, a] += end.contact[i].force[a]
         for a in range(3):
-            spread[a, 0] += arm[a] * r0
-            spread[a, 1] += arm[a] * r1
-            spread[a, 2] += arm[a] * r2
-            total[a] += forces[i, a]
-    for a in range(3):
-        end.center[a] = free_center[a] + scheme.half * total[a] / column.mass
-    turning(column.inertia, column.inverse, advance, start.rotation, scheme.half, spread, sway.resistance, sway.turn, sway.moment,
-            sway.halfway)
-    turn_by(start.rotation, sway.turn, end.rotation)
-    modal_forces(column, points, sway.halfway, forces, sway.modal)
-    for k in range(m):
-        end.modal[k] = scheme.shrink[k] * (free_modal[k] + scheme.half * sway.modal[k])
-    foot_displacement(column.pushes, end.modal, end.elastic)
+            end.frames[b].center[a] = free_center[b, a] + scheme.half * action.push[b, a] / bodies[b].mass
+        turning(bodies[b], advance[b], start.rotation[b], scheme.half, spread, action.resistance[b], action.turn[b], action.moment[b], action.halfway[b])
+        turn_by(start.rotation[b], action.turn[b], end.rotation[b])
+        modal_forces(structure, points, b, action.halfway[b], end.contact, action.modal[b])
+        for k in range(free_modal.shape[1]):
+            end.modal[b, COORDINATE, k] = scheme.shrink[b, k] * (free_modal[b, k] + scheme.half * action.modal[b, k])
+    elastic.now[END] += 1
 
 
 @njit
-def total_force(forces):
-    """Sum (3,) of forces (n, 3), of which most are zero."""
-    total = np.zeros(3)
-    for i in range(len(forces)):
-        if forces[i, 2] > 0:
-            for a in range(3):
-                total[a] += forces[i, a]
-    return total
-
-
-@njit
-def modal_forces(column, points, rotation, forces, target):
-    """target (m,): what forces (n, 3) at the points, the column turned by `rotation`, do on the modes."""
-    m = len(target)
+def modal_forces(structure, points, b, rotation, contact, target):
+    """target (m,): what the forces of `contact` at the points do on the modes of body b turned by `rotation`."""
     target[:] = 0.0
-    if m == 0:
+    if len(target) == 0:
         return
-    for i in range(len(forces)):
-        r0, r1, r2 = forces[i, 0], forces[i, 1], forces[i, 2]
-        if r0 == 0.0 and r1 == 0.0 and r2 == 0.0:
-            continue
-        for a in range(3):
-            along = rotation[0, a] * r0 + rotation[1, a] * r1 + rotation[2, a] * r2
-            for q in range(points.count[i]):
-                share, push = points.weights[i, q] * along, column.pushes[points.carriers[i, q], a]
-                for k in range(m):
-                    target[k] += share * push[k]
+    for i in range(len(points)):
+        if points[i].slave == b and contact[i].force[2] > 0.0:
+            _add_modal(structure.pushes, points[i], rotation, contact[i].force[0], contact[i].force[1], contact[i].force[2], target)
 
 
 @njit
-def point_positions(points, motion, target):
-    """target (n, 3): positions of the points without their static part; points.elastic gets that of the points."""
-    c, R = motion.center, motion.rotation
-    for i in range(len(target)):
-        if points.count[i] == 1:
-            u0, u1, u2 = motion.elastic[i, 0], motion.elastic[i, 1], motion.elastic[i, 2]
-        else:
-            u0 = u1 = u2 = 0.0
-            for q in range(points.count[i]):
-                w, carrier = points.weights[i, q], points.carriers[i, q]
-                u0 += w * motion.elastic[carrier, 0]
-                u1 += w * motion.elastic[carrier, 1]
-                u2 += w * motion.elastic[carrier, 2]
-        x, y, z = points.arms[i, 0] + u0, points.arms[i, 1] + u1, points.arms[i, 2] + u2
-        for a in range(3):
-            target[i, a] = c[a] + R[a, 0] * x + R[a, 1] * y + R[a, 2] * z
-        target[i, 2] += points.lift[i]
+def _add_modal(pushes, point, rotation, x, y, z, target):
+    """Add to target (m,) what the force (x, y, z) at a point of POINT does on the modes."""
+    for a in range(3):
+        along = rotation[0, a] * x + rotation[1, a] * y + rotation[2, a] * z
+        for q in range(point.count):
+            share, push = point.weights[q] * along, pushes[point.carriers[q], a]
+            for k in range(len(target)):
+                target[k] += share * push[k]
 
 
 @njit
-def point_velocities(column, points, motion, wanted, target):
-    """target (n, 3): velocities of the wanted points (mask)."""
-    v, R, w = motion.velocity, motion.rotation, motion.spin
-    arm, own = np.empty(3), np.empty(3)
-    for i in range(len(target)):
-        if not wanted[i]:
-            continue
-        arm[:] = points.arms[i]
-        own[:] = 0.0
-        for q in range(points.count[i]):
-            carrier, weight = points.carriers[i, q], points.weights[i, q]
+def find_velocity(structure, points, i, motion, elastic, when, target):
+    """target (3,): velocity of point i in a motion, its elastic displacement being known."""
+    b, u = points[i].slave, elastic.point[when, i]
+    R, w, moved = motion.rotation[b], motion.frames[b].spin, np.empty(3)
+    v0 = v1 = v2 = 0.0
+    for q in range(points[i].count):
+        _node_displacement(structure.pushes, motion.modal[b, RATE], points[i].carriers[q], moved)
+        v0 += points[i].weights[q] * moved[0]
+        v1 += points[i].weights[q] * moved[1]
+        v2 += points[i].weights[q] * moved[2]
+    x, y, z = points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2]
+    v0, v1, v2 = v0 + w[1] * z - w[2] * y, v1 + w[2] * x - w[0] * z, v2 + w[0] * y - w[1] * x
+    for a in range(3):
+        target[a] = motion.frames[b].velocity[a] + R[a, 0] * v0 + R[a, 1] * v1 + R[a, 2] * v2
+
+
+@njit
+def push_bodies(structure, scheme, points, arms, impulses, motion):
+    """Velocity jump by impulses (P, 3) [N s] at the points with `arms` (P, 3) [m]."""
+    jump = np.empty(motion.modal.shape[2])
+    for b in range(len(motion.frames)):
+        body, R, moment = structure.bodies.body[b], motion.rotation[b], np.zeros(3)
+        jump[:] = 0.0
+        for i in range(len(points)):
+            p0, p1, p2 = impulses[i, 0], impulses[i, 1], impulses[i, 2]
+            if points[i].slave != b or p0 == 0.0 and p1 == 0.0 and p2 == 0.0:
+                continue
             for a in range(3):
-                push, moved = column.pushes[carrier, a], 0.0
-                for k in range(len(motion.modal)):
-                    moved += push[k] * motion.modal_rate[k]
-                arm[a] += weight * motion.elastic[carrier, a]
-                own[a] += weight * moved
-        x = own[0] + w[1] * arm[2] - w[2] * arm[1]
-        y = own[1] + w[2] * arm[0] - w[0] * arm[2]
-        z = own[2] + w[0] * arm[1] - w[1] * arm[0]
+                motion.frames[b].velocity[a] += impulses[i, a] / body.mass
+            b0, b1, b2 = (R[0, 0] * p0 + R[1, 0] * p1 + R[2, 0] * p2, R[0, 1] * p0 + R[1, 1] * p1 + R[2, 1] * p2,
+                          R[0, 2] * p0 + R[1, 2] * p1 + R[2, 2] * p2)
+            moment[0] += arms[i, 1] * b2 - arms[i, 2] * b1
+            moment[1] += arms[i, 2] * b0 - arms[i, 0] * b2
+            moment[2] += arms[i, 0] * b1 - arms[i, 1] * b0
+            _add_modal(structure.pushes, points[i], R, p0, p1, p2, jump)
+        J = body.inverse_inertia
         for a in range(3):
-            target[i, a] = v[a] + R[a, 0] * x + R[a, 1] * y + R[a, 2] * z
+            motion.frames[b].spin[a] += J[a, 0] * moment[0] + J[a, 1] * moment[1] + J[a, 2] * moment[2]
+        for k in range(len(jump)):
+            motion.modal[b, RATE, k] += jump[k]
+            # the damping that HHT remembers is that of the new rates
+            motion.modal[b, ACCELERATION, k] -= (1 + scheme.alpha) * structure.damping[b, k] * jump[k]

@@ -1,123 +1,183 @@
-"""One step of the reduced column: HHT for translation and modes, an energy-momentum rule for rotation, contact, impact."""
+"""One step of a reduced structure: HHT for translation and modes, an energy-momentum rule for rotation, contact, impact."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.dynamics.rolling import rolling_moment
-from fecolumn.dynamics.stepper import CREATED, OPEN, STUCK
-from fecolumn.reduced.equilibrium import OK, equilibrate
-from fecolumn.reduced.impact import collide, turning_points
-from fecolumn.reduced.ledger import book
-from fecolumn.reduced.motion import RIM_ANGLE, RIM_LIFT, TIME, orthonormal, total_force
-from fecolumn.reduced.points import roll
+from fecolumn.contact.arrays import put
+from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, touched, what_happens
+from fecolumn.contact.problem import N_IMPACTS, OK
+from fecolumn.contact.rolling import mark_rolling, plan_roll, roll_points, rolling_moment, stay
+from fecolumn.contact.tolerances import CREATED
+from fecolumn.contact.work import move_anchors
+from fecolumn.reduced.equilibrium import equilibrate
+from fecolumn.reduced.ledger import FRICTION, HIT, book, kinetic
+from fecolumn.reduced.motion import ACCELERATION, COORDINATE, END, RATE, START, find_elastic, find_places, find_velocity, orthonormal, push_bodies, turn_by
 
 
 @njit
-def step(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record):
-    """Carry `start` to `end`, one scheme.dt later, under the ground acceleration (3,); the steps of `Stepper._hht_step`.
+def step(structure, base, scheme, work, start, ground, end, ledger, counts):
+    """Carry `start` to `end`, one scheme.dt later, under the ground acceleration (3,); the steps of `dynamics.stepper`.
 
     Returns: a way to end, OK or the reason why not; then `start` is unharmed and `ledger` is not to be used.
     """
-    dt, booked = scheme.dt, ledger.copy()
-    rolled = roll(column, start, dt, True, points)
-    answer, contact_work = _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record)
-    if answer == OK and rolled and contact_work > CREATED * column.mass * np.sqrt(np.sum(column.gravity**2)) * column.width:
+    booked, interface = ledger.copy(), structure.interfaces[0]
+    rolled = place_points_of_step(structure, scheme.dt, work, start, end, True)
+    answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
+    weight = structure.bodies.body[0].mass * np.sqrt(structure.gravity[0] ** 2 + structure.gravity[1] ** 2 + structure.gravity[2] ** 2)
+    if answer == OK and rolled and contact_work > CREATED * weight * interface.width:
         # several points of the rim carry while it rolls fast: they stay for this step. No recursion: numba cannot load it from its cache
-        ledger[:] = booked
-        roll(column, start, dt, False, points)
-        answer, contact_work = _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record)
-    if answer != OK or column.soft:
-        # the springs of a pad bring a landing foot to rest in their own time: there is no impact
-        return answer
-    n = len(end.forces)
-    landing = np.zeros(n, np.bool_)
-    for i in range(n):
-        landing[i] = points.forces[i, 2] <= 0 and points.relative[i, 2] > OPEN * column.width and end.forces[i, 2] > 0
-    early, late = np.empty((n, 3)), np.empty((n, 3))
-    turns = turning_points(column, points, start, end, dt, early, late)
-    turning = total = 0.0
-    for i in range(n):
-        total += end.forces[i, 2]
-        turning += end.forces[i, 2] if turns[i] else 0.0
-    # few points of many turn where a standing foot slips in part: that is elastic, not motion
-    if landing.any() or 2 * turning > total > 0:
-        return collide(column, plate, scheme, points, footing, start, end, landing, turns, contact_work, ledger, record)
-    return OK
+        put(booked, ledger)
+        place_points_of_step(structure, scheme.dt, work, start, end, False)
+        answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
+    # the springs of a pad bring a landing foot to rest in their own time: there is no impact
+    if answer == OK and not interface.on_pad:
+        answer = _collide(structure, base, scheme, work, start, end, contact_work, ledger, counts)
+    return answer
 
 
 @njit
-def _carry(column, plate, scheme, points, footing, bed, start, ground, end, sway, ledger, record):
+def place_points_of_step(structure, dt, work, start, end, allowed):
+    """Place the points of a step, and bring what they carry to them; end gets the state of the rims. Returns: whether any rim rolled."""
+    points, rolled, halfway, part = work.points, False, np.empty((3, 3)), np.empty(3)
+    for i in range(len(points)):
+        work.before[i] = start.contact[i]
+    for k in range(len(structure.interfaces)):
+        end.rims[k] = start.rims[k]
+        n, first = structure.interfaces[k].rim_count, structure.interfaces[k].rim_first
+        if n == 0:
+            continue
+        b, rim = structure.interfaces[k].slave, structure.rim[first:first + n]
+        for a in range(3):
+            part[a] = dt / 2 * start.frames[b].spin[a]
+        turn_by(start.rotation[b], part, halfway)
+        rolls, tilt, roll = plan_roll(structure.interfaces[k], rim, start.rims[k], start.contact, start.rotation[b], halfway, allowed)
+        if rolls:
+            work.wanted[:] = False
+            mark_rolling(roll, rim, points, start.contact, work.wanted)
+            find_places(structure, points, start, work.elastic, work.wanted, work.places)
+            roll_points(roll, rim, end.rims[k], structure.bodies.arms, work.places, start.contact, points, work.before)
+            rolled = True
+        else:
+            stay(roll, rim, end.rims[k], tilt, structure.bodies.arms, points)
+    return rolled
+
+
+@njit
+def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
     """`step` with the points where they are and without impact: a way to end, and the energy that contact created.
 
     The contact force r acts at the end of the step and is kept out of the accelerations that HHT remembers; the rotation is
     energy-momentum conserving whatever alpha is, since HHT does not damp rigid motion.
     """
-    dt, al, be, m = scheme.dt, scheme.alpha, scheme.beta, len(start.modal)
-    free_center, free_modal = np.empty(3), np.empty(m)
-    for a in range(3):
-        before, now = column.gravity[a] - start.ground[a], column.gravity[a] - ground[a]
-        end.acceleration[a] = (1 + al) * now - al * before
-        free_center[a] = start.center[a] + dt * start.velocity[a] + dt**2 * ((0.5 - be) * start.acceleration[a] + be * end.acceleration[a])
-    for k in range(m):
-        memory = (0.5 - be) * start.modal_acceleration[k] + be * al * column.squares[k] * start.modal[k]
-        free_modal[k] = start.modal[k] + dt * start.modal_rate[k] + dt**2 * memory
-        if column.damping[k] > 0.0:
-            way, rate = _foreseen(scheme, start, k)
-            free_modal[k] += column.damping[k] * dt * (be * dt * (al * start.modal_rate[k] - (1 + al) * rate) + (1 + al) * scheme.gamma * way)
-    sway.resistance[:] = 0.0
-    if column.rolling > 0.0:
-        load = total_force(points.forces)[2]
-        sway.resistance[:] = rolling_moment(start.rotation, start.spin, load, column.rim_radius, column.rolling, column.inverse, dt)
-    answer = equilibrate(column, plate, scheme, points, footing, bed, start, free_center, free_modal, dt * start.spin, end, sway, record)
+    dt, al, be, gravity, action = scheme.dt, scheme.alpha, scheme.beta, structure.gravity, work.action
+    bodies, m = len(start.frames), start.modal.shape[2]
+    free_center, free_modal, advance = np.empty((bodies, 3)), np.empty((bodies, m)), np.empty((bodies, 3))
+    for b in range(bodies):
+        for a in range(3):
+            before, now = gravity[a] - start.whole[0].ground[a], gravity[a] - ground[a]
+            end.frames[b].acceleration[a] = (1 + al) * now - al * before
+            memory = (0.5 - be) * start.frames[b].acceleration[a] + be * end.frames[b].acceleration[a]
+            free_center[b, a] = start.frames[b].center[a] + dt * start.frames[b].velocity[a] + dt**2 * memory
+            advance[b, a] = dt * start.frames[b].spin[a]
+            action.resistance[b, a] = 0.0
+        for k in range(m):
+            q, rate = start.modal[b, COORDINATE, k], start.modal[b, RATE, k]
+            memory = (0.5 - be) * start.modal[b, ACCELERATION, k] + be * al * structure.squares[b, k] * q
+            free_modal[b, k] = q + dt * rate + dt**2 * memory
+            if structure.damping[b, k] > 0.0:
+                way, later = _foreseen(scheme, start, b, k)
+                free_modal[b, k] += structure.damping[b, k] * dt * (be * dt * (al * rate - (1 + al) * later) + (1 + al) * scheme.gamma * way)
+    for k in range(len(structure.interfaces)):
+        if structure.interfaces[k].rolling > 0.0:
+            b, load = structure.interfaces[k].slave, 0.0
+            for i in range(len(work.before)):
+                load += max(work.before[i].force[2], 0.0)
+            put(rolling_moment(start.rotation[b], start.frames[b].spin, load, structure.interfaces[k].radius,
+                               structure.interfaces[k].rolling, structure.bodies.body[b].inverse_inertia, dt), action.resistance[b])
+    answer = equilibrate(structure, base, scheme, work, start, free_center, free_modal, advance, end.rims[0].angle, end, counts)
     if answer != OK:
         return answer, 0.0
-    _finish(column, scheme, points, start, ground, end, sway)
-    return OK, book(column, scheme, points, start, end, sway, ledger)
+    _finish(structure, scheme, work, start, ground, end)
+    return OK, book(structure, scheme, work, start, end, ledger)
 
 
 @njit
-def _foreseen(scheme, start, k):
+def _foreseen(scheme, start, b, k):
     """Coordinate and rate of a mode at the end of the step without new accelerations: as Stage.target and Stage.velocity."""
-    dt, before = scheme.dt, start.modal_acceleration[k]
-    return start.modal[k] + dt * (start.modal_rate[k] + dt * (0.5 - scheme.beta) * before), start.modal_rate[k] + dt * (1 - scheme.gamma) * before
+    dt, rate, before = scheme.dt, start.modal[b, RATE, k], start.modal[b, ACCELERATION, k]
+    return start.modal[b, COORDINATE, k] + dt * (rate + dt * (0.5 - scheme.beta) * before), rate + dt * (1 - scheme.gamma) * before
 
 
 @njit
-def _finish(column, scheme, points, start, ground, end, sway):
+def _finish(structure, scheme, work, start, ground, end):
     """Velocities, accelerations and anchors at the end of the step."""
-    dt, al, ga = scheme.dt, scheme.alpha, scheme.gamma
-    J, momentum = column.inertia, np.empty(3)
-    total = total_force(end.forces)
-    for a in range(3):
-        acceleration = (1 - ga) * start.acceleration[a] + ga * end.acceleration[a] + total[a] / column.mass
-        end.velocity[a] = start.velocity[a] + dt * acceleration
-        momentum[a] = J[a, 0] * start.spin[0] + J[a, 1] * start.spin[1] + J[a, 2] * start.spin[2] + dt * sway.moment[a]
-    # into the column's frame at the end: exp(-Th) = R1^T R0
-    R0, R1, carried = start.rotation, end.rotation, np.zeros(3)
-    for b in range(3):
-        along = R0[b, 0] * momentum[0] + R0[b, 1] * momentum[1] + R0[b, 2] * momentum[2]
+    dt, al, ga, action, momentum, carried = scheme.dt, scheme.alpha, scheme.gamma, work.action, np.empty(3), np.empty(3)
+    for b in range(len(start.frames)):
+        body = structure.bodies.body[b]
+        J, inverse, spin = body.inertia, body.inverse_inertia, start.frames[b].spin
         for a in range(3):
-            carried[a] += R1[b, a] * along
+            acceleration = (1 - ga) * start.frames[b].acceleration[a] + ga * end.frames[b].acceleration[a] + action.push[b, a] / body.mass
+            end.frames[b].velocity[a] = start.frames[b].velocity[a] + dt * acceleration
+            momentum[a] = J[a, 0] * spin[0] + J[a, 1] * spin[1] + J[a, 2] * spin[2] + dt * action.moment[b, a]
+            carried[a] = 0.0
+        # into the body's frame at the end: exp(-Th) = R1^T R0
+        R0, R1 = start.rotation[b], end.rotation[b]
+        for c in range(3):
+            along = R0[c, 0] * momentum[0] + R0[c, 1] * momentum[1] + R0[c, 2] * momentum[2]
+            for a in range(3):
+                carried[a] += R1[c, a] * along
+        for a in range(3):
+            end.frames[b].spin[a] = inverse[a, 0] * carried[0] + inverse[a, 1] * carried[1] + inverse[a, 2] * carried[2]
+        orthonormal(end.rotation[b])
+        for k in range(start.modal.shape[2]):
+            accelerated = structure.squares[b, k] * (al * start.modal[b, COORDINATE, k] - (1 + al) * end.modal[b, COORDINATE, k])
+            if structure.damping[b, k] > 0.0:
+                way, rate = _foreseen(scheme, start, b, k)
+                rate += ga / (scheme.beta * dt) * (end.modal[b, COORDINATE, k] - way)
+                accelerated += structure.damping[b, k] * (al * start.modal[b, RATE, k] - (1 + al) * rate)
+            end.modal[b, ACCELERATION, k] = accelerated
+            mean = (1 - ga) * start.modal[b, ACCELERATION, k] + ga * accelerated + action.modal[b, k]
+            end.modal[b, RATE, k] = start.modal[b, RATE, k] + dt * mean
+    move_anchors(structure.interfaces[0], scheme.springs, work.before, end.contact)
+    end.whole[0].time = start.whole[0].time + dt
     for a in range(3):
-        end.spin[a] = column.inverse[a, 0] * carried[0] + column.inverse[a, 1] * carried[1] + column.inverse[a, 2] * carried[2]
-    orthonormal(end.rotation)
-    for k in range(len(end.modal)):
-        end.modal_acceleration[k] = column.squares[k] * (al * start.modal[k] - (1 + al) * end.modal[k])
-        if column.damping[k] > 0.0:
-            way, rate = _foreseen(scheme, start, k)
-            rate += ga / (scheme.beta * dt) * (end.modal[k] - way)
-            end.modal_acceleration[k] += column.damping[k] * (al * start.modal_rate[k] - (1 + al) * rate)
-        rate = (1 - ga) * start.modal_acceleration[k] + ga * end.modal_acceleration[k] + sway.modal[k]
-        end.modal_rate[k] = start.modal_rate[k] + dt * rate
-    for i in range(len(end.forces)):
-        x = end.relative[i, 0] + scheme.own[i, 0] * end.forces[i, 0] + scheme.kept * points.indent[i, 0]
-        y = end.relative[i, 1] + scheme.own[i, 1] * end.forces[i, 1] + scheme.kept * points.indent[i, 1]
-        stuck = end.forces[i, 2] > 0 and np.hypot(x - points.anchors[i, 0], y - points.anchors[i, 1]) <= STUCK * column.width
-        end.anchors[i, 0] = points.anchors[i, 0] if stuck else x
-        end.anchors[i, 1] = points.anchors[i, 1] if stuck else y
-    end.ground[:] = ground
-    end.scalars[TIME] = start.scalars[TIME] + dt
-    end.scalars[RIM_ANGLE] = points.angle[0]
-    end.scalars[RIM_LIFT:] = points.rim_lift
+        end.whole[0].ground[a] = ground[a]
+
+
+@njit
+def _collide(structure, base, scheme, work, start, end, contact_work, ledger, counts):
+    """Take the velocities of `end` anew where a point lands or slip ends: a way to end."""
+    interface, points, before, elastic = structure.interfaces[0], work.points, work.before, work.elastic
+    lands = mark_landing(interface, before, end.contact, work.landing) > 0
+    if mark_turning(points, before, end.contact, work.turning) == 0 and not lands:
+        return OK
+    for i in range(len(points)):
+        if work.turning[i] or lands and (before[i].force[2] > 0 or end.contact[i].force[2] > 0):
+            _find_velocities(structure, work, i, start, end)
+    happens = what_happens(points, interface, before, end.contact, scheme.dt, work.early, work.late, work.landing, work.turning)
+    if happens == NOTHING:
+        return OK
+    arms = np.zeros((len(points), 3))
+    for i in touched(before, end.contact):
+        _find_velocities(structure, work, i, start, end)
+        for a in range(3):
+            arms[i, a] = points[i].arm[a] + elastic.point[END, i, a]
+    answer, pushed, impulses = find_impact(structure.bodies, base, points, interface, scheme.springs, arms, end.rotation, before, end.contact, work.early,
+                                           work.late, work.landing, work.turning, happens == LANDS, scheme.dt, contact_work, counts)
+    if answer != OK or not pushed:
+        return answer
+    energy = kinetic(structure, end)
+    push_bodies(structure, scheme, points, arms, impulses, end)
+    ledger[HIT if happens == LANDS else FRICTION] += kinetic(structure, end) - energy
+    counts[N_IMPACTS] += happens == LANDS
+    return OK
+
+
+@njit
+def _find_velocities(structure, work, i, start, end):
+    """Velocities of point i at both ends of a step."""
+    find_elastic(structure, work.points, i, start, work.elastic, START)
+    find_velocity(structure, work.points, i, start, work.elastic, START, work.early[i])
+    find_velocity(structure, work.points, i, end, work.elastic, END, work.late[i])

@@ -40,9 +40,9 @@ from dataclasses import replace
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.contact.interface import Interface
 from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.dynamics.interface import Interface
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.post.style import LINES
 from fecolumn.verification import FULL
@@ -61,21 +61,28 @@ class MovingInterface(Interface):
     """Contact with a base that moves: the column's motion is absolute, contact sees it relative to the base.
 
     Attributes:
-        position: (3,) of the base at the end of the step [m].
-        velocities: pairs of the column's velocity array and the base's velocity (3,) at the same time [m/s]; the last one is the
+        position: (3,) of the base at the end of the step, first: (3,) at its start [m].
+        known_velocities: pairs of the column's velocity array and the base's velocity (3,) at the same time [m/s]; the last one is the
             end of the step.
     """
 
     def __init__(self, still: Interface):
-        super().__init__(still.foot, still.reference, still.base, still.friction, still.own, still.rim, still.restitution, still.pad)
-        self.position, self.velocities = np.zeros(3), []
+        super().__init__(still.foot, still.reference, still.base, **still.laws)
+        self.position, self.first, self.known_velocities = np.zeros(3), np.zeros(3), []
 
-    def dynamic_position(self, x, rotation):
-        return super().dynamic_position(x, rotation) - self.position
+    def begin_step(self, *args):
+        end, self.position = self.position, self.first
+        try:
+            return super().begin_step(*args)
+        finally:
+            self.position = end
 
-    def dynamic_velocity(self, v, rotation):
-        base = next((base for known, base in self.velocities if known is v), self.velocities[-1][1])
-        return super().dynamic_velocity(v, rotation) - base
+    def positions(self, x, rotation):
+        return super().positions(x, rotation) - self.position
+
+    def velocities(self, v, rotation):
+        base = next((base for known, base in self.known_velocities if known is v), self.known_velocities[-1][1])
+        return super().velocities(v, rotation) - base
 
 
 class MovingStepper(Stepper):
@@ -83,8 +90,8 @@ class MovingStepper(Stepper):
 
     moved = np.zeros(3)
 
-    def _book(self, state, after, *rest):
-        return super()._book(state, after, *rest) - float(after.forces.sum(axis=0) @ self.moved)
+    def _book(self, start, before, after, *rest):
+        return super()._book(start, before, after, *rest) - float(after.forces.sum(axis=0) @ self.moved)
 
 
 class InertialTrial:
@@ -107,8 +114,8 @@ class InertialTrial:
         base = np.zeros(3), np.zeros(3)
         for position, velocity in zip(positions, velocities):
             before = self.trial.state
-            system.interface.position, self.trial.stepper.moved = position, position - base[0]
-            system.interface.velocities = [(before.v, base[1]), (None, velocity)]
+            system.interface.position, system.interface.first, self.trial.stepper.moved = position, base[0], position - base[0]
+            system.interface.known_velocities = [(before.v, base[1]), (None, velocity)]
             relative.append(self.trial.shake([np.zeros(3)])[0] - position)
             if self.trial.stepper.record.cuts:
                 raise RuntimeError(f"t = {before.time:g} s: the step was cut, and the base's place within it is not known")

@@ -14,7 +14,7 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.dynamics.system import State
 from fecolumn.reduced import start as starts
 from fecolumn.reduced.build import column_model
-from fecolumn.reduced.motion import RIM_ANGLE, RIM_LIFT, STATIC, TIME, at_rest, copy, foot_displacement
+from fecolumn.reduced.motion import ACCELERATION, COORDINATE, RATE, copy
 from fecolumn.reduced.observe import COLUMNS, view
 from fecolumn.reduced.run import Engine
 from fecolumn.verification.trial import N_MODES, Trial
@@ -48,66 +48,63 @@ class Reduction:
     def projected(self, engine, state, system):
         """The Motion that a full-order State is, seen by the rigid motions and the modes: their momenta, not their values at nodes."""
         model, body = self.model, system.column
-        motion = at_rest(len(model.arms), len(model.frequencies))
+        motion, whole = engine.motion_at_rest(), {"time": state.time, "static": state.static, "ground": state.ground}
 
         def modal(field):
             return np.tensordot(self.shapes, body.apply(body.mass, field), axes=2)
 
-        motion.center[:] = body.node_mass @ state.x / body.total_mass
-        rotation = state.rotation
+        center, rotation = body.node_mass @ state.x / body.total_mass, state.rotation
         for _ in range(3):
-            elastic = (state.x - motion.center) @ rotation - (body.X - body.center)
+            elastic = (state.x - center) @ rotation - (body.X - body.center)
             rotation = rotation @ rotation_matrix(np.linalg.solve(self.masses, self.momentum.T @ elastic.ravel())[3:])
-        motion.rotation[:] = rotation
         rates = np.linalg.solve(self.masses, self.momentum.T @ (state.v @ rotation).ravel())
-        motion.velocity[:], motion.spin[:] = rotation @ rates[:3], rates[3:]
-        motion.acceleration[:] = body.node_mass @ state.a / body.total_mass
-        motion.modal[:] = modal((state.x - motion.center) @ rotation - (body.X - body.center))
-        motion.modal_rate[:], motion.modal_acceleration[:] = modal(state.v @ rotation), modal(state.a @ rotation)
-        foot_displacement(engine.column.pushes, motion.modal, motion.elastic)
-        motion.forces[:], motion.anchors[:], motion.relative[:] = state.forces, state.anchors, state.relative
-        motion.ground[:], motion.indent[:] = state.ground, state.indent
-        motion.scalars[TIME], motion.scalars[STATIC] = state.time, state.static
-        motion.scalars[RIM_ANGLE], motion.scalars[RIM_LIFT:] = state.rim_angle, state.rim_lift
+        motion.rotation[:] = rotation
+        for name, values in (("center", center), ("velocity", rotation @ rates[:3]), ("spin", rates[3:]), ("acceleration", body.node_mass @ state.a / body.total_mass)):
+            motion.frames[name] = values
+        for row, field in ((COORDINATE, (state.x - center) @ rotation - (body.X - body.center)), (RATE, state.v @ rotation), (ACCELERATION, state.a @ rotation)):
+            motion.modal[0, row] = modal(field)
+        motion.contact[:], motion.rims[:] = state.contact, state.rims
+        for name, value in whole.items():
+            motion.whole[name] = value
         return motion
 
 
 class Expanded:
     """A Motion as a `dynamics.system.State` is read; fields all over the column by its rigid motion and modes."""
 
-    def __init__(self, motion, reduction: Reduction, column):
-        self._motion, self._reduction, self._column = at_rest(len(motion.forces), len(motion.modal)), reduction, column
-        copy(motion, self._motion)
-        self.time, self.static = float(motion.scalars[TIME]), float(motion.scalars[STATIC])
-        own = self._motion
-        self.rotation, self.forces, self.anchors, self.relative, self.ground, self.indent = own.rotation, own.forces, own.anchors, own.relative, own.ground, own.indent
+    def __init__(self, engine, reduction: Reduction, column):
+        self._motion, self._reduction, self._column = engine.motion_at_rest(), reduction, column
+        copy(engine.motion, self._motion)
+        motion = self._motion
+        self.time, self.static, self.ground = motion.time, float(motion.whole["static"][0]), motion.whole["ground"][0]
+        self.rotation, self.contact, self.rims, self._frame = motion.rotation[0], motion.contact, motion.rims, motion.frames[0]
+        self.forces, self.anchors, self.relative = (motion.contact[name] for name in ("force", "anchor", "relative"))
 
     def copy(self) -> State:
         """A full-order State of these fields, to start another trial from; without internal forces, which a projection does not ask for."""
-        still, scalars = np.zeros_like(self.x), self._motion.scalars
-        return State(self.time, self.x.copy(), self.v.copy(), self.a.copy(), still, still, 0.0, self.rotation.copy(), self.forces.copy(),
-                     self.anchors.copy(), self.relative.copy(), self.static, self.ground.copy(), self.indent.copy(), float(scalars[RIM_ANGLE]), scalars[RIM_LIFT:].copy())
+        still = np.zeros_like(self.x)
+        return State(self.time, self.x.copy(), self.v.copy(), self.a.copy(), still, still, 0.0, self.rotation.copy(), self.contact.copy(), self.static,
+                     self.ground.copy(), self.rims.copy())
 
-    def _modal(self, coordinates) -> np.ndarray:
-        return np.tensordot(coordinates, self._reduction.shapes, axes=1)
+    def _modal(self, row: int) -> np.ndarray:
+        return np.tensordot(self._motion.modal[0, row], self._reduction.shapes, axes=1)
 
     @cached_property
     def _arms(self) -> np.ndarray:
-        return self._column.X - self._column.center + self._modal(self._motion.modal)
+        return self._column.X - self._column.center + self._modal(COORDINATE)
 
     @cached_property
     def x(self) -> np.ndarray:
-        return self._motion.center + self._arms @ self.rotation.T
+        return self._frame.center + self._arms @ self.rotation.T
 
     @cached_property
     def v(self) -> np.ndarray:
-        motion = self._motion
-        return motion.velocity + (np.cross(motion.spin, self._arms) + self._modal(motion.modal_rate)) @ self.rotation.T
+        return self._frame.velocity + (np.cross(self._frame.spin, self._arms) + self._modal(RATE)) @ self.rotation.T
 
     @cached_property
     def a(self) -> np.ndarray:
         """Of translation and modes: the rotation has no memory of its acceleration."""
-        return self._motion.acceleration + self._modal(self._motion.modal_acceleration) @ self.rotation.T
+        return self._frame.acceleration + self._modal(ACCELERATION)
 
 
 class ReducedTrial(Trial):
@@ -128,13 +125,13 @@ class ReducedTrial(Trial):
         def begin(engine):
             return starts.standing(engine) if first is None else self.reduction.projected(engine, first, system)
 
-        eye = view(self.reduction.model, system.weight, interface.friction)
-        self.engine = Engine(self.reduction.model, system.base, eye, system.hht, system.gravity, interface.friction, interface.own, interface.rim, begin, 4,
-                             system.damping.ratio if system.damping else 0.0, interface.restitution, system.rolling, interface.pad)
+        eye = view(self.reduction.model, system.weight, interface.laws["friction"])
+        self.engine = Engine(self.reduction.model, system.base, eye, system.hht, begin, system.gravity,
+                             damping_ratio=system.damping.ratio if system.damping else 0.0, **interface.laws)
         self.state = self.start = self._state()
 
     def _state(self) -> Expanded:
-        return Expanded(self.engine.motion, self.reduction, self.system.column)
+        return Expanded(self.engine, self.reduction, self.system.column)
 
     def step(self, ground=(0.0, 0.0, 0.0)):
         self.engine.advance(np.asarray(ground, float)[None])

@@ -99,9 +99,10 @@ def block(engine: str, dt: float, friction: float = FRICTION, gravity=(0.0, 0.0,
 
 def glued(system):
     """Equilibrium of a block that does not slip, to be let go."""
-    friction, system.interface.friction = system.interface.friction, 100.0
+    points = system.interface.points
+    friction, points["friction"] = points["friction"].copy(), 100.0
     state = standing(system)
-    system.interface.friction = friction
+    points["friction"] = friction
     return state
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from fecolumn.case import Integration
@@ -20,12 +22,8 @@ def afloat(system, displacement, velocity, acceleration, height: float) -> State
 
     The acceleration must be that of gravity and internal forces: HHT remembers it.
     """
-    x = system.column.X + [0.0, 0.0, height] + displacement
-    rotation, internal, strain = system.kinematics.internal(x)
-    relative = system.interface.dynamic_position(x, rotation)
-    return State(time=0.0, x=x, v=np.array(velocity, float), a=np.array(acceleration, float), contact_a=np.zeros_like(x), internal=internal,
-                 strain=strain, rotation=rotation, forces=np.zeros((system.interface.size, 3)), anchors=relative[:, :2].copy(),
-                 relative=relative, static=0.0, ground=np.zeros(3), indent=np.zeros((system.interface.size, 3)))
+    state = system.unstrained(system.column.X + [0.0, 0.0, height] + displacement)
+    return replace(state, v=np.array(velocity, float), a=np.array(acceleration, float))
 
 
 class Trial:

@@ -43,7 +43,8 @@ def test_foot_that_slides_and_lifts_in_part_obeys_the_laws(seed):
 def test_interior_point_leads_into_the_cone_from_nothing():
     W, q = foot(60, 3)
     R, U = np.zeros_like(q), np.zeros_like(q)
-    forces, _ = approach(*in_cones(W, q, 0.3), 0.3, R, U, 30)
+    mu = np.full(len(q), 0.3)
+    forces, _ = approach(*in_cones(W, q, mu), mu, R, U, 30)
     exact = solve_contact(W, q, 0.3, np.zeros_like(q), tolerance=1e-14).forces
     assert np.abs(forces - exact).max() < 1e-3 * np.abs(exact).max()
 
@@ -52,5 +53,6 @@ def test_points_on_the_boundary_of_the_cone_end_the_interior_point_in_peace():
     """R and U that rounding has put on the cones: no division by zero, the forces stay finite."""
     W, q = foot(8, 1)
     R, U = np.tile([1.0, 0.0, 1.0], (8, 1)), np.tile([-1e-9, 0.0, 1e-9], (8, 1))
-    forces, made = approach(*in_cones(W, q, 0.3), 0.3, R, U, 5)
+    mu = np.full(len(q), 0.3)
+    forces, made = approach(*in_cones(W, q, mu), mu, R, U, 5)
     assert np.isfinite(forces).all() and made < 5

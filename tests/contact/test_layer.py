@@ -49,7 +49,7 @@ def test_unbounded_base_gives_as_much_wherever_the_foot_is():
     base = unbounded_base(SIZE, DEPTHS, STEEL, foot)
     found = []
     for moved in (np.zeros(3), np.array([1234 * SIZE, -77 * SIZE, 0.0])):
-        nodes, weights = base.grid.project(foot + moved + [0.0013, 0.0004, 0.0])
+        nodes, weights = base.grid.under(foot + moved + [0.0013, 0.0004, 0.0])
         base.need(nodes.ravel())
         found.append(np.einsum("np,npnqab,nq->nab", weights, base.compliance[base.slot[nodes][:, :, None, None], base.slot[nodes]], weights))
     np.testing.assert_allclose(found[0], found[1], atol=1e-11 * base.compliance.max())

@@ -57,4 +57,4 @@ def test_a_column_released_between_nodes_of_its_rim_stays_in_its_plane():
         state = stepper.step(state, np.zeros(3))
         across.append(state.rotation[1, 2] * np.cos(azimuth) - state.rotation[0, 2] * np.sin(azimuth))
     assert np.abs(across).max() < 1e-5
-    assert np.isfinite(state.rim_angle)
+    assert np.isfinite(state.rims["angle"][0])

@@ -19,7 +19,7 @@ def test_both_engines_stand_slide_and_lift_alike_on_a_pad():
         trial = begin(engine, system)
         for k in range(1, 41):
             trial.step([9.0 * np.sin(60e-3 * k), 4.0 * np.sin(45e-3 * k), 0.0])
-        ends.append((trial.top(), trial.state.indent, trial.energy()))
+        ends.append((trial.top(), trial.state.contact["indentation"], trial.energy()))
     (top, sunk, energy), (rigid_top, rigid_sunk, rigid_energy) = ends
     assert np.linalg.norm(top) > 1e-3 and np.ptp(sunk[:, 2]) > 1e-5
     np.testing.assert_allclose(top, rigid_top, atol=2e-3 * np.linalg.norm(top))

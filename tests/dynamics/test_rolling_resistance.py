@@ -5,6 +5,7 @@ import pytest
 from coarse_column import coarse_system
 from scipy.integrate import solve_ivp
 
+from fecolumn.contact.rim import lowest
 from fecolumn.dynamics.gravity import tilted
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.trial import begin
@@ -21,7 +22,7 @@ def wobble(engine, steps):
     angles = []
     for _ in range(steps):
         one.step()
-        angles.append(system.interface.rim.lowest(one.state.rotation)[0])
+        angles.append(lowest(one.state.rotation)[0])
     return one, rim, rim.radius * np.ptp(np.unwrap(angles))
 
 

@@ -23,9 +23,8 @@ def reduced(system, n_modes=30, begin=start.standing, overturn=0.25):
     """The reduced engine of a full-order system."""
     body, interface = system.column, system.interface
     model, _ = column_model(body, system.foot_nodes, system.areas, *top_nodes(body), n_modes)
-    eye = view(model, system.weight, interface.friction, overturn)
-    return Engine(model, system.base, eye, system.hht, system.gravity, interface.friction, interface.own, interface.rim, begin,
-                  damping_ratio=system.damping.ratio if system.damping else 0.0, restitution=interface.restitution, rolling=system.rolling, pad=interface.pad)
+    eye = view(model, system.weight, interface.laws["friction"], overturn)
+    return Engine(model, system.base, eye, system.hht, begin, system.gravity, damping_ratio=system.damping.ratio if system.damping else 0.0, **interface.laws)
 
 
 def tops(system, grounds, begin=gravity.standing):

@@ -54,7 +54,7 @@ def test_column_settles_by_its_weight_over_the_subgrade(on_pad):
     area = on_pad.areas.sum()
     assert area == pytest.approx(np.pi * (0.1**2 - 0.06**2), rel=0.02)  # of a polygon with 20 corners
     state = begin("rigid", on_pad).state
-    assert state.indent[:, 2] == pytest.approx(on_pad.weight / (SUBGRADE * area), rel=1e-4)
+    assert state.contact["indentation"][:, 2] == pytest.approx(on_pad.weight / (SUBGRADE * area), rel=1e-4)
     assert (state.forces[:, 2] > 0).all()
 
 

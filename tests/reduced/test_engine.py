@@ -45,9 +45,9 @@ def test_shaken_column_slides_rocks_and_wobbles_as_in_the_full_engine(alpha):
 @pytest.mark.parametrize("dt, alpha", [(0.02, 0.0), (0.02, -0.333), (1e-3, 0.0), (1e-3, -0.2), (1e-4, -0.05)])
 def test_standing_column_neither_drifts_nor_gains_energy(dt, alpha):
     engine = reduced(system_of(integration={"dt_s": dt, "alpha_hht": alpha}))
-    before = engine.motion.center.copy()
+    before = engine.motion.frames["center"].copy()
     rows, _ = engine.advance(np.zeros((3000, 3)))
-    assert np.abs(engine.motion.center - before).max() < 1e-10
+    assert np.abs(engine.motion.frames["center"] - before).max() < 1e-10
     energy = sum(column(rows, f"energy/{term}") for term in ("kinetic", "strain", "gravity")) - engine.ledger[0]
     assert energy.max() < 1e-9
 
@@ -70,8 +70,8 @@ def test_rolling_on_the_round_rim_takes_no_energy():
     def begin(engine):
         motion = start.tilted(engine, 0.04, 0.3)
         pivot = np.array([np.cos(0.3), np.sin(0.3), 0.0]) * 0.0508
-        motion.velocity[:] = np.cross(spin, motion.center - pivot)
-        motion.spin[:] = motion.rotation.T @ spin
+        motion.frames["velocity"] = np.cross(spin, motion.frames["center"] - pivot)
+        motion.frames["spin"] = motion.rotation[0].T @ spin
         return motion
 
     engine = reduced(system, begin=begin)

@@ -6,7 +6,7 @@ from pair import reduced, system_of
 
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.reduced.build import column_model
-from fecolumn.reduced.model import scheme, step_column
+from fecolumn.reduced.model import scheme, structure_of
 
 
 @pytest.fixture(scope="module")
@@ -29,11 +29,11 @@ def test_flexibility_is_that_of_the_filtered_foot_at_any_step(system, model):
 def test_compliance_within_a_step_is_that_of_all_finite_elements(system, model):
     """Rigid motion, 40 modes and static rest against B A^-1 B^T; what is left is the inertia of the modes above."""
     interface = system.interface
-    column = step_column(model, system.hht, system.gravity, interface.friction, interface.own, interface.rim)
-    mine, n = scheme(column, system.hht), len(model.arms)
+    structure, points = structure_of(model, system.hht, system.gravity, **interface.laws)
+    mine, n = scheme(structure, points, system.hht), len(model.arms)
     skew = np.array([np.cross(np.eye(3), arm) for arm in model.arms])
     rigid = np.eye(3) / model.mass + np.einsum("iab,bc,jdc->ijad", skew, np.linalg.inv(model.inertia), skew)
-    W = mine.half * rigid.transpose(0, 2, 1, 3).reshape(3 * n, 3 * n) + mine.elastic
+    W = mine.half * rigid.transpose(0, 2, 1, 3).reshape(3 * n, 3 * n) + mine.dynamic
     full = system.operators(system.hht.mass_factor, system.hht.stiffness_factor).response.compliance / (2 * system.hht.beta) + interface.foot.static
     full = full.transpose(0, 2, 1, 3).reshape(3 * n, 3 * n)
     assert np.abs(W - full).max() < 1e-5 * np.abs(interface.foot.static).max()

@@ -149,7 +149,7 @@ def _rewritten(**changes):
 @pytest.mark.parametrize("damage", [
     lambda data: b"garbage", lambda data: b"", lambda data: data[:len(data) // 2], lambda data: data[:3000] + b"\xff" * 500 + data[3500:],
     _rewritten(step=lambda step: step + 1), _rewritten(case_id=lambda name: "000000000000"), _rewritten(ledger=lambda values: values * np.nan),
-    _rewritten(ledger=lambda values: values[1:]), _rewritten(**{"motion.scalars": lambda values: values.astype(str)})])
+    _rewritten(ledger=lambda values: values[1:]), _rewritten(**{"motion.rotation": lambda values: values.astype(str)})])
 def test_checkpoint_that_cannot_be_used_is_told_and_the_analysis_starts_afresh(interrupted, tmp_path, damage):
     case, folder, whole = interrupted
     shutil.copytree(folder, tmp_path / "a")

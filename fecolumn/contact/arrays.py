@@ -1,0 +1,65 @@
+"""Copies and products of small arrays for compiled code.
+
+Plain loops: numba's assignment and arithmetic of whole arrays bring broadcasting and its error messages along, half a second of compilation at each place.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn._compiled import njit
+
+
+@njit
+def put(source, target):
+    """Copy a one-dimensional array."""
+    for i in range(len(source)):
+        target[i] = source[i]
+
+
+@njit
+def put_matrix(source, target):
+    """Copy a two-dimensional array."""
+    for i in range(source.shape[0]):
+        for j in range(source.shape[1]):
+            target[i, j] = source[i, j]
+
+
+@njit
+def put_points(flat, target):
+    """Copy (3 n,) to (n, 3)."""
+    for i in range(len(target)):
+        target[i, 0], target[i, 1], target[i, 2] = flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]
+
+
+@njit
+def flat(points):
+    """(3 n,) from (n, 3)."""
+    result = np.empty(3 * len(points))
+    for i in range(len(points)):
+        result[3 * i], result[3 * i + 1], result[3 * i + 2] = points[i, 0], points[i, 1], points[i, 2]
+    return result
+
+
+@njit
+def marked(mask):
+    """Places (k,) at which a mask (n,) is true."""
+    count, k = 0, 0
+    for i in range(len(mask)):
+        count += mask[i]
+    listed = np.empty(count, np.int64)
+    for i in range(len(mask)):
+        if mask[i]:
+            listed[k] = i
+            k += 1
+    return listed
+
+
+@njit
+def largest(points):
+    """Largest absolute value in (n, 3)."""
+    most = 0.0
+    for i in range(len(points)):
+        for a in range(3):
+            most = max(most, abs(points[i, a]))
+    return most

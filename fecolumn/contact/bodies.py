@@ -1,0 +1,57 @@
+"""Bodies as contact sees them: how far their surface nodes move under forces, whatever else they are."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn.contact.record import record
+
+#: A body: mass [kg], inertia about its centre of mass [kg m2] and their inverses, which are zero where the mobility of rigid motion is part of
+#: the nodal one; first, count: its rows among the surface nodes of all bodies.
+BODY = record(("mass", "f8"), ("inverse_mass", "f8"), ("inertia", "f8", (3, 3)), ("inverse_inertia", "f8", (3, 3)),
+                 ("first", "i8"), ("count", "i8"))
+
+
+class Bodies(NamedTuple):
+    """Bodies that move, and their surface nodes, N in all, n at most on one body.
+
+    body: (nb,) of BODY. arms: (N, 3) [m] of the nodes from the body's centre of mass, in its frame.
+    static: (3 N, 3 n) [m/N] displacement that follows forces at once, mobility: (3 N, 3 n) [1/kg] velocity per impulse beside that of rigid motion:
+        rows by node, columns by node of the same body, in its frame.
+    """
+
+    body: np.ndarray
+    arms: np.ndarray
+    static: np.ndarray
+    mobility: np.ndarray
+
+
+def one_body(arms, static, mobility, mass: float = np.inf, inertia=None) -> Bodies:
+    """A single body; without mass and inertia (3, 3) its mobility holds its rigid motion."""
+    body = np.zeros(1, BODY)
+    body["mass"], body["count"] = mass, len(arms)
+    if inertia is not None:
+        body["inverse_mass"], body["inertia"], body["inverse_inertia"] = 1 / mass, inertia, np.linalg.inv(inertia)
+    return Bodies(body, *(np.ascontiguousarray(array, float) for array in (arms, static, mobility)))
+
+
+def joined(parts: list[Bodies]) -> Bodies:
+    """Several bodies as one set, their nodes one after another."""
+    width = max(part.static.shape[1] for part in parts)
+    body, first = np.concatenate([part.body for part in parts]), 0
+    for row, part in zip(body, parts):
+        row["first"], first = first, first + len(part.arms)
+
+    def wide(array):
+        return np.pad(array, ((0, 0), (0, width - array.shape[1])))
+
+    return Bodies(body, np.concatenate([part.arms for part in parts]), *(
+        np.ascontiguousarray(np.concatenate([wide(getattr(part, name)) for part in parts])) for name in ("static", "mobility")))
+
+
+def node_matrix(blocks: np.ndarray) -> np.ndarray:
+    """Node blocks (n, n, 3, 3) as a matrix (3 n, 3 n)."""
+    n = len(blocks)
+    return np.ascontiguousarray(blocks.transpose(0, 2, 1, 3)).reshape(3 * n, 3 * n)

@@ -1,0 +1,270 @@
+"""Velocities at the end of a step in which a point lands or slip ends: plastic impact with friction, and restitution.
+
+The trapezoidal rule would turn the velocity of a point that lands, or that begins to stick, round for ever. So the impulses of the step are replaced, at its
+end, by those of a plastic impact (Moreau 1988): the state of least kinetic energy that non-adhesive impulses with friction reach. In the rigid
+limit it is Housner's (1963) impact.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn._compiled import njit
+from fecolumn.contact.arrays import flat, largest, put_points
+from fecolumn.contact.compliance import assemble, even_out
+from fecolumn.contact.friction import iterate
+from fecolumn.contact.problem import IMPACT_FAILED, N_CONTACT, OK
+from fecolumn.contact.restitution import returned_share
+from fecolumn.contact.tolerances import FEW_POINTS, FULL_FRICTION, IMPACT_COMPLIANCE, IMPACT_LEAST, IMPACT_SOLVED, OPEN, SHARP, SLIDE, SWEEPS_MOST
+
+# Answers of `what_happens`
+NOTHING, LANDS, TURNS = range(3)
+
+
+@njit
+def mark_landing(interface, before, after, landing):
+    """Mark in `landing` (n,) the points that touch at the end of the step and were open at its start: how many."""
+    count = 0
+    for i in range(len(after)):
+        landing[i] = before[i].force[2] <= 0 and before[i].relative[2] > OPEN * interface.width and after[i].force[2] > 0
+        count += landing[i]
+    return count
+
+
+@njit
+def mark_turning(points, before, after, turning):
+    """Mark in `turning` (n,) the points whose slip may end within the step, in stick or in slip the other way: how many."""
+    count = 0
+    for i in range(len(after)):
+        turning[i] = False
+        touching = after[i].force[2] > 0
+        if not touching:
+            continue
+        slips = after[i].anchor[0] != before[i].anchor[0] or after[i].anchor[1] != before[i].anchor[1]
+        turning[i] = slips and before[i].force[2] > 0 or not slips and _slid(points, before, i)
+        count += turning[i]
+    return count
+
+
+@njit
+def _slid(points, before, i):
+    """Whether point i slid at the start of the step: full friction."""
+    pull = np.hypot(before[i].force[0], before[i].force[1])
+    return pull > 0 and pull >= (1 - FULL_FRICTION) * points[i].friction * before[i].force[2]
+
+
+@njit
+def what_happens(points, interface, before, after, dt, early, late, landing, turning):
+    """Whether the velocities at the end of a step must be taken anew: NOTHING, a point LANDS, or slip TURNS for most of the foot.
+
+    Args:
+        early, late: (n, 3) velocities [m/s] of the marked points at the start and at the end of the step, both in its final place.
+        landing, turning: (n,) marked by the functions above; of `turning` those stay that do turn.
+    """
+    lands, turned, total = False, 0.0, 0.0
+    for i in range(len(after)):
+        lands |= landing[i]
+        total += after[i].force[2]
+        if not turning[i]:
+            continue
+        turning[i] = False
+        if not dt * np.hypot(early[i, 0], early[i, 1]) > SLIDE * interface.width:
+            continue
+        s0, s1 = after[i].anchor[0] - before[i].anchor[0], after[i].anchor[1] - before[i].anchor[1]
+        slips = s0 != 0.0 or s1 != 0.0
+        against = min(early[i, 0] * s0 + early[i, 1] * s1, late[i, 0] * s0 + late[i, 1] * s1) < 0
+        turning[i] = not slips or against
+        turned += after[i].force[2] if turning[i] else 0.0
+    if lands:
+        return LANDS
+    # few points of many turn where a standing foot slips in part: that is elastic, not motion
+    return TURNS if 2 * turned > total > 0 else NOTHING
+
+
+@njit
+def touched(before, after):
+    """Points (k,) that carry at the start or at the end of the step."""
+    listed, k = np.empty(len(after), np.int64), 0
+    for i in range(len(after)):
+        if before[i].force[2] > 0 or after[i].force[2] > 0:
+            listed[k] = i
+            k += 1
+    return listed[:k]
+
+
+@njit
+def find_impact(bodies, base, points, interface, springs, arms, rotations, before, after, early, late, landing, turning, lands, dt, contact_work, counts):
+    """Impulses (n, 3) [N s] that come in place of those of the step: a way to end, whether there are any, the impulses.
+
+    The points that held the foot before carry it until the moment of impact, all together from then on: two projections, without
+    which the weight's impulse of the whole step would act at the new contact. Where a long step would gain energy by them, because its positions know
+    the new contact only, a single projection is made, or none.
+
+    Args:
+        arms: (n, 3) of the points on their slaves at the end of the step [m]. early, late: (n, 3) velocities [m/s], relative to the master, at least of
+            the points that carry. lands: whether a point lands, else slip ends. contact_work: energy that contact added in the step [J].
+    """
+    impulses = np.zeros((len(after), 3))
+    union = touched(before, after)
+    k = len(union)
+    for i in union:
+        even_out(bodies, base, points, i, rotations)
+    mobility, compliance = np.empty((3 * k, 3 * k)), np.empty((3 * k, 3 * k))
+    assemble(bodies, base, points, arms, union, rotations, 0.0, bodies.static, 1.0, springs.own, compliance)
+    assemble(bodies, base, points, arms, union, rotations, 1.0, bodies.mobility, 0.0, springs.own, mobility)
+    share = IMPACT_COMPLIANCE * 2 / dt**2
+    for i in range(3 * k):
+        for j in range(3 * k):
+            compliance[i, j] = mobility[i, j] + share * compliance[i, j]
+    held, m = np.empty(k, np.int64), 0
+    given, start, end, friction = np.empty(3 * k), np.empty(3 * k), np.empty(3 * k), np.empty(k)
+    for j in range(k):
+        i = union[j]
+        friction[j] = points[i].friction
+        if before[i].force[2] > 0:
+            held[m] = j
+            m += 1
+        for a in range(3):
+            given[3 * j + a], start[3 * j + a], end[3 * j + a] = dt * after[i].force[a], early[i, a], late[i, a]
+    pushed = mobility @ given
+    free = np.empty(3 * k)
+    for j in range(3 * k):
+        free[j] = end[j] - pushed[j]
+    moment = _landing_moment(before, after, early, landing, dt) if lands \
+        else _turning_moment(points, before, after, start, free, pushed, union, turning)
+    inner, inner_friction = np.empty((3 * m, 3 * m)), np.empty(m)
+    for i in range(m):
+        inner_friction[i] = friction[held[i]]
+        for j in range(m):
+            for a in range(3):
+                for b in range(3):
+                    inner[3 * i + a, 3 * j + b] = compliance[3 * held[i] + a, 3 * held[j] + b]
+    carried, second, velocity, taken = np.zeros(3 * k), np.zeros(3 * k), np.empty(3 * k), 0.0
+    guess_of_all, changed = np.empty(3 * k), np.empty(3 * k)
+    for attempt in range(2 if lands and moment > 0 else 1):
+        share = moment if attempt == 0 else 0.0
+        _between(start, free, share, velocity)
+        guess, approach = np.empty((m, 3)), np.empty((m, 3))
+        for i in range(m):
+            for a in range(3):
+                approach[i, a] = velocity[3 * held[i] + a]
+                guess[i, a] = share * dt * before[union[held[i]]].force[a]
+        first, solved = _impulses(inner, approach, inner_friction, guess, counts)
+        if not solved:
+            return IMPACT_FAILED, False, impulses
+        carried[:] = 0.0
+        for i in range(m):
+            for a in range(3):
+                carried[3 * held[i] + a] = first[i, a]
+        jump = mobility @ carried
+        for j in range(3 * k):
+            velocity[j], guess_of_all[j] = free[j] + jump[j], given[j] - carried[j]
+        second, solved = _flat_impulses(compliance, velocity, friction, guess_of_all, counts)
+        if not solved:
+            return IMPACT_FAILED, False, impulses
+        # judged by velocities relative to the master: whether contact takes energy must not depend on the frame
+        for j in range(3 * k):
+            changed[j] = second[j] + carried[j] - given[j]
+        taken = contact_work + _work(changed, end, mobility @ changed)
+        if taken <= 0:
+            break
+    if taken > 0 and not lands:
+        return OK, False, impulses
+    if lands and interface.restitution > 0.0 and taken < 0.0:
+        _between(start, free, share, velocity)
+        jump = mobility @ carried
+        for j in range(3 * k):
+            velocity[j] += jump[j]
+        blow, solved = _flat_impulses(compliance, velocity, friction, second, counts)
+        if not solved:
+            return IMPACT_FAILED, False, impulses
+        returned, jump = mobility @ blow, mobility @ changed
+        arrived = square = 0.0
+        for j in range(3 * k):
+            arrived += blow[j] * (end[j] + jump[j])
+            square += blow[j] * returned[j]
+        given_back = returned_share(interface.restitution, taken, arrived, square)
+        for j in range(3 * k):
+            changed[j] += given_back * blow[j]
+    for j in range(k):
+        for a in range(3):
+            impulses[union[j], a] = changed[3 * j + a]
+    return OK, True, impulses
+
+
+@njit
+def _between(first, last, share, target):
+    """target (m,): so far on the way from the first to the last."""
+    for j in range(len(target)):
+        target[j] = first[j] + share * (last[j] - first[j])
+
+
+@njit
+def _work(impulses, velocity, jump):
+    """Energy [J] that impulses bring by their velocity jump."""
+    total = 0.0
+    for j in range(len(impulses)):
+        total += impulses[j] * (velocity[j] + jump[j] / 2)
+    return total
+
+
+@njit
+def _flat_impulses(mobility, velocity, friction, guess, counts):
+    """As `_impulses`, with flat arrays (3 k,)."""
+    k = len(friction)
+    approach, start = np.empty((k, 3)), np.empty((k, 3))
+    put_points(velocity, approach)
+    put_points(guess, start)
+    found, solved = _impulses(mobility, approach, friction, start, counts)
+    return flat(found), solved
+
+
+@njit
+def _impulses(mobility, velocity, friction, guess, counts):
+    """Impulses (k, 3) of points with velocities (k, 3) [m/s] without them, and whether they obey the laws."""
+    allowed, impulses = IMPACT_SOLVED * max(largest(velocity), IMPACT_LEAST), guess
+    for attempt in range(2):
+        # a guess far off can trap the iteration: zero is the second
+        start = guess if attempt == 0 else np.zeros((len(guess), 3))
+        impulses, residual, newtons, others = iterate(mobility, velocity, friction, start, SHARP * allowed, len(velocity) <= FEW_POINTS, SWEEPS_MOST)
+        counts[N_CONTACT] += newtons + others
+        if residual <= allowed:
+            return impulses, True
+    return impulses, False
+
+
+@njit
+def _landing_moment(before, after, early, landing, dt):
+    """Fraction of the step at which the landing points (mask) arrive, mean by their forces."""
+    total = weights = 0.0
+    for i in range(len(after)):
+        if landing[i]:
+            gap = before[i].relative[2]
+            total += after[i].force[2] * gap / max(-dt * early[i, 2], gap)
+            weights += after[i].force[2]
+    return total / weights
+
+
+@njit
+def _turning_moment(points, before, after, start, free, pushed, union, turning):
+    """Fraction of the step at which full friction ends the slip of the turning points (mask), mean by their forces.
+
+    start, free: (3 k,) velocities at the ends of the step without its contact impulses; pushed: (3 k,) what these gave [m/s].
+    """
+    total = weights = 0.0
+    for j in range(len(union)):
+        i = union[j]
+        if not turning[i]:
+            continue
+        s0, s1 = after[i].anchor[0] - before[i].anchor[0], after[i].anchor[1] - before[i].anchor[1]
+        if not start[3 * j] * s0 + start[3 * j + 1] * s1 > 0:
+            s0, s1 = start[3 * j], start[3 * j + 1]
+        normal = after[i].force[2]
+        # a point found to stick had less than full friction, possibly forwards
+        share = np.hypot(after[i].force[0], after[i].force[1]) / max(points[i].friction * normal, 2.3e-308)
+        way = start[3 * j] * s0 + start[3 * j + 1] * s1
+        braking = abs(pushed[3 * j] * s0 + pushed[3 * j + 1] * s1)
+        stop = free[3 * j] * s0 + free[3 * j + 1] * s1 - braking / max(share, 2.2e-16)
+        total += normal * (way / (way - stop) if way > 0 and stop < 0 else 1.0)
+        weights += normal
+    return total / weights

@@ -1,0 +1,38 @@
+"""Contact points: where they are on their two bodies in a step, and what they carry from one step to the next."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.contact.record import record
+
+#: What a point carries from step to step: force of the master on the slave [N]; anchor: horizontal position at which it sticks [m]; relative: its
+#: position on the slave relative to the master's surface, the third the gap [m], `located`: whether that was found, else the point is
+#: somewhere above; indentation of a pad below it [m].
+CONTACT = record(("force", "f8", 3), ("anchor", "f8", 2), ("relative", "f8", 3), ("indentation", "f8", 3), ("located", "?"))
+
+#: A point in a step. slave, master: bodies, -1 for the base. node: row of the slave's node in whose place it is; friction: coefficient;
+#: law: compliance of the contact law [m/N], springs: stiffness of a pad [N/m], each in x, y, z.
+#: carriers, weights: the slave's nodes that carry it, `count` of them; arm: from the slave's centre of mass in its frame [m]; lift: height given
+#: to it [m], see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's compliance. uneven: compliance [m/N] that a point
+#: between nodes lacks, see `compliance.even_out`.
+POINT = record(("slave", "i8"), ("master", "i8"), ("node", "i8"), ("friction", "f8"), ("law", "f8", 3), ("springs", "f8", 3), ("count", "i8"),
+                  ("carriers", "i8", 4), ("weights", "f8", 4), ("arm", "f8", 3), ("lift", "f8"), ("below", "i8", 4), ("shares", "f8", 4),
+                  ("uneven", "f8", (3, 3)))
+
+#: The master of a point that stands on the base.
+BASE = -1
+
+
+def node_points(arms: np.ndarray, friction: float, law: np.ndarray | None = None, springs: np.ndarray | None = None, slave: int = 0,
+                master: int = BASE, first: int = 0) -> np.ndarray:
+    """Points (n,) of POINT on the slave's nodes with arms (n, 3) [m], in rows from `first` on; law, springs: (n, 3)."""
+    points = np.zeros(len(arms), POINT)
+    points["slave"], points["master"], points["friction"], points["arm"] = slave, master, friction, arms
+    points["node"] = first + np.arange(len(arms))
+    points["count"], points["weights"][:, 0], points["carriers"] = 1, 1.0, points["node"][:, None]
+    if law is not None:
+        points["law"] = law
+    if springs is not None:
+        points["springs"] = springs
+    return points

@@ -1,0 +1,252 @@
+"""The contact problem of a step: which points take part, how well their forces obey the laws, and the forces that do.
+
+The motion of the bodies under given forces is found elsewhere; here the points' positions under the present forces are known. Newton about these
+forces: with s the slips and gaps that they leave and W the compliance of the points in this place, new forces r' solve the laws for
+s + W (r' - r). It is done when the laws hold for the positions that the motion finds.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn._compiled import njit
+from fecolumn.contact.arrays import marked, put, put_points
+from fecolumn.contact.base_top import ON, UNKNOWN, project
+from fecolumn.contact.compliance import assemble, even_out, static_displacement
+from fecolumn.contact.friction import iterate, law_error
+from fecolumn.contact.pad import indent
+from fecolumn.contact.stick import find_stick, solve_sticking
+from fecolumn.contact.tolerances import CLOSE, NEAR, PENETRATION, SHARP, SOLVED, SWEEPS_MOST, USABLE
+
+# Ways a step can end; FAR_BASE asks for more of the base's compliance, ENDED ends the analysis
+OK, FAR_BASE, OFF_BASE, CONTACT_FAILED, ITERATIONS_SPENT, IMPACT_FAILED, ENDED = range(7)
+# Places in a record of counts
+N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_ASSEMBLED = range(5)
+N_COUNTS = 5
+
+
+class Problem(NamedTuple):
+    """Room and memory of the contact problem of n points within a step.
+
+    close: (n,) points whose static displacement is found; active: (n,) those that take part; evened: (n,) those whose `uneven` is found.
+    displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,) stiffness by which the laws are measured [N/m].
+    W: (9 n^2,) room for the compliance of the active points. flags: (3,) whether W is assembled, the foot stays where its stick operator
+    holds, and it stays long enough for finding one.
+    """
+
+    close: np.ndarray
+    active: np.ndarray
+    evened: np.ndarray
+    displaced: np.ndarray
+    slack: np.ndarray
+    rho: np.ndarray
+    W: np.ndarray
+    flags: np.ndarray
+
+
+ASSEMBLED, STICKS_STILL, WORTH_STICK = range(3)
+
+
+def room(n: int) -> Problem:
+    """For n points."""
+    return Problem(*(np.zeros(n, bool) for _ in range(3)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
+
+
+@njit
+def begin_problem(problem, holds_still, worth):
+    """A new step: whether the stick operator holds where the foot is, and whether finding one pays."""
+    for i in range(len(problem.active)):
+        problem.active[i] = problem.evened[i] = False
+    problem.flags[ASSEMBLED], problem.flags[STICKS_STILL], problem.flags[WORTH_STICK] = False, holds_still, worth
+
+
+@njit
+def mark_close(problem, interface, positions, before, after):
+    """Mark the points that are low or carry force: those of which more than the place matters."""
+    for i in range(len(after)):
+        problem.close[i] = (problem.flags[STICKS_STILL] or positions[i, 2] < CLOSE * interface.width or after[i].force[2] > 0
+                            or before[i].force[2] > 0)
+
+
+@njit
+def find_residual(problem, bodies, base, points, interface, springs, dynamic, rigid, stick, rim_angle, center, rotations, positions, first,
+                  before, after, counts):
+    """Relative positions in `after`, and how well its forces obey the laws: a way to end, largest violation [m].
+
+    Args:
+        dynamic, rigid: compliance of the bodies within a step, as of `compliance.assemble`; center: (3,) of the first body.
+        positions: (n, 3) of the points under the forces of `after`, without static displacement [m]. first: whether in this step for the first time.
+        before: (n,) of CONTACT at the start of the step.
+    """
+    n, sticks = len(after), problem.flags[STICKS_STILL]
+    if first or not sticks:
+        answer = project(base, positions, problem.close, points)
+        if answer != ON:
+            return FAR_BASE if answer == UNKNOWN else OFF_BASE, np.inf
+    if not sticks:
+        for i in range(n):
+            # the foot turns too little in an iteration to change it
+            if after[i].force[2] > 0 and not problem.evened[i]:
+                even_out(bodies, base, points, i, rotations)
+                problem.evened[i] = True
+    if problem.flags[WORTH_STICK]:
+        count = 0
+        for i in range(n):
+            count += problem.close[i]
+        if 2 * count > n:
+            problem.flags[WORTH_STICK] = False
+            if count == n:
+                for i in range(n):
+                    even_out(bodies, base, points, i, rotations)
+                find_stick(stick, bodies, base, points, springs, dynamic, rigid, rim_angle, center, rotations)
+                counts[N_ASSEMBLED] += 1
+                problem.flags[STICKS_STILL] = sticks = True
+    if sticks:
+        _displace_all(stick, after, problem.displaced)
+    else:
+        static_displacement(bodies, base, points, rotations, after, problem.close, problem.displaced)
+    changed = not problem.flags[ASSEMBLED]
+    for i in range(n):
+        after[i].located = problem.close[i]
+        for a in range(3):
+            after[i].relative[a] = positions[i, a] + problem.displaced[i, a]
+        new = problem.close[i] and (positions[i, 2] < NEAR * interface.width or after[i].force[2] > 0
+                                    or after[i].relative[2] < -PENETRATION * interface.width)
+        changed |= new != problem.active[i]
+        problem.active[i] = new
+    if sticks:
+        put(stick.rho, problem.rho)
+    elif changed:
+        _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rotations)
+        counts[N_ASSEMBLED] += 1
+    worst = 0.0
+    for i in range(n):
+        for a in range(3):
+            slack = after[i].relative[a] + springs.own[i, a] * after[i].force[a] + springs.kept * before[i].indentation[a]
+            problem.slack[i, a] = slack - before[i].anchor[a] if a < 2 else slack
+        if problem.active[i]:
+            worst = max(worst, law_error(after[i].force[0], after[i].force[1], after[i].force[2], problem.slack[i, 0], problem.slack[i, 1],
+                                         problem.slack[i, 2], problem.rho[i], points[i].friction))
+    return OK, worst
+
+
+@njit
+def _displace_all(stick, after, target):
+    """target (n, 3): static displacement of all points by the stick operator."""
+    n = len(after)
+    forces = np.empty(3 * n)
+    for i in range(n):
+        for a in range(3):
+            forces[3 * i + a] = after[i].force[a]
+    put_points(stick.static @ forces, target)
+
+
+@njit
+def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rotations):
+    """Compliance of the active points."""
+    n = len(points)
+    listed, arms = marked(problem.active), np.empty((n, 3))
+    count = len(listed)
+    for j in range(count):
+        i = listed[j]
+        if not problem.evened[i]:
+            even_out(bodies, base, points, i, rotations)
+            problem.evened[i] = True
+        for a in range(3):
+            arms[i, a] = points[i].arm[a]
+    W = problem.W[:9 * count * count].reshape(3 * count, 3 * count)
+    assemble(bodies, base, points, arms, listed, rotations, rigid, dynamic, 1.0, springs.own, W)
+    for j in range(count):
+        problem.rho[listed[j]] = 3 / (W[3 * j, 3 * j] + W[3 * j + 1, 3 * j + 1] + W[3 * j + 2, 3 * j + 2])
+    problem.flags[ASSEMBLED] = True
+
+
+@njit
+def find_forces(problem, points, interface, stick, after, counts):
+    """Forces in `after` that obey the laws as far as the compliance tells: a way to end."""
+    tight, usable = SHARP * SOLVED * interface.width, USABLE * interface.width
+    listed, sticks = marked(problem.active), problem.flags[STICKS_STILL]
+    if sticks:
+        residual, newtons = solve_sticking(stick, points, problem.slack, problem.active, after, tight, usable)
+        counts[N_CONTACT] += newtons
+        if residual <= usable:
+            return OK
+    count = len(listed)
+    W = problem.W[:9 * count * count].reshape(3 * count, 3 * count)
+    if sticks:
+        for i in range(count):
+            for j in range(count):
+                for a in range(3):
+                    for b in range(3):
+                        W[3 * i + a, 3 * j + b] = stick.W[3 * listed[i] + a, 3 * listed[j] + b]
+    q, old, friction = np.empty((count, 3)), np.empty((count, 3)), np.empty(count)
+    for j in range(count):
+        friction[j] = points[listed[j]].friction
+        for a in range(3):
+            old[j, a] = after[listed[j]].force[a]
+    for j in range(count):
+        for a in range(3):
+            moved = 0.0
+            for i in range(count):
+                for b in range(3):
+                    moved += W[3 * j + a, 3 * i + b] * old[i, b]
+            q[j, a] = problem.slack[listed[j], a] - moved
+    forces, residual, newtons, others = iterate(W, q, friction, old, tight, True, SWEEPS_MOST)
+    counts[N_CONTACT] += newtons + others
+    if not residual <= usable:
+        return CONTACT_FAILED
+    for j in range(count):
+        for a in range(3):
+            after[listed[j]].force[a] = forces[j, a]
+    return OK
+
+
+@njit
+def stored_energy(problem, points, interface, springs, before, after):
+    """Strain energy [J] of base, static rest of the bodies, contact law and pad, whose indentation is found."""
+    energy = 0.0
+    if interface.on_pad:
+        indent(springs, before, after)
+    for i in range(len(after)):
+        for a in range(3):
+            energy += after[i].force[a] * (problem.displaced[i, a] + points[i].law[a] * after[i].force[a])
+            energy += points[i].springs[a] * after[i].indentation[a] ** 2
+    return energy / 2
+
+
+@njit
+def solve_linear(problem, bodies, base, points, interface, springs, dynamic, elastic, stick, rim_angle, center, rotations, positions, most, before,
+                 after, counts):
+    """Forces of bodies that answer a change of forces linearly: a way to end, largest violation of the laws [m].
+
+    Args:
+        elastic: (3 N, 3 n) of the bodies, `dynamic` without the static part.
+        positions: (n, 3) [m] of the points under the forces of `after` at first; those of close points change along with them.
+        most: times that forces are found; 0 only looks how well they obey the laws.
+    """
+    mark_close(problem, interface, positions, before, after)
+    listed = marked(problem.close)
+    k, arms, old = len(listed), np.zeros((len(after), 3)), np.empty(3 * len(listed))
+    response = np.empty((3 * k, 3 * k))
+    assemble(bodies, base, points, arms, listed, rotations, 0.0, elastic, 0.0, springs.own, response)
+    for attempt in range(most + 1):
+        answer, residual = find_residual(problem, bodies, base, points, interface, springs, dynamic, 0.0, stick, rim_angle, center, rotations,
+                                         positions, attempt == 0, before, after, counts)
+        if answer != OK or residual <= SOLVED * interface.width or attempt == most:
+            return answer, residual
+        for j in range(k):
+            for a in range(3):
+                old[3 * j + a] = after[listed[j]].force[a]
+        answer = find_forces(problem, points, interface, stick, after, counts)
+        if answer != OK:
+            return answer, residual
+        for j in range(k):
+            for a in range(3):
+                old[3 * j + a] = after[listed[j]].force[a] - old[3 * j + a]
+        moved = response @ old
+        for j in range(k):
+            for a in range(3):
+                positions[listed[j], a] += moved[3 * j + a]
+    return ITERATIONS_SPENT, np.inf

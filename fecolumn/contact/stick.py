@@ -1,0 +1,178 @@
+"""A foot that stays in its place: its compliance and the inverse are found once and serve as long as it does.
+
+While a structure stands, its foot stays where it is but for micrometres, so that the compliance of all its points is constant up to
+1e-4 of itself. Its inverse gives the forces of a wholly sticking foot by one product; points that slip or open are a small problem
+in their own slips, r = r_stuck + W^-1 s. Exact motion is checked by the iteration around it, see `contact.problem`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn._compiled import njit
+from fecolumn.contact.arrays import put
+from fecolumn.contact.compliance import assemble
+from fecolumn.contact.friction import law_error, solve_in_place, stiffness_together
+from fecolumn.contact.tolerances import PAD_TURN, STICK_TURN, STICK_WAY
+
+
+class Stick(NamedTuple):
+    """Compliance W of all points and its inverse, the static part without what the points give alone, all (3 n, 3 n); rho, rho_all: (n,) stiffness of a
+    point alone and with all others [N/m]; center: (3,) and rotation: (3, 3) of the slave for which they hold; key: (3,) angle of
+    the rim, length of the step, and 1 once they are found."""
+
+    W: np.ndarray
+    inverse: np.ndarray
+    static: np.ndarray
+    rho: np.ndarray
+    rho_all: np.ndarray
+    center: np.ndarray
+    rotation: np.ndarray
+    key: np.ndarray
+
+
+def no_stick(n: int) -> Stick:
+    """Of n points, not found yet."""
+    return Stick(*(np.zeros((3 * n, 3 * n)) for _ in range(3)), np.zeros(n), np.zeros(n), np.zeros(3), np.eye(3), np.zeros(3))
+
+
+@njit
+def holds(stick, interface, rim_angle, rigid, depth, center, rotation):
+    """Whether the foot is where the operator was found; depth: height [m] of the foot over the slave's centre of mass, below 0."""
+    if stick.key[2] == 0.0 or stick.key[1] != rigid:
+        return False
+    if not (stick.key[0] == rim_angle or np.isnan(stick.key[0]) and np.isnan(rim_angle)):
+        return False
+    for a in range(0 if interface.on_pad else 2):
+        moved = center[a] - stick.center[a] + (rotation[a, 2] - stick.rotation[a, 2]) * depth
+        if abs(moved) > STICK_WAY * interface.width:
+            return False
+    for a in range(3):
+        for b in range(3):
+            if abs(rotation[a, b] - stick.rotation[a, b]) > (PAD_TURN if interface.on_pad else STICK_TURN):
+                return False
+    return True
+
+
+@njit
+def find_stick(stick, bodies, base, points, springs, dynamic, rigid, rim_angle, center, rotations):
+    """Find the operator of a foot of which all points stand on a known base; further arguments as of `compliance.assemble`."""
+    n = len(stick.rho)
+    everyone, arms = np.empty(n, np.int64), np.empty((n, 3))
+    for i in range(n):
+        everyone[i] = i
+        for a in range(3):
+            arms[i, a] = points[i].arm[a]
+    assemble(bodies, base, points, arms, everyone, rotations, 0.0, bodies.static, 1.0, springs.own, stick.static)
+    assemble(bodies, base, points, arms, everyone, rotations, rigid, dynamic, 1.0, springs.own, stick.W)
+    inverse = np.linalg.inv(stick.W)
+    for i in range(n):
+        stick.rho[i] = 3 / (stick.W[3 * i, 3 * i] + stick.W[3 * i + 1, 3 * i + 1] + stick.W[3 * i + 2, 3 * i + 2])
+        stick.rho_all[i] = stiffness_together(stick.W, i)
+        for a in range(3):
+            stick.static[3 * i + a, 3 * i + a] -= springs.own[i, a]
+    for i in range(3 * n):
+        for j in range(i + 1):
+            stick.inverse[i, j] = stick.inverse[j, i] = (inverse[i, j] + inverse[j, i]) / 2
+    for a in range(3):
+        stick.center[a] = center[a]
+        for b in range(3):
+            stick.rotation[a, b] = rotations[0, a, b]
+    stick.key[0], stick.key[1], stick.key[2] = rim_angle, rigid, 1.0
+
+
+@njit
+def solve_sticking(stick, points, slack, active, after, tolerance, usable):
+    """Contact forces by semismooth Newton on the slips of the points that do not stick; as `friction.newton_step`.
+
+    Args:
+        slack: (n, 3) slips and gaps [m] under the forces of `after`, which are replaced where the residual is `usable`. active: (n,) mask; the
+            others are open.
+    Returns: residual of the laws [m], and Newton steps.
+    """
+    n, most, newton = len(slack), 15, 0
+    stuck, r, s, best, least = np.empty(3 * n), np.empty(3 * n), np.empty(3 * n), np.empty(3 * n), np.inf
+    for i in range(n):
+        for a in range(3):
+            r[3 * i + a] = best[3 * i + a] = after[i].force[a]
+            s[3 * i + a] = slack[i, a]
+    pulled = stick.inverse @ s
+    for j in range(3 * n):
+        stuck[j] = r[j] - pulled[j]
+    unknown, point, opened, turn = np.empty(3 * n, np.int64), np.empty(3 * n, np.int64), np.empty(n, np.bool_), np.empty((n, 5))
+    for newton in range(most):
+        count = 0
+        for i in range(n):
+            rho, mu = stick.rho_all[i], points[i].friction
+            normal = r[3 * i + 2] - rho * s[3 * i + 2]
+            opened[i] = not active[i] or normal <= 0
+            if opened[i]:
+                for a in range(3):
+                    unknown[count], point[count] = 3 * i + a, -1
+                    count += 1
+                continue
+            t0, t1 = r[3 * i] - rho * s[3 * i], r[3 * i + 1] - rho * s[3 * i + 1]
+            length = np.hypot(t0, t1)
+            if length <= mu * normal:
+                continue
+            t0, t1 = t0 / length, t1 / length
+            share = min(mu * max(r[3 * i + 2], 0.0) / length, 1.0)
+            turn[i, 0], turn[i, 1], turn[i, 2] = share * (1 - t0 * t0), -share * t0 * t1, share * (1 - t1 * t1)
+            turn[i, 3], turn[i, 4] = mu * t0, mu * t1
+            for a in range(2):
+                unknown[count], point[count] = 3 * i + a, i
+                count += 1
+        if count > 3 * n // 2:
+            return np.inf, newton
+        matrix, right = np.empty((count, count)), np.empty(count)
+        u = 0
+        while u < count:
+            row, i = unknown[u], point[u]
+            if i < 0:
+                right[u] = -stuck[row]
+                for v in range(count):
+                    matrix[u, v] = stick.inverse[row, unknown[v]]
+                u += 1
+                continue
+            a, b, d, x, y = turn[i, 0], turn[i, 1], turn[i, 2], turn[i, 3], turn[i, 4]
+            right[u] = -(1 - a) * stuck[row] + b * stuck[row + 1] + x * stuck[row + 2]
+            right[u + 1] = b * stuck[row] - (1 - d) * stuck[row + 1] + y * stuck[row + 2]
+            for v in range(count):
+                k0, k1, k2 = stick.inverse[row, unknown[v]], stick.inverse[row + 1, unknown[v]], stick.inverse[row + 2, unknown[v]]
+                matrix[u, v] = (1 - a) * k0 - b * k1 - x * k2
+                matrix[u + 1, v] = -b * k0 + (1 - d) * k1 - y * k2
+            rho = stick.rho_all[i]
+            matrix[u, u] += rho * a
+            matrix[u, u + 1] += rho * b
+            matrix[u + 1, u] += rho * b
+            matrix[u + 1, u + 1] += rho * d
+            u += 2
+        if count and not solve_in_place(matrix, right):
+            return np.inf, newton
+        put(stuck, r)
+        s[:] = 0.0
+        for v in range(count):
+            value = right[v]
+            s[unknown[v]] = value
+            for j in range(3 * n):
+                r[j] += value * stick.inverse[unknown[v], j]
+        worst = 0.0
+        for i in range(n):
+            if opened[i]:
+                # zero but for rounding
+                r[3 * i] = r[3 * i + 1] = r[3 * i + 2] = 0.0
+                if not active[i]:
+                    continue
+            worst = max(worst, law_error(r[3 * i], r[3 * i + 1], r[3 * i + 2], s[3 * i], s[3 * i + 1], s[3 * i + 2], stick.rho[i], points[i].friction))
+        if worst < least:
+            least = worst
+            put(r, best)
+        if worst <= tolerance:
+            break
+    if least <= usable:
+        for i in range(n):
+            for a in range(3):
+                after[i].force[a] = best[3 * i + a]
+    return least, newton + 1

@@ -1,0 +1,85 @@
+"""Tolerances of contact and of the steps that use it: what each is measured by, what it means, and why it has this size.
+
+Lengths are over the width of the foot, so that a larger structure gives the same answer.
+"""
+
+# --- Contact problem of a step -------------------------------------------------------------------------------------------------------------
+#: Height over the base below which a point takes part in the contact problem. All that a point costs grows with it; one that is missed shows
+#: below the base and is taken in by the next iteration.
+NEAR = 2e-5
+#: Height over the base up to which a point's static displacement is found: twice NEAR, so that a point is known before it takes part.
+CLOSE = 4e-5
+#: Residual of the contact laws at which a step is solved: a thousandth of the elastic indentation of a standing steel column.
+SOLVED = 1e-11
+#: Residual to which a contact problem is solved, over SOLVED: so that what the motion adds to it may be as large as it is.
+SHARP = 0.1
+#: Residual of a contact problem that may still be used to go on from; above it the step has failed.
+USABLE = 1e-9
+#: Depth to which points outside the contact problem may sink below the base: a tenth of USABLE.
+PENETRATION = 1e-10
+#: Iterations of a step: Newton takes two to five, more where points come and go.
+ITERATIONS = 25
+
+# --- Friction solver: steps of Newton, then other ways; found by trial on 10^5 problems of rocking columns ------------------------------------
+#: Newton steps from a good guess, and without a better residual, after which another way is tried.
+NEWTON_STEPS, NEWTON_STALLED = 25, 6
+#: The same from frictionless forces, from where Newton finds its way late rather than never.
+FAR_STEPS, FAR_STALLED = 60, 15
+#: Points above which an interior point helps; its iterations before Newton's first try, between two tries, and at most.
+FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 6, 3, 30
+#: Share of the way to the boundary of the cones in an interior iteration, and the residual, over the first one, that rounding leaves.
+INSIDE_WAY, INSIDE_END = 0.95, 1e-12
+#: Sweeps of Gauss-Seidel: the first try, each next takes four times as many, and the largest.
+SWEEPS_FIRST, SWEEPS_MOST = 50, 800
+
+# --- Stick operator: how far a foot may move until its compliance is found anew -----------------------------------------------------------------
+#: Rotation [rad] and horizontal way, within which the compliance of a foot changes by 1e-4 of itself.
+STICK_TURN, STICK_WAY = 1e-4, 5e-5
+#: Rotation [rad] on a pad, whose springs are nearly all of the compliance and the same everywhere.
+PAD_TURN = 5e-3
+#: A foot that in one step moves by less than this share of the above will stay long enough for the operator to pay.
+STICK_STAYS = 0.2
+
+# --- Impact and end of slip -----------------------------------------------------------------------------------------------------------------
+#: Height at the start of a step above which a point that touches at its end has landed: far above PENETRATION, far below any flight.
+OPEN = 1e-8
+#: Way of a sticking point within which it keeps its anchor to the last digit, so that stick does not creep.
+STUCK = 1e-10
+#: Way of a point in a step above which it slides as part of the body: ten times the elastic slip of a standing foot.
+SLIDE = 1e-7
+#: Share by which a friction force may miss Coulomb's limit and still be sliding: rounding of the solver.
+FULL_FRICTION = 1e-9
+#: Residual velocity of an impact over the largest velocity of its points, and the least such velocity [m/s], below which nothing moves.
+IMPACT_SOLVED, IMPACT_LEAST = 1e-8, 1e-3
+#: Share of the static compliance in the impact problem. A foot filtered to a long step moves almost rigidly and its many impulses would not be
+#: unique; the share leaves a closing velocity of about 1e-6 m/s.
+IMPACT_COMPLIANCE = 1e-3
+
+# --- Rolling rim ------------------------------------------------------------------------------------------------------------------------------
+#: Tilt [rad] below which the points stay where they are on the rim: circle and polygon are then nanometres apart.
+FLAT = 1e-4
+#: Angle [rad] by which the lowest point may move along the rim in a step and still be the contact that rolls on.
+ROLL = 0.8
+#: Points so many sectors before and behind the lowest one belong to the same contact.
+REACH = 2
+#: Work of contact, over weight and foot's width, above which a step is made again with the rim's points at rest.
+CREATED = 1e-6
+#: Nodes that count as a circle: so many at least, their distances from its centre and their sectors equal up to this share.
+ROUND_NODES, ROUND = 12, 1e-6
+
+# --- Start from rest --------------------------------------------------------------------------------------------------------------------------
+#: Inertia of the iteration to equilibrium over the rate of falling, squared: it only holds what contact and friction leave free. The contact's
+#: compliance leaves out that a tilt moves the weight; the iteration that mends this contracts by the inverse.
+FIRMNESS = 10.0
+#: Displacement of an iteration, over the column's height, below which the column is at rest: ten thousand times the rounding of a position.
+REST = 1e-11
+#: Iterations to equilibrium.
+REST_ITERATIONS = 50
+
+# --- Geometry and overturning -----------------------------------------------------------------------------------------------------------------
+#: Nodes are at the same place up to this share of the foot's width or the body's size: rounding of a mesh file.
+SAME_PLACE = 1e-9
+#: Share of the largest friction force below which an edge sticks: the force of one that slides meets it to 1e-6.
+STICKS = 0.999
+#: Corners that stand for a round rim when overturning is judged; its radius comes out 1e-5 too small between them.
+ROUND_CORNERS = 720

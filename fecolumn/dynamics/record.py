@@ -1,0 +1,15 @@
+"""What the steps of an analysis cost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(slots=True)
+class Record:
+    """Iterations of positions and of contact problems, impacts, cuts of steps."""
+
+    iterations: int = 0
+    contact_iterations: int = 0
+    impacts: int = 0
+    cuts: int = 0

@@ -1,0 +1,42 @@
+"""The top of the base: which nodes lie below a point."""
+
+import numpy as np
+import pytest
+
+from fecolumn.contact.base_top import OFF, ON, UNKNOWN, Base, BaseTop, project
+from fecolumn.contact.points import POINT
+
+
+@pytest.fixture
+def top():
+    x, y = np.array([-0.3, -0.1, 0.0, 0.25]), np.array([0.0, 0.1, 0.4])
+    return BaseTop(np.random.default_rng(0).permutation([[a, b, 0.0] for a in x for b in y]))
+
+
+def test_a_linear_field_is_interpolated_exactly(top):
+    rng = np.random.default_rng(1)
+    positions = np.column_stack([rng.uniform(-0.3, 0.25, 50), rng.uniform(0.0, 0.4, 50), rng.normal(size=50)])
+    nodes, shares = top.under(positions)
+    np.testing.assert_allclose(np.einsum("nq,nqa->na", shares, top.points[nodes][:, :, :2]), positions[:, :2], atol=1e-15)
+    assert shares.min() >= 0 and shares.sum(axis=1) == pytest.approx(1.0)
+
+
+def test_point_beyond_the_edge_matters_only_where_it_is_wanted(top):
+    base = Base(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36)), 0.0)
+    positions, points = np.array([[0.0, 0.1, 0.0], [0.26, 0.1, 0.0]]), np.zeros(2, POINT)
+    assert project(base, positions, np.array([True, False]), points) == ON
+    assert project(base, positions, np.array([True, True]), points) == OFF
+
+
+def test_node_whose_compliance_is_not_known_is_asked_for(top):
+    slot = np.full(12, -1)
+    base, points = Base(top.x, top.y, top.number, slot, np.zeros((0, 0)), 0.0), np.zeros(1, POINT)
+    place = np.array([[-0.2, 0.3, 0.0]])
+    assert project(base, place, np.array([True]), points) == UNKNOWN
+    slot[top.around(place, 0)] = np.arange(4)
+    assert project(base, place, np.array([True]), points) == ON
+
+
+def test_nodes_around_the_edge_are_those_there(top):
+    assert len(top.around(np.array([[0.24, 0.39, 0.0]]), 0)) == 4
+    assert len(top.around(np.array([[5.0, 5.0, 0.0]]), 1)) == 9
