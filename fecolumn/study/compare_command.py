@@ -1,0 +1,151 @@
+"""`fecolumn compare`: two ensembles of peak displacements, settings of a study, studies, or computation and experiment."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from pathlib import Path
+
+
+def add_arguments(parser) -> None:
+    """Arguments of `fecolumn compare`."""
+    form = "study folder, with a choice of settings as DIR@integration.dt_s=1e-3,integration.alpha_hht=-0.2, or CSV of maxima"
+    parser.add_argument("a", metavar="A", help=form)
+    parser.add_argument("b", metavar="B", help="the reference, in the same form")
+    parser.add_argument("-o", "--output", metavar="DIR", help="folder for comparison.csv, pairs.csv and the figure")
+    parser.add_argument("--unpaired", action="store_true", help="do not match runs by motion")
+    parser.add_argument("--cap-mm", type=float, default=None, metavar="MM",
+                        help="displacement of an overturned run in R, such as 250 of Katsamakas and Vassiliou (default: the largest peak of those that stood)")
+    parser.add_argument("--seed", type=int, default=0, help="of the permutations (default: %(default)s)")
+
+
+def main(args) -> int:
+    """Print the comparison, and write it where a folder is given; returns 0.
+
+    Raises:
+        InputError: A or B cannot be used.
+    """
+    from fecolumn.folder import written
+    from fecolumn.schema import InputError
+    from fecolumn.statistics.compare import compare
+    from fecolumn.statistics.ecdf import largest_peak
+    from fecolumn.study.sample import read_sample
+
+    if args.cap_mm is not None and not (math.isfinite(args.cap_mm) and args.cap_mm > 0):
+        raise InputError("fecolumn compare", "--cap-mm", args.cap_mm, "must be greater than 0 [mm]")
+    if args.seed < 0:
+        raise InputError("fecolumn compare", "--seed", args.seed, "must be at least 0")
+    a, b = read_sample(args.a), read_sample(args.b)
+    a, b, paired, notes = matched(a, b, args.unpaired)
+    cap_mm = args.cap_mm or 1e3 * largest_peak((a.u_max, a.overturned), (b.u_max, b.overturned))
+    result = compare(a.u_max, a.overturned, b.u_max, b.overturned, paired=paired, cap_m=1e-3 * cap_mm, seed=args.seed)
+    names = _names(a, b)
+    print(f"A  {a.source}: {names[0]}\nB  {b.source}: {names[1]}  (reference)")
+    print("\n".join(notes) + "\n")
+    print(comparison_text(result, a, b, cap_mm))
+    if args.output:
+        with written(args.output, "compare") as draft:
+            files = _write(draft, result, a, b, paired)
+        for file in files:
+            print(f"wrote {Path(args.output) / file.name}")
+    return 0
+
+
+def matched(a, b, unpaired: bool):
+    """Both samples motion by motion where they have motions in common: (a, b, paired, notes for the reader)."""
+    notes = [f"{name}: {sample.missing} analyses of this choice are not done" for name, sample in (("A", a), ("B", b)) if sample.missing]
+    in_b = set(b.motions)
+    common = [motion for motion in a.motions if motion in in_b]
+    unique = all(len(set(sample.motions)) == len(sample.motions) for sample in (a, b))
+    if unpaired or not unique or len(common) < 2:
+        return a, b, False, [*notes, "independent ensembles"]
+    alone = [f"{len(sample.motions) - len(common)} only in {name}" for name, sample in (("A", a), ("B", b)) if len(sample.motions) > len(common)]
+    return a.take(common), b.take(common), True, [
+        *notes, f"{len(common)} motions in both, compared one by one" + (f"; left out: {', '.join(alone)}" if alone else "")]
+
+
+def comparison_text(result, a, b, cap_mm: float) -> str:
+    """The comparison for a reader, with units, intervals and evidence in words."""
+    from fecolumn.statistics.compare import evidence
+    from fecolumn.statistics.flips import contingency
+
+    def tested(name, value, p):
+        return [name, value, _p(p), evidence(p)]
+
+    of_each = [["", "A", "B"],
+               ["runs", str(result.n_a), str(result.n_b)],
+               ["P(overturn) [95 % Wilson]", _share(a.overturned), _share(b.overturned)],
+               ["median u_max [mm]", _millimetres(result.median_a_m), _millimetres(result.median_b_m)]]
+    of_both = [["A against B", "value", "p", "evidence of a difference"],
+               ["Kolmogorov-Smirnov, D", f"{result.ks:.3f}", _p(result.ks_p), result.ks_evidence],
+               tested("Anderson-Darling, A2", f"{result.ad:.3f}", result.ad_p),
+               tested("Cramer-von Mises, T", f"{result.cvm:.3f}", result.cvm_p)]
+    if result.paired_p is not None:
+        table = contingency(a.overturned, b.overturned)
+        of_both += [tested("same motions: D, settings swapped", f"{result.ks:.3f}", result.paired_p),
+                    tested("overturns in A alone / B alone", f"{table[1, 0]} / {table[0, 1]}", result.mcnemar_p),
+                    [f"correlation R, cap {cap_mm:.4g} mm", _defined(result.correlation), "", ""]]
+    of_both.append(["median error e50 = |A - B| / B", _defined(result.e50), "", ""])
+    text = f"{_columns(of_each)}\n\n{_columns(of_both)}"
+    if result.paired_p is not None:
+        text += ("\nThe first three tests take A and B for independent; for the same motions in both their p is too large,"
+                 "\nand the one with settings swapped within motions is to be judged by.")
+    return text
+
+
+def _write(folder: Path, result, a, b, paired: bool) -> list[Path]:
+    from fecolumn.atomic import write_csv
+    from fecolumn.post.compare_figure import compare_figure
+
+    files = [folder / "comparison.csv"]
+    values = [[key, "" if value is None else value] for key, value in dataclasses.asdict(result).items()]
+    write_csv(files[0], [["quantity", "value"], *values])
+    if paired:
+        files.append(folder / "pairs.csv")
+        u = [["" if fallen else f"{value:.6e}" for value, fallen in zip(sample.u_max, sample.overturned)] for sample in (a, b)]
+        write_csv(files[1], [["motion", "u_max_a_m", "overturned_a", "u_max_b_m", "overturned_b"],
+                             *zip(a.motions, u[0], a.overturned.astype(int), u[1], b.overturned.astype(int))])
+    return files + compare_figure((a.u_max, a.overturned), (b.u_max, b.overturned), _labels(a, b), paired=paired,
+                                  correlation=result.correlation, path=folder / "comparison")
+
+
+def _names(a, b) -> tuple[str, str]:
+    """Title, and chosen settings as they are typed."""
+    return tuple(", ".join([sample.title, *(f"{key} = {value}" for key, value in sample.choice.items())]) for sample in (a, b))
+
+
+def _labels(a, b) -> tuple[str, str]:
+    """What tells a from b, for a figure: the settings that differ, or else the titles, or else the places."""
+    from fecolumn.post.axis_text import axis_text
+
+    if a.title == b.title and a.choice != b.choice:
+        return tuple(", ".join(axis_text(key, value) for key, value in sample.choice.items() if other.choice.get(key) != value) or "all else"
+                     for sample, other in ((a, b), (b, a)))
+    return (a.title, b.title) if a.title != b.title else (f"A, {a.title}", f"B, {b.title}")
+
+
+def _share(overturned) -> str:
+    from fecolumn.statistics.ecdf import proportion_interval
+
+    k, n = int(overturned.sum()), overturned.size
+    low, high = proportion_interval(k, n)
+    return f"{100 * k / n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
+
+
+def _columns(lines) -> str:
+    """First column to the left, figures to the right, words of the fourth to the left."""
+    widths = [max(map(len, column)) for column in zip(*lines)]
+    return "\n".join("  ".join(cell.ljust(width) if place in (0, 3) else cell.rjust(width)
+                               for place, (cell, width) in enumerate(zip(line, widths))).rstrip() for line in lines)
+
+
+def _p(p: float) -> str:
+    return f"{p:.4f}" if p >= 1e-4 else f"{p:.1e}"
+
+
+def _defined(value: float) -> str:
+    return f"{value:.3f}" if math.isfinite(value) else "undefined"
+
+
+def _millimetres(u_m: float) -> str:
+    return f"{1e3 * u_m:.2f}" if math.isfinite(u_m) else "overturn"
