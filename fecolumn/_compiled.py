@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import hashlib
 import os
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import numba
 from llvmlite.binding import get_host_cpu_name
 
 from fecolumn._kernel import Kernel, is_kept, is_tested
+from fecolumn.sources import digest_of
 
 # Folders of which compiled functions take code or constants
 _SOURCES = ("fem", "contact", "dynamics", "reduced")
@@ -21,14 +21,6 @@ def cache_folder() -> Path:
     if folder := os.environ.get("FECOLUMN_CACHE"):
         return Path(folder)
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fecolumn"
-
-
-def digest_of(paths) -> str:
-    """Sixteen hexadecimal digits that name the content of files."""
-    digest = hashlib.sha256()
-    for path in paths:
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 @functools.cache

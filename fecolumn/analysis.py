@@ -12,6 +12,7 @@ from fecolumn.case import GRAVITY, REST
 from fecolumn.ending import AT_REST, EDGE, OVERTURNED, REST_SHARE, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.files import is_file
 from fecolumn.schema import InputError
+from fecolumn.sources import code, code_text
 from fecolumn.summary import NAME
 
 # Steps in a period of the column's vertical vibration on a pad: needed, and for 3 % in frequency (period error (w dt)^2 / 12)
@@ -30,6 +31,7 @@ class Analysis:
         case, folder, comm, quiet: as of `run`. motion: None for a base at rest. steps: to be made at most; step: the last one made.
         motion_steps: until the motion is over. until_rest: whether the analysis ends when the column is at rest.
         history: rows so far. stepping_s, earlier_s: wall time of steps, and of earlier runs [s].
+        code: version and sources that the result is of; of an analysis that went on from other code's checkpoint, both sources.
         stance, top_arm: of `dynamics.overturning`; standing_j: mechanical energy in gravity equilibrium [J]; the engine sets these three.
     """
 
@@ -39,7 +41,7 @@ class Analysis:
         from fecolumn.mesh.estimate import estimate
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
-        self.began = time.perf_counter()
+        self.began, self.code = time.perf_counter(), code()
         self.motion = self._load_motion(file)
         self.steps = int(round(self._duration() / case.integration.dt_s))
         self.motion_steps = len(self.motion.acceleration) if self.motion else 0
@@ -136,7 +138,7 @@ class Analysis:
         if problem:
             if self.comm.rank == 0:
                 warnings.warn(f"{path} cannot be used ({problem}); the analysis starts afresh", stacklevel=2)
-            self.history, self.step, self.stepping_s, self.earlier_s = History(), 0, 0.0, 0.0
+            self.history, self.step, self.stepping_s, self.earlier_s, self.code = History(), 0, 0.0, 0.0, code()
         return not problem
 
     def resumed(self, extra: dict) -> None:
@@ -154,21 +156,30 @@ class Analysis:
         if not 0 <= step <= self.steps or {len(values) for values in rows.values()} != {step + 1} or min(stepping_s, earlier_s) < 0:
             raise ValueError("its history is not whole")
         self.history, self.step, self.stepping_s, self.earlier_s, self.standing_j = History(rows), step, stepping_s, earlier_s, standing_j
+        self._went_on_from(*(str(extra.get(name, "")) for name in ("version", "sources")))
+
+    def _went_on_from(self, version: str, sources: str) -> None:
+        """Take note of the code that wrote a checkpoint, which is told where it is another than this."""
+        if sources.split("+")[-1] == self.code["sources"]:
+            self.code["sources"] = sources
+            return
+        if self.comm.rank == 0:
+            warnings.warn(f"{self.folder / CHECKPOINT} is of other code, {code_text(version, sources)}; this is {code_text(**self.code)}: "
+                          "the result will be of both, a new folder starts afresh", stacklevel=2)
+        self.code["sources"] = f"{sources or 'not recorded'}+{self.code['sources']}"
 
     def to_resume(self) -> dict:
         """The `extra` arrays of a checkpoint that `resumed` takes."""
         extra = {f"rows.{name}": values for name, values in self.history.arrays().items()}
-        return extra | dict(case_id=self.case.id, step=self.step, stepping_s=self.stepping_s, standing_j=self.standing_j,
+        return extra | self.code | dict(case_id=self.case.id, step=self.step, stepping_s=self.stepping_s, standing_j=self.standing_j,
                             wall_s=self.earlier_s + time.perf_counter() - self.began)
 
     def write_history(self) -> None:
         """Write history.h5 on rank 0, its rows as far apart as the case says."""
-        from fecolumn import __version__
-
         every = max(1, round(self.case.output.history_every_s / self.case.integration.dt_s))
 
         if self.comm.rank == 0:
-            attributes = {"case_id": self.case.id, "version": __version__, "title": self.case.title}
+            attributes = {"case_id": self.case.id, **self.code, "title": self.case.title}
             self.history.write(self.folder / "history.h5", attributes, every)
 
     def energy_left(self) -> float:
@@ -203,7 +214,6 @@ class Analysis:
 
     def finish(self, ending: Ending, dofs: int, record, factorizations: int) -> dict:
         """Write the last history and the summary, which is returned; the checkpoint goes."""
-        from fecolumn import __version__
         from fecolumn.dynamics.energy import TERMS
         from fecolumn.dynamics.overturning import barrier, critical_displacement
 
@@ -212,7 +222,7 @@ class Analysis:
         top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
         fall, end = rows["u_top"][-1], float(rows["time"][-1])
         summary = dict(
-            case_id=self.case.id, title=self.case.title, version=__version__, engine=plan.engine, kinematics=plan.kinematics,
+            case_id=self.case.id, title=self.case.title, **self.code, engine=plan.engine, kinematics=plan.kinematics,
             dofs=dofs, steps=self.step, dt=plan.dt_s, alpha_hht=plan.alpha_hht,
             motion=self.motion.name if self.motion else "", duration_s=end, motion_cut_at_s=self.cut_at_s,
             outcome=ending.outcome, ended_by=ending.ended_by,

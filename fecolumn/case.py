@@ -114,8 +114,8 @@ class Integration(Section):
     n_modes: int = parameter(30, doc="elastic modes of the reduced engine; all others respond statically", low=0, high=1000)
     kinematics: str = parameter("corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian"))
     duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration, and must not stand where there is no motion", unit="s", low=0, high=1e5)
-    tolerance: float = parameter(1e-7, doc="residual force at convergence as a fraction of the largest nodal force", above=0, high=1e-2)
-    max_iterations: int = parameter(20, doc="iterations of a step before it is cut", low=2, high=1000)
+    tolerance: float = parameter(1e-7, doc="residual force at convergence as a fraction of the largest nodal force; of engine = \"full\" alone", above=0, high=1e-2)
+    max_iterations: int = parameter(20, doc="iterations of a step before it is cut; of engine = \"full\" alone", low=2, high=1000)
     max_cuts: int = parameter(4, doc="halvings of a step that does not converge before the analysis fails", low=0, high=12)
 
 
@@ -225,6 +225,9 @@ class Case(Section):
 SECTIONS = tuple(field.name for field in dataclasses.fields(Case) if field.name not in ("title", "output"))
 # keys of [base] that a pad alone has
 PAD_KEYS = "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"
+# keys of [integration] that the full-order engine alone has, and their defaults
+FULL_ORDER_KEYS = "tolerance", "max_iterations"
+DEFAULT = {field.name: field.default for field in dataclasses.fields(Integration)}
 _YOUNGER = {field.name for field in dataclasses.fields(Case) if field.metadata.get("since")}
 # keys that may name files
 FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
@@ -334,6 +337,10 @@ def check(case: Case, file) -> None:
         for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic")):
             if (value := getattr(getattr(case, section), key)) != needed:
                 refuse(f"{section}.{key}", value, f"must be {needed} where integration.engine = {case.integration.engine!r}")
+        for key in FULL_ORDER_KEYS:
+            if (value := getattr(case.integration, key)) != DEFAULT[key]:
+                refuse(f"integration.{key}", value, f"has no effect where integration.engine = {case.integration.engine!r}, which solves a step's "
+                       "contact to its own tolerance: leave it out, or choose integration.engine = 'full'")
     time = case.integration.duration_s or (case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0)
     if time / case.integration.dt_s > MOST_STEPS:
         refuse("integration.dt_s", case.integration.dt_s, f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} steps in {time:g} s")

@@ -76,8 +76,8 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn import __version__, completion, keys, manual, templates
     from fecolumn.motions import command as motions
     from fecolumn.report import command as report
-    from fecolumn.statistics import command as compare
     from fecolumn.study import command as study
+    from fecolumn.study import compare_command as compare
     from fecolumn.verification import command as verify
 
     parser = argparse.ArgumentParser(
@@ -128,7 +128,7 @@ def _completion(args) -> int:
 def _mesh(args) -> int:
     from fecolumn.case import read_case
     from fecolumn.folder import written
-    from fecolumn.mesh.report import mesh_report
+    from fecolumn.mesh_report import mesh_report
 
     case = read_case(args.case)
     with written(args.output, "mesh", names=("specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt")) as draft:

@@ -11,6 +11,7 @@ from fecolumn.case import Case, check_duration, finished, read_case
 from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.result_folder import held
 from fecolumn.schema import InputError
+from fecolumn.sources import code, code_text
 from fecolumn.summary import NAME, read_summary
 
 __all__ = ["AnalysisFailed", "read_folder_case", "run"]
@@ -46,6 +47,9 @@ def run(case: Case | str | Path, folder, *, comm=None, file: str = "", quiet: bo
     with held(folder, case, comm, file) as claim:
         summary, damage = comm.bcast(_earlier_summary(folder, case.id) if comm.rank == 0 else None)
         if summary:
+            found, present = code_text(summary.get("version"), summary.get("sources")), code_text(**code())
+            if found != present and comm.rank == 0:
+                warnings.warn(f"{folder} holds the result of other code, {found}, which is kept; this is {present}; a new folder starts afresh", stacklevel=2)
             return summary
         if damage and comm.rank == 0:
             warnings.warn(f"{folder / NAME} {damage}; the analysis is made again", stacklevel=2)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from fecolumn.case import finished, read_case
+from fecolumn.case import DEFAULT, finished, read_case
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.schema import InputError
 
@@ -108,6 +108,18 @@ def test_losses_and_starts_that_cannot_be_are_refused_by_name(tmp_path, text, ke
     (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{text}\n')
     with pytest.raises(InputError, match=key):
         read_case(tmp_path / "case.toml")
+
+
+@pytest.mark.parametrize("engine", ["reduced", "rigid"])
+@pytest.mark.parametrize("key, value", [("tolerance", 1e-9), ("max_iterations", 40)])
+def test_keys_that_an_engine_would_ignore_are_refused_with_what_to_do(tmp_path, engine, key, value):
+    def case(text):
+        (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[integration]\nengine = "{engine}"\n{text}\n')
+        return read_case(tmp_path / "case.toml")
+
+    with pytest.raises(InputError, match=rf"case.toml: integration.{key} = {value}: has no effect where integration.engine = '{engine}'.*leave it out"):
+        case(f"{key} = {value}")
+    assert case(f"{key} = {DEFAULT[key]}").id == case("").id
 
 
 def test_a_block_has_no_rim_to_resist_rolling(tmp_path):

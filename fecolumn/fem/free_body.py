@@ -5,9 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.fem.effective import effective_factor
+from fecolumn.fem.rayleigh import spectral_shift
 
-# Shift of the singular free-free stiffness [1/s2]: far below the square of any column's first elastic frequency
-SHIFT = 400.0
+# Shift of the singular free-free stiffness over the bound of the first elastic frequency's square: two terms of the series do
+SHARE = 3e-6
+# Remainder at which the series ends, over the displacement (root of the sum of squares over all nodes)
+REMAINDER = 1e-10
+# Terms after which it is given up: they do down to a first elastic frequency of a three-thousandth of the bound's
+MOST_TERMS = 1000
 
 
 def rigid_fields(body) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -22,23 +27,43 @@ def rigid_fields(body) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 class FreeBody:
     """Static response of a free body to forces, its rigid motion taken out (inertia relief).
 
-    Forces act together with the inertia forces of the rigid acceleration they cause. With K + s M factored, Y1 = (K + s M)^-1 f and
-    Y2 = (K + s M)^-1 M Y1, the response is Y1 + s Y2 up to (s / w^2)^2, 1e-8 of the first mode's part.
+    Forces act together with the inertia forces of the rigid acceleration they cause. With A = K + s M factored, the response is the
+    sum over k of A^-1 (s M A^-1)^k f. In a mode of frequency w each term is s / (w^2 + s) of the one before, so that the series
+    converges at any shift s > 0, and what is left out is known from the last two terms.
     """
 
     def __init__(self, body):
         self.body = body
-        self._factor = effective_factor(body, SHIFT, 1.0)
+        #: s [1/s2].
+        self.shift = spectral_shift(body, SHARE)
+        self._factor = effective_factor(body, self.shift, 1.0)
         self.fields, self.momentum, self.masses = rigid_fields(body)
         self._shares = np.linalg.inv(self.masses)
 
     def response(self, forces: np.ndarray) -> np.ndarray:
-        """Elastic displacements (3 n_owned, k) under reduced forces (3 n_owned, k)."""
+        """Elastic displacements (3 n_owned, k) under reduced forces (3 n_owned, k), to REMAINDER of each.
+
+        Raises:
+            RuntimeError: the series does not converge.
+        """
         body = self.body
         forces = forces - self.momentum @ (self._shares @ body.sum(self.fields.T @ forces))
-        once = self._elastic(self._factor.solve_many(forces))
-        twice = self._elastic(self._factor.solve_many(body.apply_many(body.mass, once)))
-        return once + SHIFT * twice
+        term = self._elastic(self._factor.solve_many(forces))
+        total, first = term, self._size(term)
+        before = first
+        for _ in range(MOST_TERMS):
+            term = self.shift * self._elastic(self._factor.solve_many(body.apply_many(body.mass, term)))
+            total, size = total + term, self._size(term)
+            # the terms to come, as a geometric series of the last ratio: size^2 / (before - size)
+            if np.all(size**2 <= REMAINDER * first * (before - size)):
+                return total
+            before = size
+        raise RuntimeError(f"the static response of the body has not converged after {MOST_TERMS} terms: largest of the last ones "
+                           f"{size.max():.3g} m, of all {first.max():.3g} m")
+
+    def _size(self, columns: np.ndarray) -> np.ndarray:
+        """Root of the sum of squares (k,) of each column."""
+        return np.sqrt(self.body.sum(np.einsum("ik,ik->k", columns, columns)))
 
     def _elastic(self, columns: np.ndarray) -> np.ndarray:
         return columns - self.fields @ (self._shares @ self.body.sum(self.momentum.T @ columns))

@@ -7,8 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from petsc4py import PETSc
 
-# Shift of the spectrum [Hz], well below the first elastic mode of any column, so that K + (2 pi f)^2 M can be factored
-_SHIFT_HZ = 20.0
+from fecolumn.fem.rayleigh import spectral_shift
+
+# Shift of the spectrum over the bound of the first elastic frequency's square: K + s M can be factored, and 1 / (w^2 + s) still
+# tells the rigid modes from the first elastic ones
+_SHARE = 0.01
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +41,7 @@ def free_modes(body, count: int, tolerance: float = 1e-10) -> Modes:
     solver.setOperators(stiffness, body.mass)
     solver.setProblemType(SLEPc.EPS.ProblemType.GHEP)
     solver.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-    shift = -((2 * np.pi * _SHIFT_HZ) ** 2)
-    solver.setTarget(shift)
+    solver.setTarget(-spectral_shift(body, _SHARE))
     solver.setDimensions(count, PETSc.DECIDE, PETSc.DECIDE)
     solver.setTolerances(tolerance, 1000)
     transform = solver.getST()

@@ -10,7 +10,9 @@ A model is a folder named after the content it was made from, so that nothing ha
 from __future__ import annotations
 
 import dataclasses
+import functools
 import hashlib
+import importlib.metadata
 import json
 import os
 import shutil
@@ -26,9 +28,16 @@ from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base
 from fecolumn.lock import alone
 from fecolumn.reduced.model import ColumnModel
+from fecolumn.sources import digest_of, files_of
 
-# A new number makes all models afresh
-FORMAT = 4
+# Sources that a model is made from: a change in any of them makes models anew. Not those that only read what is made, nor those that
+# fill in a case's sizes: the key has the case as it is when finished.
+SOURCES = (
+    "_dolfinx.py", "material", "fem/body.py", "fem/effective.py", "fem/free_body.py", "fem/modes.py", "fem/rayleigh.py",
+    "mesh/base_plate.py", "mesh/bricks.py", "mesh/cap_plate.py", "mesh/column.py", "mesh/gmsh_section.py", "mesh/imported.py",
+    "mesh/jacobian.py", "mesh/section.py", "mesh/specimen.py", "mesh/surface.py", "mesh/tie.py",
+    "contact/base_plate.py", "contact/base_top.py", "contact/footprint.py", "contact/layer.py", "contact/unbounded_base.py",
+    "dynamics/assembly.py", "dynamics/observer.py", "reduced/build.py", "reduced/cache.py")
 # Elastic modes that a model keeps at least, so that analyses with fewer share it
 KEPT_MODES = 40
 # Least reach of the first compliance of the base around the foot, over the foot's width
@@ -93,7 +102,11 @@ def _keep_base(plate, file) -> None:
 
 
 def model_key(case: Case) -> str:
-    """Name of the model of a case: what of the case its mesh and operators are made from."""
+    """Name of the model of a case: what of the case, and which code, its mesh and operators are made from.
+
+    Raises:
+        FileNotFoundError: the package has not all SOURCES.
+    """
     tables = {name: section_table(name, getattr(case, name)) for name in ("column", "flange", "cap", "base", "material", "mesh")}
     # a pad's springs are no part of the model, and a flat has no edges
     if case.base.kind == "pad":
@@ -102,8 +115,18 @@ def model_key(case: Case) -> str:
         for key in ("length_m", "width_m", "slide_allowance_m"):
             del tables["base"][key]
     tables["material"].pop("damping_ratio", None)  # no operator has it
-    tables |= dict(modes=max(case.n_modes, KEPT_MODES), format=FORMAT, interior=case.contact.interior_points)
+    tables |= dict(modes=max(case.n_modes, KEPT_MODES), interior=case.contact.interior_points, code=_code())
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
+
+
+@functools.cache
+def _code() -> list[str]:
+    """Digest of SOURCES, what a ColumnModel holds, and the version of dolfinx, which is loaded only where its package does not tell it."""
+    try:
+        dolfinx = importlib.metadata.version("fenics-dolfinx")
+    except importlib.metadata.PackageNotFoundError:
+        from dolfinx import __version__ as dolfinx
+    return [digest_of(files_of(SOURCES)), *(field.name for field in dataclasses.fields(ColumnModel)), f"dolfinx {dolfinx}"]
 
 
 def model_folder(case: Case) -> Path:

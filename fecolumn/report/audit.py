@@ -1,4 +1,4 @@
-"""Section: can the analyses be trusted? Energy, cuts, penetration, overturns in time, failures."""
+"""Section: can the analyses be trusted? Code, energy, cuts, penetration, overturns in time, failures."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import axis_name, count, fixed, number
 from fecolumn.report.sweep import Setting, Sweep
+from fecolumn.study.mixture import codes, listed
 from fecolumn.study.store import DONE, FAILED
 
 _CURVES, _FOLD = 7, 40
@@ -19,7 +20,7 @@ _CLOSED = 1e-3  # closure error that a reader should look at
 
 def audit(sweep: Sweep, gallery: Gallery) -> Section:
     """The section."""
-    blocks = [Paragraph(_completeness(sweep)), Paragraph(_energy(sweep)), _table(sweep)]
+    blocks = [Paragraph(_completeness(sweep)), _code(sweep), Paragraph(_energy(sweep)), _table(sweep)]
     if figure := _overturn_times(sweep, gallery):
         blocks.append(figure)
     failed = [row for row in sweep.rows if row["state"] == FAILED]
@@ -46,6 +47,14 @@ def _completeness(sweep: Sweep) -> str:
     if total - done - failed:
         parts.append(f"{total - done - failed} of {total} not run yet")
     return "; ".join(parts) + ". Figures and tables hold what is done; comparisons take the motions done in both settings."
+
+
+def _code(sweep: Sweep) -> Paragraph:
+    found = codes(sweep.rows)
+    if len(found) == 1:
+        return Paragraph(f"All that is done was done by {next(iter(found))}.")
+    return Paragraph(f"Analyses of different code stand side by side: {listed(found)}. Differences between settings may be differences of "
+                     "code; a study in a new folder is of one code.", warning=True)
 
 
 def _energy(sweep: Sweep) -> str:

@@ -13,6 +13,7 @@ from fecolumn.files import Unreadable, read_json
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.notation import axis_name, level_text, number
 from fecolumn.report.sweep import Sweep
+from fecolumn.study.mixture import codes, listed
 from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE
 
@@ -28,7 +29,7 @@ def provenance(sweep: Sweep) -> Section:
             *((f"Axis {key}", ", ".join(level_text(key, level) for level in levels) if len(levels) <= 12
                else f"{len(levels)} values, {level_text(key, levels[0])} to {level_text(key, levels[-1])}") for key, levels in sweep.axes.items()),
             ("Motions", _motions(sweep)), *_engines(sweep), *_recorded(sweep),
-            ("Written by fecolumn", ", ".join(sorted({row["version"] for row in sweep.rows if row["version"]})) or "not recorded"),
+            ("Written by", listed(codes(sweep.rows)) or "not recorded"),
             *_dates(sweep), ("Wall time of all analyses", f"{number(sum(run.get('wall_s') or 0.0 for setting in sweep.done for run in setting.runs.values()) / 3600)} h"),
             ("Reported by", ", ".join(f"{name} {version}" for name, version in _versions())),
             ("Reported on", f"{platform.system()} {platform.machine()}, Python {platform.python_version()}")]

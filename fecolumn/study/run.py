@@ -10,6 +10,7 @@ import warnings
 
 from fecolumn.atomic import disk_full
 from fecolumn.case import REST
+from fecolumn.study.mixture import other_code
 from fecolumn.study.outcome import FULL, RETURNED
 from fecolumn.study.plan import Analysis, Plan
 from fecolumn.study.pool import LocalPool
@@ -59,6 +60,8 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
         with Store(folder, plan, entry, share) as store:
             if retry_failed:
                 store.ledger.plan_again(state=FAILED)
+            if entry == ENTRY and (told := other_code(store.rows())):
+                print(told, file=stream, flush=True)
             drive(store, team or LocalPool(workers, entry, plan.file), stream)
             return store.rows()
     except sqlite3.DatabaseError as error:

@@ -1,11 +1,14 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 from mpi4py import MPI
 
+from fecolumn import manual
 from fecolumn.case import Material
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.layer import layer_response
-from fecolumn.contact.unbounded_base import unbounded_base
+from fecolumn.contact.unbounded_base import shear_frequency, unbounded_base
 from fecolumn.fem.body import Body
 from fecolumn.mesh.bricks import BASE
 from fecolumn.mesh.gmsh_section import swept_grid
@@ -55,3 +58,7 @@ def test_unbounded_base_gives_as_much_wherever_the_foot_is():
     np.testing.assert_allclose(found[0], found[1], atol=1e-11 * base.compliance.max())
     whole = base.compliance.transpose(0, 2, 1, 3).reshape(3 * len(base.known), -1)
     assert np.linalg.eigvalsh(whole).min() > 0 and np.abs(whole - whole.T).max() < 1e-12 * whole.max()
+
+
+def test_manual_states_the_frequency_of_the_base_as_it_is():
+    assert f"at {shear_frequency(STEEL, 0.02) / 1e3:.0f} kHz for 20 mm of steel" in (Path(manual.__file__).parent / "theory.md").read_text()

@@ -4,7 +4,7 @@ import numpy as np
 from synthetic_study import DT, LIMIT_M, write_synthetic
 
 from fecolumn.report.sweep import read_sweep
-from fecolumn.statistics.sample import read_sample
+from fecolumn.study.sample import read_sample
 
 
 def test_displacement_at_which_an_overturned_run_stopped_is_no_peak(tmp_path):

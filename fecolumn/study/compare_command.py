@@ -29,7 +29,7 @@ def main(args) -> int:
     from fecolumn.schema import InputError
     from fecolumn.statistics.compare import compare
     from fecolumn.statistics.ecdf import largest_peak
-    from fecolumn.statistics.sample import read_sample
+    from fecolumn.study.sample import read_sample
 
     if args.cap_mm is not None and not (math.isfinite(args.cap_mm) and args.cap_mm > 0):
         raise InputError("fecolumn compare", "--cap-mm", args.cap_mm, "must be greater than 0 [mm]")

@@ -1,0 +1,85 @@
+"""The sample of peak displacements that a user names: the folder of a study, with a choice of its settings, or a CSV file."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.ending import lost
+from fecolumn.schema import InputError
+from fecolumn.statistics.experiment import read_maxima
+from fecolumn.statistics.sample import Sample
+from fecolumn.study.plan import ENSEMBLE_AXES
+from fecolumn.study.store import DONE, read_study
+
+
+def read_sample(text: str) -> Sample:
+    """Sample of "results/study", "results/study@integration.dt_s=1e-3,integration.alpha_hht=-0.2" or "experiment.csv".
+
+    Raises:
+        InputError: neither study nor CSV, an axis or value the study does not have, settings that are not told apart,
+            nothing done yet.
+    """
+    place, mark, choice = text.rpartition("@")
+    if not mark or "=" not in choice:
+        place, choice = text, ""
+    if Path(place).is_dir():
+        return _of_study(place, dict(_chosen(text, part) for part in choice.split(",") if part.strip()))
+    if choice:
+        raise InputError(place, "", None, "no such folder; @axis=value chooses settings of a study")
+    maxima = read_maxima(place)
+    return Sample(place, Path(place).stem, {}, maxima.motions, maxima.u_max, maxima.overturned)
+
+
+def _chosen(text: str, part: str) -> tuple[str, object]:
+    """Key and value of "key=value"; a value that is no JSON is text."""
+    key, mark, value = part.partition("=")
+    if not (mark and key.strip() and value.strip()):
+        raise InputError(text, "", None, f"{part!r}: a choice is written axis=value, several with commas between")
+    try:
+        return key.strip(), json.loads(value)
+    except ValueError:
+        return key.strip(), value.strip()
+
+
+def _of_study(folder: str, choice: dict) -> Sample:
+    study = read_study(folder)
+    rows = study.rows
+    if not rows:
+        raise InputError(folder, "", None, "its ledger holds no analysis, or is of an earlier version; run fecolumn study on this folder again")
+    for key, value in choice.items():
+        if key not in study.axes:
+            raise InputError(folder, key, value, f"is no axis of this study; its axes: {', '.join(study.axes)}")
+        rows = [row for row in rows if _same(row["axes"][key], value)]
+        if not rows:
+            raise InputError(folder, key, value, f"not run with the other settings chosen; the axis has {_listed(study.axes[key])}")
+    for key, values in study.axes.items():
+        if key not in ENSEMBLE_AXES and any(row["axes"][key] != rows[0]["axes"][key] for row in rows):
+            raise InputError(folder, key, None, f"has several values, {_listed(values)}: choose one, {folder}@{key}={json.dumps(values[0])}")
+    done = [row for row in rows if row["state"] == DONE]
+    if not done:
+        raise InputError(folder, "", None, f"none of the {len(rows)} analyses chosen is done")
+    motions = tuple(_motion_name(row["axes"]) for row in done)
+    u_max, overturned = [row["summary"]["u_max_m"] for row in done], [lost(row["summary"]) for row in done]
+    shown = {key: rows[0]["axes"][key] for key in choice}
+    u_max = np.where(overturned, np.nan, np.array(u_max, float))
+    return Sample(folder, study.title, shown, motions, u_max, np.array(overturned, bool), len(rows) - len(done))
+
+
+def _motion_name(axes: dict) -> str:
+    """Name of a run's motion that does not depend on where files lie: their last part, and what else makes the ensemble."""
+    values = [axes[key] for key in ENSEMBLE_AXES if key in axes]
+    texts = [value if isinstance(value, str) else json.dumps(value, sort_keys=True) for value in values]
+    return " ".join(text if ":" in text else text.replace("\\", "/").rpartition("/")[2] for text in texts)
+
+
+def _same(found, wanted) -> bool:
+    numbers = all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in (found, wanted))
+    return math.isclose(found, wanted, rel_tol=1e-9) if numbers else found == wanted
+
+
+def _listed(values) -> str:
+    return ", ".join(map(str, values[:8])) + (", ..." if len(values) > 8 else "")
