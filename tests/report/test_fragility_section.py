@@ -18,7 +18,7 @@ PEAKS = np.linspace(0.5, 5.0, 30)
 @pytest.fixture(scope="module")
 def pulses(tmp_path_factory):
     """Thirty pulses of rising peak in one file."""
-    file = tmp_path_factory.mktemp("pulses") / "pulses.h5"
+    file = tmp_path_factory.mktemp("pulses") / "p30.h5"
     assert main(["motions", "make", "pulses", "symmetric_ricker", "--amplitudes", *map(str, PEAKS), "--periods", "0.5", "-o", str(file)]) == 0
     return [f"{file}#{number}" for number in range(1, len(PEAKS) + 1)]
 
