@@ -51,7 +51,8 @@ def write_report(folder, output=None, files=("pdf", "png")) -> Path:
     """Write index.html, its figures and its tables into `output`, or folder/report; returns the page.
 
     Args:
-        files: formats in which every figure lies beside the page, besides the SVG that the page shows; none for the words and tables alone, in half the time.
+        files: formats in which every figure lies beside the page, besides the SVG that the page shows; none for the words and tables
+            alone, in half the time.
 
     Raises:
         InputError: the folder holds no study, or none of its analyses is done; `output` is neither new nor empty nor of an earlier report.
