@@ -161,7 +161,7 @@ def _analyse(case, folder, file, quiet) -> int:
 
     from fecolumn.ending import ending_text, peak_text
     from fecolumn.interrupt import held_interrupts
-    from fecolumn.post.history_figures import history_figures
+    from fecolumn.post.history_figures import has_figures, history_figures
     from fecolumn.simulation import AnalysisFailed, run
 
     try:
@@ -170,7 +170,8 @@ def _analyse(case, folder, file, quiet) -> int:
     except AnalysisFailed as error:
         return _refuse(error, 1)
     if MPI.COMM_WORLD.rank == 0:
-        history_figures(folder)
+        if not has_figures(folder):
+            history_figures(folder)
         print(f"{folder}: {peak_text(summary)}, {ending_text(summary)}; {summary['steps']} steps, "
               f"{1e3 * summary['s_per_step']:.1f} ms/step, energy closure {summary['energy_closure_rel']:.1e}")
     return 0

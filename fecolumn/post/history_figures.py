@@ -87,6 +87,16 @@ def read_ending(folder: Path) -> Ending:
     return Ending(words, overturned or words == "slid off", summary.get("u_critical_m"), outline)
 
 
+def has_figures(folder) -> bool:
+    """Whether all figures of an analysis' folder are there and none is older than its history."""
+    folder = Path(folder)
+    try:
+        drawn = [(folder / f"{name}.{kind}").stat().st_mtime_ns for name in ("u_top", "path", "energy") for kind in ("png", "pdf")]
+        return min(drawn) >= (folder / "history.h5").stat().st_mtime_ns
+    except FileNotFoundError:
+        return False
+
+
 def history_figures(folder) -> list[Path]:
     """Write u_top, path and energy of an analysis' folder, each as PNG and PDF; needs history.h5 and summary.json."""
     folder = Path(folder)

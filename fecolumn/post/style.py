@@ -45,8 +45,11 @@ def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     files = [path.with_name(f"{path.name}.{suffix}") for suffix in formats]
-    for file in files:
-        figure.savefig(file, metadata={".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(file.suffix))
+    figure.draw_without_rendering()  # lays the figure out, which takes as long as to draw it: once for all files
+    with matplotlib.rc_context({"figure.constrained_layout.use": False}):
+        figure.set_layout_engine(None)
+        for file in files:
+            figure.savefig(file, metadata={".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(file.suffix))
     return files
 
 

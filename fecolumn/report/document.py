@@ -26,12 +26,13 @@ class Paragraph:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A figure already written as name.png, .pdf and .svg; its drawing for a page, and that for a narrow screen, as SVG."""
+    """A figure already written as name.svg, and in the formats of `files`; its drawing for a page, and that for a narrow screen, as SVG."""
 
     name: str
     svg: bytes
     narrow: bytes
     caption: str
+    files: tuple[str, ...] = ("pdf", "png")
     kind: str = "figure"
 
     @property

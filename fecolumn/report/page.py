@@ -47,8 +47,12 @@ class ClaimList:
         return Table("claims", tuple(Column(name, name) for name in names), rows, "").write_csv(folder)
 
 
-def write_report(folder, output=None) -> Path:
+def write_report(folder, output=None, files=("pdf", "png")) -> Path:
     """Write index.html, its figures and its tables into `output`, or folder/report; returns the page.
+
+    Args:
+        files: formats in which every figure lies beside the page, besides the SVG that the page shows; none for the words and tables
+            alone, in half the time.
 
     Raises:
         InputError: the folder holds no study, or none of its analyses is done; `output` is neither new nor empty nor of an earlier report.
@@ -60,7 +64,7 @@ def write_report(folder, output=None) -> Path:
     with written(target, "report", alone=True) as draft:
         for part in ("figures", "tables"):
             (draft / part).mkdir()
-        sections = _sections(sweep, Gallery(draft / "figures", has_claims(sweep)))
+        sections = _sections(sweep, Gallery(draft / "figures", has_claims(sweep), tuple(files)))
         for section in sections:
             for block in section.blocks:
                 if isinstance(block, (Table, ClaimList)):

@@ -1,4 +1,4 @@
-"""Case files for the command line: the specimen on a coarse mesh, shaken by two tones, results in seconds."""
+"""Case files for the command line: a thick short tube with cap and base, a few hundred bricks, shaken by two tones, results in seconds."""
 
 import os
 
@@ -7,12 +7,15 @@ import numpy as np
 SPECIMEN = os.path.abspath("meshes/stout.toml")
 MESH = """
 [column]
-fine_height_m = 0.01
+wall_m = 0.02
+height_m = 0.5
+fine_height_m = 0.02
 [base]
 length_m = 0.3
 width_m = 0.3
 slide_allowance_m = 0.01
 [mesh]
+fine_size_m = 0.02
 coarse_size_m = 0.03
 cap_size_m = 0.05
 base_size_m = 0.05
@@ -33,5 +36,5 @@ def write_case(folder, duration=0.2, extra=""):
     write_motion(folder / "motion.csv", min(duration, 0.5))
     path = folder / "case.toml"
     path.write_text(f'extends = "{SPECIMEN}"\n{MESH}\n[motion]\nsource = "motion.csv"\n'
-                    f"[integration]\nduration_s = {duration}\nalpha_hht = -0.05\n{extra}")
+                    f"[integration]\nduration_s = {duration}\ndt_s = 2e-3\nalpha_hht = -0.05\n{extra}")
     return path

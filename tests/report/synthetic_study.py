@@ -53,7 +53,8 @@ def write_synthetic(folder: Path, axes: dict, motions: int, *, effect=lambda val
 
 def _summary(analysis, effect, scatter, cost) -> dict:
     values, motion = analysis.combination, analysis.values["motion.source"]
-    common, own = random.Random(motion), random.Random(f"{motion} {sorted(values.items(), key=str)}")
+    name = str(motion).rpartition("/")[2]  # a folder of the tests has another name every time
+    common, own = random.Random(name), random.Random(f"{name} {sorted(values.items(), key=str)}")
     peak = 0.15 * math.exp(common.gauss(0, 0.9) + own.gauss(0, scatter)) * effect(values)
     fallen, dt = peak > LIMIT_M, values.get(DT, 1e-3)
     end = common.uniform(2, 5) if fallen else 12.0

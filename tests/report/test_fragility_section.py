@@ -5,7 +5,7 @@ import csv
 import numpy as np
 import pytest
 from synthetic_study import write_synthetic
-from test_page import report
+from test_page import page_alone
 
 from fecolumn.cli import main
 from fecolumn.motions.ensemble_file import read_member
@@ -18,7 +18,7 @@ PEAKS = np.linspace(0.5, 5.0, 30)
 @pytest.fixture(scope="module")
 def pulses(tmp_path_factory):
     """Thirty pulses of rising peak in one file."""
-    file = tmp_path_factory.mktemp("pulses") / "pulses.h5"
+    file = tmp_path_factory.mktemp("pulses") / "p30.h5"
     assert main(["motions", "make", "pulses", "symmetric_ricker", "--amplitudes", *map(str, PEAKS), "--periods", "0.5", "-o", str(file)]) == 0
     return [f"{file}#{number}" for number in range(1, len(PEAKS) + 1)]
 
@@ -31,7 +31,7 @@ def rows_of(out):
 def test_fragility_is_that_of_the_motions_over_all_scales(tmp_path, pulses):
     out = write_synthetic(tmp_path, {"motion.scale": [0.5, 1.0, 2.0], "contact.friction_coefficient": [0.3, 0.8]}, 0, sources=pulses,
                           effect=lambda values: values["motion.scale"])
-    page = report(out)
+    page = page_alone(out)
     assert "Fragility" in page.text and "at all its scales" in page.text
     rows = rows_of(out)
     assert len(rows) == 2 and all(int(row["n"]) == 90 for row in rows)
@@ -46,5 +46,5 @@ def test_fragility_is_that_of_the_motions_over_all_scales(tmp_path, pulses):
 
 
 def test_no_fragility_where_the_motions_are_not_to_be_found(tmp_path):
-    page = report(write_synthetic(tmp_path, {"contact.friction_coefficient": [0.3, 0.8]}, 25))
+    page = page_alone(write_synthetic(tmp_path, {"contact.friction_coefficient": [0.3, 0.8]}, 25))
     assert "Fragility" not in page.text

@@ -22,8 +22,8 @@ def study(tmp_path_factory):
     """Twenty pulses at five scales and two coefficients of friction; peaks grow with the scale, without scatter of their own."""
     folder = tmp_path_factory.mktemp("ida")
     peaks = np.linspace(0.5, 5.0, 20)
-    assert main(["motions", "make", "pulses", "symmetric_ricker", "--amplitudes", *map(str, peaks), "--periods", "0.5", "-o", str(folder / "pulses.h5")]) == 0
-    sources = [f"{folder / 'pulses.h5'}#{number}" for number in range(1, 21)]
+    assert main(["motions", "make", "pulses", "symmetric_ricker", "--amplitudes", *map(str, peaks), "--periods", "0.5", "-o", str(folder / "p20.h5")]) == 0
+    sources = [f"{folder / 'p20.h5'}#{number}" for number in range(1, 21)]
     return write_synthetic(folder / "study", {"motion.scale": SCALES, FRICTION: [0.3, 0.8]}, 0, sources=sources, scatter=0.0,
                            effect=lambda values: values["motion.scale"] * (0.5 + values[FRICTION]))
 

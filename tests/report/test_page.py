@@ -10,6 +10,7 @@ from synthetic_study import ALPHA, DT, SPECIMEN, write_synthetic
 
 from fecolumn.cli import main
 from fecolumn.report.notation import fixed, interval, percent, percent_interval
+from fecolumn.report.page import write_report
 from fecolumn.schema import InputError
 
 VOID = {"meta", "img", "br", "link", "input", "hr", "source"}
@@ -53,8 +54,14 @@ class Page(HTMLParser):
 
 
 def report(folder) -> Page:
+    """The whole report by its command."""
     assert main(["report", str(folder)]) == 0
     return Page((folder / "report" / "index.html").read_text())
+
+
+def page_alone(folder) -> Page:
+    """The page and its tables, without a PDF and a PNG of every figure beside it, which take the most time."""
+    return Page(write_report(folder, files=()).read_text())
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +115,7 @@ def test_motions_too_few_for_what_the_paper_found_are_warned_of(unfinished):
 
 
 def test_an_axis_of_one_value_is_told_once(tmp_path):
-    page = report(write_synthetic(tmp_path / "study", {FRICTION: [0.2, 0.4], DT: [1e-3]}, 12))
+    page = page_alone(write_synthetic(tmp_path / "study", {FRICTION: [0.2, 0.4], DT: [1e-3]}, 12))
     assert len(re.findall(r"Δ\s*t\s=\s0.001", page.text)) == 1 and "In all analyses" in page.text
     assert "Δt" not in page.text.partition("In all analyses")[0]
 
@@ -164,7 +171,7 @@ def test_table_of_overturning_agrees_with_the_summaries(unfinished):
 
 def test_the_same_study_gives_the_same_tables(unfinished, tmp_path):
     out, _ = unfinished
-    assert main(["report", str(out), "-o", str(tmp_path)]) == 0
+    write_report(out, tmp_path, files=())
     for path in (out / "report" / "tables").iterdir():
         assert (tmp_path / "tables" / path.name).read_bytes() == path.read_bytes()
 
@@ -173,7 +180,7 @@ def test_the_same_study_gives_the_same_tables(unfinished, tmp_path):
                                            ({FRICTION: [0.2, 0.3, 0.4], "integration.engine": ["reduced", "rigid"]}, 8),
                                            ({FRICTION: [0.2 + 0.01 * k for k in range(12)]}, 6)])
 def test_any_study_has_a_report_and_the_claims_only_where_they_can_be_put(tmp_path, axes, motions):
-    page = report(write_synthetic(tmp_path / "study", axes, motions))
+    page = page_alone(write_synthetic(tmp_path / "study", axes, motions))
     assert "Katsamakas" not in page.text and "43.5" not in page.text
     assert "Provenance" in page.text and not re.search(r"\bnan\b|\bNone\b|\binf\b", page.text)
 
@@ -189,7 +196,7 @@ def test_sampled_parameters_have_a_ranking(tmp_path):
             values = json.loads(axes)
             values["material.youngs_modulus_pa"] = 2e11 * (1 + 0.01 * (round(100 * values[FRICTION]) * 7 % 16))
             ledger.execute("UPDATE analysis SET axes = ? WHERE id = ?", (json.dumps(values), case_id))
-    report(out)
+    page_alone(out)
     with open(out / "report" / "tables" / "ranking.csv") as file:
         ranks = list(csv.DictReader(file))
     assert [row["axis"] for row in ranks] == [FRICTION, "material.youngs_modulus_pa"]
@@ -197,8 +204,6 @@ def test_sampled_parameters_have_a_ranking(tmp_path):
 
 
 def test_nothing_done_and_no_study_are_refused(tmp_path):
-    from fecolumn.report.page import write_report
-
     out = write_synthetic(tmp_path / "study", {FRICTION: [0.3]}, 2, unfinished=range(2))
     with pytest.raises(InputError, match="none of its 2 analyses is done"):
         write_report(out)

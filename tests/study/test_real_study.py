@@ -14,10 +14,13 @@ title = "Two motions, two engines"
 [case]
 extends = "{specimen}"
 [case.column]
-fine_height_m = 0.0
+wall_m = 0.02
+height_m = 0.5
+fine_height_m = 0.02
 [case.base]
 slide_allowance_m = 0.01
 [case.mesh]
+fine_size_m = 0.02
 coarse_size_m = 0.03
 cap_size_m = 0.05
 base_size_m = 0.05
