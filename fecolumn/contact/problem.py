@@ -13,7 +13,7 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import marked, put, put_points
-from fecolumn.contact.base_top import ON, UNKNOWN, project
+from fecolumn.contact.projection import ON, UNKNOWN, project
 from fecolumn.contact.compliance import assemble, even_out, static_displacement
 from fecolumn.contact.friction import iterate, law_error
 from fecolumn.contact.pad import indent

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn._compiled import interpreted
-from fecolumn.contact.base_top import base_for_steps, project
+from fecolumn.contact.projection import base_for_steps, project
 from fecolumn.contact.bodies import node_matrix, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.interface import RIM, interface_of

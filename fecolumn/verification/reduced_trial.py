@@ -104,7 +104,7 @@ class Expanded:
     @cached_property
     def a(self) -> np.ndarray:
         """Of translation and modes: the rotation has no memory of its acceleration."""
-        return self._frame.acceleration + self._modal(ACCELERATION)
+        return self._frame.acceleration + self._modal(ACCELERATION) @ self.rotation.T
 
 
 class ReducedTrial(Trial):

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from fecolumn.contact.base_top import OFF, ON, UNKNOWN, Base, BaseTop, project
+from fecolumn.contact.base_top import BaseTop
+from fecolumn.contact.projection import OFF, ON, UNKNOWN, Base, nodes_under, project
 from fecolumn.contact.points import POINT
 
 
@@ -16,7 +17,7 @@ def top():
 def test_a_linear_field_is_interpolated_exactly(top):
     rng = np.random.default_rng(1)
     positions = np.column_stack([rng.uniform(-0.3, 0.25, 50), rng.uniform(0.0, 0.4, 50), rng.normal(size=50)])
-    nodes, shares = top.under(positions)
+    nodes, shares = nodes_under(top, positions)
     np.testing.assert_allclose(np.einsum("nq,nqa->na", shares, top.points[nodes][:, :, :2]), positions[:, :2], atol=1e-15)
     assert shares.min() >= 0 and shares.sum(axis=1) == pytest.approx(1.0)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from two_blocks import NO_BASE, Blocks, compliance
 
-from fecolumn.contact.base_top import Base
+from fecolumn.contact.projection import Base
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble, static_displacement
 from fecolumn.contact.points import CONTACT, node_points
