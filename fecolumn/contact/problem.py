@@ -110,9 +110,13 @@ def find_residual(problem, bodies, base, points, interface, springs, dynamic, ri
     changed = not problem.flags[ASSEMBLED]
     for i in range(n):
         after[i].located = problem.close[i]
+        if not problem.close[i]:
+            changed |= problem.active[i]
+            problem.active[i] = False
+            continue
         for a in range(3):
             after[i].relative[a] = positions[i, a] + problem.displaced[i, a]
-        new = problem.close[i] and (positions[i, 2] < NEAR * interface.width or after[i].force[2] > 0
+        new = (positions[i, 2] < NEAR * interface.width or after[i].force[2] > 0
                                     or after[i].relative[2] < -PENETRATION * interface.width)
         changed |= new != problem.active[i]
         problem.active[i] = new
@@ -123,6 +127,8 @@ def find_residual(problem, bodies, base, points, interface, springs, dynamic, ri
         counts[N_ASSEMBLED] += 1
     worst = 0.0
     for i in range(n):
+        if not problem.close[i]:
+            continue
         for a in range(3):
             slack = after[i].relative[a] + springs.own[i, a] * after[i].force[a] + springs.kept * before[i].indentation[a]
             problem.slack[i, a] = slack - before[i].anchor[a] if a < 2 else slack

@@ -82,10 +82,9 @@ def find_positions(structure, work, start, end):
         for i in range(len(points)):
             if points[i].slave != b:
                 continue
+            arm, R = points[i].arm, end.rotation
             for a in range(3):
-                positions[i, a] = end.frames[b].center[a]
-                for c in range(3):
-                    positions[i, a] += end.rotation[b, a, c] * points[i].arm[c]
+                positions[i, a] = end.frames[b].center[a] + R[b, a, 0] * arm[0] + R[b, a, 1] * arm[1] + R[b, a, 2] * arm[2]
             positions[i, 2] += points[i].lift
             # a point of the rim moves with four nodes near to its own
             high = positions[i, 2] > CLOSE * interface.width + 2 * reach * structure.reach[points[i].node]
