@@ -193,35 +193,34 @@ def even_out(bodies, base, points, i, rotations):
 
 
 @njit
-def static_displacement(bodies, base, points, rotations, contact, near, target):
-    """target (n, 3): displacement [m] of the near points (mask), slave relative to master, that follows the forces of `contact` at once; without what
+def static_displacement(bodies, base, points, rotations, contact, listed, target):
+    """target (n, 3): displacement [m] of the listed points (k,), slave relative to master, that follows their forces in `contact` at once; without what
     the points give alone."""
-    n, loaded, wanted = len(contact), 0, 0
-    for i in range(n):
+    loaded = 0
+    for i in listed:
         loaded += contact[i].force[2] > 0.0
-        wanted += near[i]
         for a in range(3):
             target[i, a] = 0.0
     if loaded == 0:
         return
-    room, far = 8 * loaded, 8 * wanted
+    room, far = 8 * loaded, 8 * len(listed)
     pushed, pushes, reached, moved = np.empty(room, np.int64), np.empty((room, 3)), np.empty(far, np.int64), np.empty((far, 3))
     for b in range(-1, len(bodies.body)):
-        _displace(bodies, base, points, b, rotations, contact, near, pushed, pushes, reached, moved, target)
-    for i in range(n):
-        if near[i] and contact[i].force[2] > 0 and points[i].count > 1:
+        _displace(bodies, base, points, b, rotations, contact, listed, pushed, pushes, reached, moved, target)
+    for i in listed:
+        if contact[i].force[2] > 0 and points[i].count > 1:
             for a in range(3):
                 for c in range(3):
                     target[i, a] += points[i].uneven[a, c] * contact[i].force[c]
 
 
 @njit
-def _displace(bodies, base, points, b, rotations, contact, near, pushed, pushes, reached, moved, target):
+def _displace(bodies, base, points, b, rotations, contact, listed, pushed, pushes, reached, moved, target):
     """What `static_displacement` finds of one body, or the base; the four arrays before the last are room to work in."""
     n_pushed, first = 0, 0 if b == BASE else bodies.body[b].first
     compliance = base.compliance if b == BASE else bodies.static
     # forces on its nodes: points beside each other share them
-    for i in range(len(contact)):
+    for i in listed:
         if not contact[i].force[2] > 0.0:
             continue
         r0, r1, r2 = contact[i].force[0], contact[i].force[1], contact[i].force[2]
@@ -245,9 +244,7 @@ def _displace(bodies, base, points, b, rotations, contact, near, pushed, pushes,
         return
     # what they do at the nodes of the near points, each found once
     n_reached = 0
-    for i in range(len(contact)):
-        if not near[i]:
-            continue
+    for i in listed:
         for side in range(2):
             if (points[i].master if side else points[i].slave) != b:
                 continue

@@ -22,20 +22,20 @@ NOTHING, LANDS, TURNS = range(3)
 
 
 @njit
-def mark_landing(interface, before, after, landing):
-    """Mark in `landing` (n,) the points that touch at the end of the step and were open at its start: how many."""
+def mark_landing(interface, listed, before, after, landing):
+    """Mark in `landing` (n,) those of the listed points (k,) that touch at the end of the step and were open at its start: how many."""
     count = 0
-    for i in range(len(after)):
+    for i in listed:
         landing[i] = before[i].force[2] <= 0 and before[i].relative[2] > OPEN * interface.width and after[i].force[2] > 0
         count += landing[i]
     return count
 
 
 @njit
-def mark_turning(points, before, after, turning):
-    """Mark in `turning` (n,) the points whose slip may end within the step, in stick or in slip the other way: how many."""
+def mark_turning(points, listed, before, after, turning):
+    """Mark in `turning` (n,) those of the listed points (k,) whose slip may end within the step, in stick or in slip the other way: how many."""
     count = 0
-    for i in range(len(after)):
+    for i in listed:
         turning[i] = False
         touching = after[i].force[2] > 0
         if not touching:
@@ -54,15 +54,15 @@ def _slid(points, before, i):
 
 
 @njit
-def what_happens(points, interface, before, after, dt, early, late, landing, turning):
+def what_happens(interface, listed, before, after, dt, early, late, landing, turning):
     """Whether the velocities at the end of a step must be taken anew: NOTHING, a point LANDS, or slip TURNS for most of the foot.
 
     Args:
         early, late: (n, 3) velocities [m/s] of the marked points at the start and at the end of the step, both in its final place.
-        landing, turning: (n,) marked by the functions above; of `turning` those stay that do turn.
+        listed: (k,) the points that may carry. landing, turning: (n,) marked by the functions above; of `turning` those stay that do turn.
     """
     lands, turned, total = False, 0.0, 0.0
-    for i in range(len(after)):
+    for i in listed:
         lands |= landing[i]
         total += after[i].force[2]
         if not turning[i]:
@@ -82,18 +82,18 @@ def what_happens(points, interface, before, after, dt, early, late, landing, tur
 
 
 @njit
-def touched(before, after):
-    """Points (k,) that carry at the start or at the end of the step."""
-    listed, k = np.empty(len(after), np.int64), 0
-    for i in range(len(after)):
+def touched(listed, before, after):
+    """Those of the listed points (k,) that carry at the start or at the end of the step."""
+    union, k = np.empty(len(listed), np.int64), 0
+    for i in listed:
         if before[i].force[2] > 0 or after[i].force[2] > 0:
-            listed[k] = i
+            union[k] = i
             k += 1
-    return listed[:k]
+    return union[:k]
 
 
 @njit
-def find_impact(bodies, base, points, interface, springs, arms, rotations, before, after, early, late, landing, turning, lands, dt, contact_work, counts):
+def find_impact(bodies, base, points, interface, springs, listed, arms, rotations, before, after, early, late, landing, turning, lands, dt, contact_work, counts):
     """Impulses (n, 3) [N s] that come in place of those of the step: a way to end, whether there are any, the impulses.
 
     The points that held the foot before carry it until the moment of impact, all together from then on: two projections, without
@@ -101,11 +101,11 @@ def find_impact(bodies, base, points, interface, springs, arms, rotations, befor
     the new contact only, a single projection is made, or none.
 
     Args:
-        arms: (n, 3) of the points on their slaves at the end of the step [m]. early, late: (n, 3) velocities [m/s], relative to the master, at least of
+        listed: (k,) points that may carry. arms: (n, 3) of the points on their slaves at the end of the step [m]. early, late: (n, 3) velocities [m/s], relative to the master, at least of
             the points that carry. lands: whether a point lands, else slip ends. contact_work: energy that contact added in the step [J].
     """
     impulses = np.zeros((len(after), 3))
-    union = touched(before, after)
+    union = touched(listed, before, after)
     k = len(union)
     for i in union:
         even_out(bodies, base, points, i, rotations)
@@ -130,7 +130,7 @@ def find_impact(bodies, base, points, interface, springs, arms, rotations, befor
     free = np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
-    moment = _landing_moment(before, after, early, landing, dt) if lands \
+    moment = _landing_moment(union, before, after, early, landing, dt) if lands \
         else _turning_moment(points, before, after, start, free, pushed, union, turning)
     inner, inner_friction = np.empty((3 * m, 3 * m)), np.empty(m)
     for i in range(m):
@@ -234,10 +234,10 @@ def _impulses(mobility, velocity, friction, guess, counts):
 
 
 @njit
-def _landing_moment(before, after, early, landing, dt):
+def _landing_moment(union, before, after, early, landing, dt):
     """Fraction of the step at which the landing points (mask) arrive, mean by their forces."""
     total = weights = 0.0
-    for i in range(len(after)):
+    for i in union:
         if landing[i]:
             gap = before[i].relative[2]
             total += after[i].force[2] * gap / max(-dt * early[i, 2], gap)

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.arrays import marked, put, put_points
-from fecolumn.contact.base_top import ON, UNKNOWN, project
+from fecolumn.contact.arrays import put, put_points
+from fecolumn.contact.projection import ON, UNKNOWN, project
 from fecolumn.contact.compliance import assemble, even_out, static_displacement
 from fecolumn.contact.friction import iterate, law_error
 from fecolumn.contact.pad import indent
@@ -30,12 +30,15 @@ N_COUNTS = 5
 class Problem(NamedTuple):
     """Room and memory of the contact problem of n points within a step.
 
-    close: (n,) points whose static displacement is found; active: (n,) those that take part; evened: (n,) those whose `uneven` is found.
+    near: (n,) points that are low or carry force, as many as the first of `count` (2,) says: those of which more than the place matters; close: (n,) whether a
+    point is one; active: (n,) those that take part, `count[1]` of them; evened: (n,) those whose `uneven` is found.
     displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,) stiffness by which the laws are measured [N/m].
     W: (9 n^2,) room for the compliance of the active points. flags: (3,) whether W is assembled, the foot stays where its stick operator
     holds, and it stays long enough for finding one.
     """
 
+    near: np.ndarray
+    count: np.ndarray
     close: np.ndarray
     active: np.ndarray
     evened: np.ndarray
@@ -51,7 +54,7 @@ ASSEMBLED, STICKS_STILL, WORTH_STICK = range(3)
 
 def room(n: int) -> Problem:
     """For n points."""
-    return Problem(*(np.zeros(n, bool) for _ in range(3)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
+    return Problem(np.zeros(n, np.int64), np.zeros(2, np.int64), *(np.zeros(n, bool) for _ in range(3)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
 
 
 @njit
@@ -64,10 +67,24 @@ def begin_problem(problem, holds_still, worth):
 
 @njit
 def mark_close(problem, interface, positions, before, after):
-    """Mark the points that are low or carry force: those of which more than the place matters."""
+    """List the points that are low or carry force: those of which more than the place matters."""
+    count, everyone, height = 0, problem.flags[STICKS_STILL], CLOSE * interface.width
     for i in range(len(after)):
-        problem.close[i] = (problem.flags[STICKS_STILL] or positions[i, 2] < CLOSE * interface.width or after[i].force[2] > 0
-                            or before[i].force[2] > 0)
+        close = everyone or positions[i, 2] < height or after[i].force[2] > 0 or before[i].force[2] > 0
+        problem.close[i] = close
+        after[i].located = close
+        if close:
+            problem.near[count] = i
+            count += 1
+        else:
+            problem.active[i] = False
+    problem.count[0] = count
+
+
+@njit
+def near_points(problem):
+    """The listed points (k,)."""
+    return problem.near[:problem.count[0]]
 
 
 @njit
@@ -80,25 +97,22 @@ def find_residual(problem, bodies, base, points, interface, springs, dynamic, ri
         positions: (n, 3) of the points under the forces of `after`, without static displacement [m]. first: whether in this step for the first time.
         before: (n,) of CONTACT at the start of the step.
     """
-    n, sticks = len(after), problem.flags[STICKS_STILL]
+    sticks, listed = problem.flags[STICKS_STILL], near_points(problem)
     if first or not sticks:
-        answer = project(base, positions, problem.close, points)
+        answer = project(base, positions, listed, points)
         if answer != ON:
             return FAR_BASE if answer == UNKNOWN else OFF_BASE, np.inf
     if not sticks:
-        for i in range(n):
+        for i in listed:
             # the foot turns too little in an iteration to change it
             if after[i].force[2] > 0 and not problem.evened[i]:
                 even_out(bodies, base, points, i, rotations)
                 problem.evened[i] = True
     if problem.flags[WORTH_STICK]:
-        count = 0
-        for i in range(n):
-            count += problem.close[i]
-        if 2 * count > n:
+        if 2 * len(listed) > len(after):
             problem.flags[WORTH_STICK] = False
-            if count == n:
-                for i in range(n):
+            if len(listed) == len(after):
+                for i in listed:
                     even_out(bodies, base, points, i, rotations)
                 find_stick(stick, bodies, base, points, springs, dynamic, rigid, rim_angle, center, rotations)
                 counts[N_ASSEMBLED] += 1
@@ -106,23 +120,26 @@ def find_residual(problem, bodies, base, points, interface, springs, dynamic, ri
     if sticks:
         _displace_all(stick, after, problem.displaced)
     else:
-        static_displacement(bodies, base, points, rotations, after, problem.close, problem.displaced)
-    changed = not problem.flags[ASSEMBLED]
-    for i in range(n):
-        after[i].located = problem.close[i]
+        static_displacement(bodies, base, points, rotations, after, listed, problem.displaced)
+    changed, active = not problem.flags[ASSEMBLED], 0
+    for i in listed:
         for a in range(3):
             after[i].relative[a] = positions[i, a] + problem.displaced[i, a]
-        new = problem.close[i] and (positions[i, 2] < NEAR * interface.width or after[i].force[2] > 0
+        new = (positions[i, 2] < NEAR * interface.width or after[i].force[2] > 0
                                     or after[i].relative[2] < -PENETRATION * interface.width)
         changed |= new != problem.active[i]
         problem.active[i] = new
+        active += new
+    # points may have left the list
+    changed |= active != problem.count[1]
+    problem.count[1] = active
     if sticks:
         put(stick.rho, problem.rho)
     elif changed:
         _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rotations)
         counts[N_ASSEMBLED] += 1
     worst = 0.0
-    for i in range(n):
+    for i in listed:
         for a in range(3):
             slack = after[i].relative[a] + springs.own[i, a] * after[i].force[a] + springs.kept * before[i].indentation[a]
             problem.slack[i, a] = slack - before[i].anchor[a] if a < 2 else slack
@@ -130,6 +147,17 @@ def find_residual(problem, bodies, base, points, interface, springs, dynamic, ri
             worst = max(worst, law_error(after[i].force[0], after[i].force[1], after[i].force[2], problem.slack[i, 0], problem.slack[i, 1],
                                          problem.slack[i, 2], problem.rho[i], points[i].friction))
     return OK, worst
+
+
+@njit
+def _active(problem):
+    """The points (k,) that take part."""
+    found, k = np.empty(problem.count[1], np.int64), 0
+    for i in near_points(problem):
+        if problem.active[i]:
+            found[k] = i
+            k += 1
+    return found
 
 
 @njit
@@ -147,7 +175,7 @@ def _displace_all(stick, after, target):
 def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rotations):
     """Compliance of the active points."""
     n = len(points)
-    listed, arms = marked(problem.active), np.empty((n, 3))
+    listed, arms = _active(problem), np.empty((n, 3))
     count = len(listed)
     for j in range(count):
         i = listed[j]
@@ -167,7 +195,7 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rot
 def find_forces(problem, points, interface, stick, after, counts):
     """Forces in `after` that obey the laws as far as the compliance tells: a way to end."""
     tight, usable = SHARP * SOLVED * interface.width, USABLE * interface.width
-    listed, sticks = marked(problem.active), problem.flags[STICKS_STILL]
+    listed, sticks = _active(problem), problem.flags[STICKS_STILL]
     if sticks:
         residual, newtons = solve_sticking(stick, points, problem.slack, problem.active, after, tight, usable)
         counts[N_CONTACT] += newtons
@@ -209,10 +237,13 @@ def stored_energy(problem, points, interface, springs, before, after):
     energy = 0.0
     if interface.on_pad:
         indent(springs, before, after)
-    for i in range(len(after)):
+    for i in near_points(problem):
         for a in range(3):
             energy += after[i].force[a] * (problem.displaced[i, a] + points[i].law[a] * after[i].force[a])
-            energy += points[i].springs[a] * after[i].indentation[a] ** 2
+    if interface.on_pad:
+        for i in range(len(after)):
+            for a in range(3):
+                energy += points[i].springs[a] * after[i].indentation[a] ** 2
     return energy / 2
 
 
@@ -227,7 +258,7 @@ def solve_linear(problem, bodies, base, points, interface, springs, dynamic, ela
         most: times that forces are found; 0 only looks how well they obey the laws.
     """
     mark_close(problem, interface, positions, before, after)
-    listed = marked(problem.close)
+    listed = near_points(problem)
     k, arms, old = len(listed), np.zeros((len(after), 3)), np.empty(3 * len(listed))
     response = np.empty((3 * k, 3 * k))
     assemble(bodies, base, points, arms, listed, rotations, 0.0, elastic, 0.0, springs.own, response)

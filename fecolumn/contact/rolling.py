@@ -78,16 +78,17 @@ def plan_roll(interface, rim, rim_state, contact, rotation, halfway, allowed):
 def mark_rolling(roll, rim, points, contact, wanted):
     """Mark in `wanted` (N,) the nodes whose positions `roll_points` needs."""
     n = len(rim)
+    passed = roll.passed % n
     for off in range(-REACH, REACH + 1):
         for q in range(4):
-            wanted[points[rim[(roll.index[LIKE] + off + roll.offsets[LIKE, q]) % n]].node] = True
-            wanted[points[rim[(roll.index[NEW] + off + roll.offsets[NEW, q]) % n]].node] = True
-            wanted[points[rim[(roll.index[NEW] + off - roll.passed + roll.offsets[OLD, q]) % n]].node] = True
+            wanted[points[rim[_around(roll.index[LIKE] + off + roll.offsets[LIKE, q], n)]].node] = True
+            wanted[points[rim[_around(roll.index[NEW] + off + roll.offsets[NEW, q], n)]].node] = True
+            wanted[points[rim[_around(_around(roll.index[NEW] + off - passed, n) + roll.offsets[OLD, q], n)]].node] = True
     for k in range(n):
         if contact[rim[k]].located:
             for q in range(4):
-                wanted[points[rim[(k + roll.offsets[OLD, q]) % n]].node] = True
-                wanted[points[rim[(k + roll.passed + roll.offsets[NEW, q]) % n]].node] = True
+                wanted[points[rim[_around(k + roll.offsets[OLD, q], n)]].node] = True
+                wanted[points[rim[_around(k + passed + roll.offsets[NEW, q], n)]].node] = True
 
 
 @njit
@@ -101,33 +102,34 @@ def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
         rim_state: of RIM, changed. arms: (N, 3) of the nodes from their centre of mass. places: (N, 3) their positions at the start [m], where
             `mark_rolling` wants them.
     """
-    n, index, passed = len(rim), roll.index[NEW], roll.passed
+    n, index = len(rim), roll.index[NEW]
+    passed = roll.passed % n
     place_points(roll, NEW, rim, arms, points)
     # what the rule leaves of the third order stays in the lift while the rim carries
     held = 0.0
     if roll.strongest >= 0:
-        taken = roll.strongest if roll.leaps else (index - passed) % n
+        taken = roll.strongest if roll.leaps else _around(index - passed, n)
         held = _height(roll, OLD, taken, rim, points, places) - _height(roll, LIKE, roll.index[LIKE], rim, points, places)
         held += 0.0 if roll.leaps else rim_state.lift[REACH]
     for k in range(n):
-        i, number = rim[k], (k - passed) % n
+        i, number, apart = rim[k], _around(k - passed, n), abs(k - index)
         taken = rim[number]
         before[i] = contact[taken]
-        near = abs(_sectors(float(k - index), n)) <= REACH
+        near = min(apart, n - apart) <= REACH
         if contact[taken].located or near:
             for a in range(3):
                 way = 0.0
                 for q in range(4):
-                    way += roll.weights[NEW, q] * places[points[rim[(k + roll.offsets[NEW, q]) % n]].node, a]
-                    way -= roll.weights[OLD, q] * places[points[rim[(number + roll.offsets[OLD, q]) % n]].node, a]
+                    way += roll.weights[NEW, q] * places[points[rim[_around(k + roll.offsets[NEW, q], n)]].node, a]
+                    way -= roll.weights[OLD, q] * places[points[rim[_around(number + roll.offsets[OLD, q], n)]].node, a]
                 before[i].relative[a] += way
                 if a < 2:
                     before[i].anchor[a] += way
         else:
             before[i].located = False
     for off in range(-REACH, REACH + 1):
-        k = (index + off) % n
-        i, number = rim[k], (k - passed) % n
+        k = _around(index + off, n)
+        i, number = rim[k], _around(k - passed, n)
         like = _height(roll, LIKE, roll.index[LIKE] + off, rim, points, places)
         # at the step's end the height of the points before the lowest one will be what that of the points behind it is now
         points[i].lift = rim_state.lift[REACH + off] = like - _height(roll, NEW, index - off, rim, points, places) + held
@@ -141,7 +143,7 @@ def _height(roll, which, k, rim, points, places):
     """Height [m] of point k of the rim where it is on the circle `which`."""
     total, n = 0.0, len(rim)
     for q in range(4):
-        total += roll.weights[which, q] * places[points[rim[(k + roll.offsets[which, q]) % n]].node, 2]
+        total += roll.weights[which, q] * places[points[rim[_around(k + roll.offsets[which, q], n)]].node, 2]
     return total
 
 
@@ -155,7 +157,7 @@ def place_points(roll, which, rim, arms, points):
         for a in range(3):
             points[i].arm[a] = 0.0
         for q in range(4):
-            node, w = points[rim[(k + roll.offsets[which, q]) % n]].node, roll.weights[which, q]
+            node, w = points[rim[_around(k + roll.offsets[which, q], n)]].node, roll.weights[which, q]
             points[i].carriers[q], points[i].weights[q] = node, w
             for a in range(3):
                 points[i].arm[a] += w * arms[node, a]
@@ -181,7 +183,17 @@ def stay(roll, rim, rim_state, tilt, arms, points):
     for k in range(n):
         points[rim[k]].lift = 0.0
     for off in range(-REACH, REACH + 1):
-        points[rim[(roll.index[OLD] + off) % n]].lift = rim_state.lift[REACH + off]
+        points[rim[_around(roll.index[OLD] + off, n)]].lift = rim_state.lift[REACH + off]
+
+
+@njit
+def _around(number, n):
+    """Number, -n to 3 n - 1, modulo n: a division takes longer than all else here."""
+    if number < 0:
+        return number + n
+    while number >= n:
+        number -= n
+    return number
 
 
 @njit

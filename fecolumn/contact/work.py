@@ -10,9 +10,9 @@ from fecolumn.contact.tolerances import STUCK
 
 
 @njit
-def move_anchors(interface, springs, before, after):
-    """Where the points stick from now on: a slipping spring of contact law or pad keeps its elastic part."""
-    for i in range(len(after)):
+def move_anchors(interface, springs, listed, before, after):
+    """Where the listed points (k,) stick from now on: a slipping spring of contact law or pad keeps its elastic part."""
+    for i in listed:
         x = after[i].relative[0] + springs.own[i, 0] * after[i].force[0] + springs.kept * before[i].indentation[0]
         y = after[i].relative[1] + springs.own[i, 1] * after[i].force[1] + springs.kept * before[i].indentation[1]
         stuck = after[i].force[2] > 0 and np.hypot(x - before[i].anchor[0], y - before[i].anchor[1]) <= STUCK * interface.width
@@ -21,10 +21,10 @@ def move_anchors(interface, springs, before, after):
 
 
 @njit
-def losses(points, interface, springs, before, after):
-    """Energy [J] that friction and landings add in a step, both below 0, and that the dashpots of a pad take."""
+def losses(points, interface, springs, listed, before, after):
+    """Energy [J] that friction and landings of the listed points (k,) add in a step, both below 0, and that the dashpots of a pad take."""
     friction = landed = 0.0
-    for i in range(len(after)):
+    for i in listed:
         if after[i].force[2] > 0:
             friction += after[i].force[0] * (after[i].anchor[0] - before[i].anchor[0]) + after[i].force[1] * (after[i].anchor[1] - before[i].anchor[1])
             if before[i].force[2] <= 0 and not interface.on_pad:

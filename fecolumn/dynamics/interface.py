@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn._compiled import interpreted
-from fecolumn.contact.base_top import base_for_steps, project
+from fecolumn.contact.projection import base_for_steps, project
 from fecolumn.contact.bodies import node_matrix, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.interface import RIM, interface_of
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.points import node_points
-from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, begin_problem, room, solve_linear, stored_energy
+from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, begin_problem, near_points, room, solve_linear, stored_energy
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
 from fecolumn.contact.stick import no_stick
@@ -128,7 +128,7 @@ class Interface:
 
     def static_compliance(self, listed: np.ndarray) -> np.ndarray:
         """Compliance (3 k, 3 k) [m/N] of some points that follows their forces at once, in the reference configuration."""
-        everyone, own, W = np.ones(self.size, bool), np.zeros((self.size, 3)), np.empty((3 * len(listed), 3 * len(listed)))
+        everyone, own, W = np.arange(self.size), np.zeros((self.size, 3)), np.empty((3 * len(listed), 3 * len(listed)))
         self._extend_base(self.reference)
         interpreted(project)(self.surface, self.reference, everyone, self.points)
         interpreted(assemble)(self.bodies, self.surface, self.points, self.reference, listed, np.eye(3)[None], 0.0, self.bodies.static, 1.0, own, W)
@@ -157,6 +157,11 @@ class Interface:
     def stored(self, dt: float, before, after) -> float:
         """Strain energy [J] of base, foot's static rest, contact law and pad, whose indentation is found, after `solve`."""
         return stored_energy(self._problem, self.points, self.record, springs_of(self.points, self.record, dt), before, after)
+
+    @property
+    def near(self) -> np.ndarray:
+        """Points (k,) that may carry at the end of the stage."""
+        return near_points(self._problem)
 
     def spent(self) -> int:
         """Iterations of contact problems since the last call."""

@@ -69,6 +69,11 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     first = previous = size = np.inf
 
     def ended(stop, message=""):
+        # a point that is far from the base was found by nothing but its place, and would stick there
+        far = ~contact["located"]
+        if iteration and far.any():
+            contact["relative"][far] = interface.positions(x, rotation)[far]
+            contact["anchor"][far] = contact["relative"][far, :2]
         contact["located"] = True
         return Outcome(stop, x, internal, strain, rotation, halfway, contact, static, iteration, size, message)
 

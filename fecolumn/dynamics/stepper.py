@@ -86,7 +86,7 @@ class Stepper:
             raise StepFailed(outcome.stop, f"{outcome.stop.value}: {detail}")
 
         R, springs = outcome.halfway, springs_of(interface.points, interface.record, dt)
-        move_anchors(interface.record, springs, before, outcome.contact)
+        move_anchors(interface.record, springs, interface.near, before, outcome.contact)
         after = State(time=start.time + dt, x=outcome.x, v=start.v, a=start.a, contact_a=start.contact_a, internal=outcome.internal, strain=outcome.strain,
                       rotation=outcome.rotation, contact=outcome.contact, static=outcome.static, ground=np.array(ground, float), rims=rims)
         push = interface.load(after.forces, R)
@@ -131,7 +131,7 @@ class Stepper:
         damping = -column.dot(step, damped) / 2 if self.system.damping else 0.0
         rolling = column.dot(step, resisted) if self.system.resistance else 0.0
         contact = column.dot(step, worked) - rolling + after.static - start.static
-        friction, landed, dashpots = losses(interface.points, interface.record, springs, before, after.contact)
+        friction, landed, dashpots = losses(interface.points, interface.record, springs, interface.near, before, after.contact)
         self.ledger.add(base_work=-np.dot((start.ground + after.ground) / 2, carried), algorithmic=algorithmic - damping,
                         friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots, rolling=rolling)
         return contact
@@ -144,15 +144,15 @@ class Stepper:
         """
         system, interface, column, R = self.system, self.system.interface, self.system.column, after.rotation
         landing, turning = np.zeros(interface.size, bool), np.zeros(interface.size, bool)
-        lands = mark_landing(interface.record, before, after.contact, landing)
-        if not mark_turning(interface.points, before, after.contact, turning) and not lands:
+        lands = mark_landing(interface.record, interface.near, before, after.contact, landing)
+        if not mark_turning(interface.points, interface.near, before, after.contact, turning) and not lands:
             return
         early, late = interface.velocities(start.v, R), interface.velocities(after.v, R)
-        happens = what_happens(interface.points, interface.record, before, after.contact, hht.dt, early, late, landing, turning)
+        happens = what_happens(interface.record, interface.near, before, after.contact, hht.dt, early, late, landing, turning)
         if happens == NOTHING:
             return
         answer, pushed, impulses = find_impact(
-            interface.bodies, interface.surface, interface.points, interface.record, springs, interface.points["arm"].copy(), R[None], before,
+            interface.bodies, interface.surface, interface.points, interface.record, springs, interface.near, interface.points["arm"].copy(), R[None], before,
             after.contact, early, late, landing, turning, happens == LANDS, hht.dt, contact_work, interface.counts)
         self.record.contact_iterations += interface.spent()
         if answer != OK:

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from petsc4py import PETSc
+from scipy.linalg import eigh
 
+from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rayleigh import spectral_shift
 
 # Shift of the spectrum over the bound of the first elastic frequency's square: K + s M can be factored, and 1 / (w^2 + s) still
@@ -28,21 +30,31 @@ class Modes:
 def free_modes(body, count: int, tolerance: float = 1e-10) -> Modes:
     """The `count` lowest modes of K x = w^2 M x, rigid ones included, ties as in the body.
 
+    The six rigid ones are known, and Ritz's method among them tells their frequencies. The elastic ones are sought beside them: six equal
+    eigenvalues are not all found by a Krylov method, and one that is missed would make the first elastic mode a rigid one.
     Krylov-Schur with shift-invert (SLEPc), the shifted matrix factored by MUMPS. Constrained nodes carry neither mass nor
     stiffness in the reduced matrices; they are pinned far above the wanted frequencies.
+
+    Args:
+        count: at least 6.
 
     Raises:
         RuntimeError: fewer modes converged than asked for.
     """
     from slepc4py import SLEPc
 
+    fields, _, masses = rigid_fields(body)
+    rigid, turns = eigh(body.sum(fields.T @ body.apply_many(body.stiffness, fields)), masses)
+    shapes = list((fields @ turns).T.reshape(6, -1, 3))
+    if count == 6:
+        return Modes(_hertz(rigid), np.array(shapes))
     stiffness = body.constraint.pinned(body.stiffness.copy())
     solver = SLEPc.EPS().create(body.comm)
     solver.setOperators(stiffness, body.mass)
     solver.setProblemType(SLEPc.EPS.ProblemType.GHEP)
     solver.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
     solver.setTarget(-spectral_shift(body, _SHARE))
-    solver.setDimensions(count, PETSc.DECIDE, PETSc.DECIDE)
+    solver.setDimensions(count - 6, PETSc.DECIDE, PETSc.DECIDE)
     solver.setTolerances(tolerance, 1000)
     transform = solver.getST()
     transform.setType(SLEPc.ST.Type.SINVERT)
@@ -51,18 +63,30 @@ def free_modes(body, count: int, tolerance: float = 1e-10) -> Modes:
     linear.setType("preonly")
     linear.getPC().setType("cholesky")
     linear.getPC().setFactorSolverType("mumps")
+    constrained, known = body.owned(body.constraint.nodes)[1], []
+    for column in fields.T:
+        known.append(stiffness.createVecRight())
+        free = column.reshape(-1, 3).copy()
+        free[constrained] = 0.0
+        known[-1].array[:] = free.ravel()
+    solver.setDeflationSpace(known)
     solver.solve()
-    if solver.getConverged() < count:
-        raise RuntimeError(f"only {solver.getConverged()} of {count} modes converged")
-    shape, frequencies, shapes = stiffness.createVecRight(), [], []
-    for k in range(count):
-        value = solver.getEigenpair(k, shape).real
+    if solver.getConverged() < count - 6:
+        raise RuntimeError(f"only {solver.getConverged()} of {count - 6} elastic modes converged")
+    shape, values = stiffness.createVecRight(), list(rigid)
+    for k in range(count - 6):
+        values.append(solver.getEigenpair(k, shape).real)
         field = body.constraint.expand(shape.array.reshape(-1, 3).copy())
-        frequencies.append(np.sign(value) * np.sqrt(abs(value)) / (2 * np.pi))
         shapes.append(field / np.sqrt(body.dot(shape.array.reshape(-1, 3), body.apply(body.mass, shape.array))))
-    solver.destroy(), stiffness.destroy(), shape.destroy()
-    order = np.argsort(frequencies)
-    return Modes(np.array(frequencies)[order], np.array(shapes)[order])
+    for one in (solver, stiffness, shape, *known):
+        one.destroy()
+    order = np.argsort(values)
+    return Modes(_hertz(np.array(values)[order]), np.array(shapes)[order])
+
+
+def _hertz(values: np.ndarray) -> np.ndarray:
+    """Frequencies of eigenvalues [1/s2]."""
+    return np.sign(values) * np.sqrt(np.abs(values)) / (2 * np.pi)
 
 
 def elastic_modes(body, count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -9,6 +9,7 @@ from dolfinx import fem
 
 from fecolumn import _dolfinx
 from fecolumn.atomic import write_bytes, write_hdf5
+from fecolumn.contact.projection import nodes_under
 from fecolumn.dynamics.checkpoint import gather_all
 from fecolumn.material.elasticity import isotropic_stress, von_mises
 from fecolumn.material.kinematics import linear_strain
@@ -67,7 +68,7 @@ class FieldWriter:
         column, plate = self.column, self.plate
         displacement, stress = [gather_all(column, x - column.X)], [self._stress[column].values(local)]
         if plate:
-            sunk = plate.displacement(*plate.grid.under(positions, forces[:, 2] > 0), -forces)
+            sunk = plate.displacement(*nodes_under(plate.grid, positions, forces[:, 2] > 0), -forces)
             displacement.append(gather_all(plate.body, sunk))
             stress.append(self._stress[plate.body].values(sunk))
         if column.comm.rank:

@@ -36,7 +36,8 @@ SOURCES = (
     "_dolfinx.py", "material", "fem/body.py", "fem/effective.py", "fem/free_body.py", "fem/modes.py", "fem/rayleigh.py",
     "mesh/base_plate.py", "mesh/bricks.py", "mesh/cap_plate.py", "mesh/column.py", "mesh/gmsh_section.py", "mesh/imported.py",
     "mesh/jacobian.py", "mesh/section.py", "mesh/specimen.py", "mesh/surface.py", "mesh/tie.py",
-    "contact/base_plate.py", "contact/base_top.py", "contact/footprint.py", "contact/layer.py", "contact/unbounded_base.py",
+    "contact/base_plate.py", "contact/base_top.py", "contact/footprint.py", "contact/layer.py", "contact/tolerances.py",
+    "contact/unbounded_base.py",
     "dynamics/assembly.py", "dynamics/observer.py", "reduced/build.py", "reduced/cache.py")
 # Elastic modes that a model keeps at least, so that analyses with fewer share it
 KEPT_MODES = 40

@@ -19,6 +19,7 @@ from fecolumn.contact.problem import (
     find_forces,
     find_residual,
     mark_close,
+    near_points,
     room,
     stored_energy,
 )
@@ -82,10 +83,9 @@ def find_positions(structure, work, start, end):
         for i in range(len(points)):
             if points[i].slave != b:
                 continue
+            arm, R = points[i].arm, end.rotation
             for a in range(3):
-                positions[i, a] = end.frames[b].center[a]
-                for c in range(3):
-                    positions[i, a] += end.rotation[b, a, c] * points[i].arm[c]
+                positions[i, a] = end.frames[b].center[a] + R[b, a, 0] * arm[0] + R[b, a, 1] * arm[1] + R[b, a, 2] * arm[2]
             positions[i, 2] += points[i].lift
             # a point of the rim moves with four nodes near to its own
             high = positions[i, 2] > CLOSE * interface.width + 2 * reach * structure.reach[points[i].node]
@@ -108,18 +108,23 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
     Returns: a way to end.
     """
     interface, points, before, problem, elastic = structure.interfaces[0], work.points, work.before, work.problem, work.elastic
+    carrying = 0
     for i in range(len(points)):
         end.contact[i] = before[i]
         if before[i].force[2] > 0:
-            find_elastic(structure, points, i, start, elastic, START)
-            for a in range(3):
-                elastic.point[END, i, a] = elastic.point[START, i, a]
-    put_matrix(advance, work.action.turn)
+            problem.near[carrying] = i
+            carrying += 1
+    problem.count[0] = carrying
     still = holds(work.stick, interface, rim_angle, scheme.half, points[0].arm[2], start.frames[0].center, start.rotation[0])
+    put_matrix(advance, work.action.turn)
+    for i in near_points(problem):
+        find_elastic(structure, points, i, start, elastic, START)
+        for a in range(3):
+            elastic.point[END, i, a] = elastic.point[START, i, a]
     begin_problem(problem, still, not still and stays(interface, start, free_center, advance))
     for iteration in range(ITERATIONS):
         counts[N_ITERATIONS] += 1
-        follow(structure, scheme, points, start, free_center, free_modal, advance, elastic, end, work.action)
+        follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action)
         find_positions(structure, work, start, end)
         if iteration == 0 or not problem.flags[STICKS_STILL]:
             mark_close(problem, interface, work.positions, before, end.contact)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fecolumn._compiled import njit
+from fecolumn.contact.problem import near_points
 from fecolumn.contact.work import losses
 from fecolumn.reduced.motion import ACCELERATION, COORDINATE, RATE
 
@@ -70,7 +71,7 @@ def book(structure, scheme, work, start, end, ledger):
             rate = end.modal[b, RATE, k] - dt * al**2 / (4 * scheme.beta) * push
             damping -= (q1 - q0) * structure.damping[b, k] * (start.modal[b, RATE, k] + rate) / 2
     contact = done - rolling + end.whole[0].static - start.whole[0].static
-    friction, landed, dashpots = losses(work.points, structure.interfaces[0], scheme.springs, work.before, end.contact)
+    friction, landed, dashpots = losses(work.points, structure.interfaces[0], scheme.springs, near_points(work.problem), work.before, end.contact)
     ledger[BASE] += moved_base
     ledger[FRICTION] += friction
     ledger[HIT] += landed

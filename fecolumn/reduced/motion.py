@@ -253,8 +253,8 @@ def turning(body, advance, rotation, half, spread, resistance, turn, moment, hal
 
 
 @njit
-def follow(structure, scheme, points, start, free_center, free_modal, advance, elastic, end, action):
-    """Carry the bodies to the end of the step under the forces of `end` at the points.
+def follow(structure, scheme, points, listed, start, free_center, free_modal, advance, elastic, end, action):
+    """Carry the bodies to the end of the step under the forces of `end` at the listed points (k,), which has all that carry.
 
     The elastic displacement of points that carry is the last one known at the END, a guess; end gets center, rotation and modal
     coordinates, action the conjugates.
@@ -267,7 +267,7 @@ def follow(structure, scheme, points, start, free_center, free_modal, advance, e
         spread, arm = np.zeros((3, 3)), np.empty(3)
         for a in range(3):
             action.push[b, a] = 0.0
-        for i in range(len(points)):
+        for i in listed:
             if points[i].slave != b or end.contact[i].force[2] <= 0.0:
                 continue
             for a in range(3):
@@ -280,19 +280,19 @@ def follow(structure, scheme, points, start, free_center, free_modal, advance, e
             end.frames[b].center[a] = free_center[b, a] + scheme.half * action.push[b, a] / bodies[b].mass
         turning(bodies[b], advance[b], start.rotation[b], scheme.half, spread, action.resistance[b], action.turn[b], action.moment[b], action.halfway[b])
         turn_by(start.rotation[b], action.turn[b], end.rotation[b])
-        modal_forces(structure, points, b, action.halfway[b], end.contact, action.modal[b])
+        modal_forces(structure, points, listed, b, action.halfway[b], end.contact, action.modal[b])
         for k in range(free_modal.shape[1]):
             end.modal[b, COORDINATE, k] = scheme.shrink[b, k] * (free_modal[b, k] + scheme.half * action.modal[b, k])
     elastic.now[END] += 1
 
 
 @njit
-def modal_forces(structure, points, b, rotation, contact, target):
-    """target (m,): what the forces of `contact` at the points do on the modes of body b turned by `rotation`."""
+def modal_forces(structure, points, listed, b, rotation, contact, target):
+    """target (m,): what the forces of `contact` at the listed points (k,) do on the modes of body b turned by `rotation`."""
     target[:] = 0.0
     if len(target) == 0:
         return
-    for i in range(len(points)):
+    for i in listed:
         if points[i].slave == b and contact[i].force[2] > 0.0:
             _add_modal(structure.pushes, points[i], rotation, contact[i].force[0], contact[i].force[1], contact[i].force[2], target)
 

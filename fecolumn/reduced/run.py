@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn._compiled import compile_for, interpreted, njit
 from fecolumn.contact.arrays import put, put_matrix
-from fecolumn.contact.base_top import base_for_steps
+from fecolumn.contact.projection import base_for_steps
 from fecolumn.contact.problem import CONTACT_FAILED, ENDED, FAR_BASE, IMPACT_FAILED, ITERATIONS_SPENT, N_COUNTS, N_CUTS, N_ITERATIONS, OFF_BASE, OK
 from fecolumn.dynamics.cuts import Stop, StepFailed, in_halves
 from fecolumn.dynamics.hht import HHT

@@ -7,7 +7,7 @@ import numpy as np
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
 from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, touched, what_happens
-from fecolumn.contact.problem import N_IMPACTS, OK
+from fecolumn.contact.problem import N_IMPACTS, OK, near_points
 from fecolumn.contact.rolling import mark_rolling, plan_roll, roll_points, rolling_moment, stay
 from fecolumn.contact.tolerances import CREATED
 from fecolumn.contact.work import move_anchors
@@ -140,7 +140,7 @@ def _finish(structure, scheme, work, start, ground, end):
             end.modal[b, ACCELERATION, k] = accelerated
             mean = (1 - ga) * start.modal[b, ACCELERATION, k] + ga * accelerated + action.modal[b, k]
             end.modal[b, RATE, k] = start.modal[b, RATE, k] + dt * mean
-    move_anchors(structure.interfaces[0], scheme.springs, work.before, end.contact)
+    move_anchors(structure.interfaces[0], scheme.springs, near_points(work.problem), work.before, end.contact)
     end.whole[0].time = start.whole[0].time + dt
     for a in range(3):
         end.whole[0].ground[a] = ground[a]
@@ -150,21 +150,22 @@ def _finish(structure, scheme, work, start, ground, end):
 def _collide(structure, base, scheme, work, start, end, contact_work, ledger, counts):
     """Take the velocities of `end` anew where a point lands or slip ends: a way to end."""
     interface, points, before, elastic = structure.interfaces[0], work.points, work.before, work.elastic
-    lands = mark_landing(interface, before, end.contact, work.landing) > 0
-    if mark_turning(points, before, end.contact, work.turning) == 0 and not lands:
+    listed = near_points(work.problem)
+    lands = mark_landing(interface, listed, before, end.contact, work.landing) > 0
+    if mark_turning(points, listed, before, end.contact, work.turning) == 0 and not lands:
         return OK
-    for i in range(len(points)):
+    for i in listed:
         if work.turning[i] or lands and (before[i].force[2] > 0 or end.contact[i].force[2] > 0):
             _find_velocities(structure, work, i, start, end)
-    happens = what_happens(points, interface, before, end.contact, scheme.dt, work.early, work.late, work.landing, work.turning)
+    happens = what_happens(interface, listed, before, end.contact, scheme.dt, work.early, work.late, work.landing, work.turning)
     if happens == NOTHING:
         return OK
     arms = np.zeros((len(points), 3))
-    for i in touched(before, end.contact):
+    for i in touched(listed, before, end.contact):
         _find_velocities(structure, work, i, start, end)
         for a in range(3):
             arms[i, a] = points[i].arm[a] + elastic.point[END, i, a]
-    answer, pushed, impulses = find_impact(structure.bodies, base, points, interface, scheme.springs, arms, end.rotation, before, end.contact, work.early,
+    answer, pushed, impulses = find_impact(structure.bodies, base, points, interface, scheme.springs, listed, arms, end.rotation, before, end.contact, work.early,
                                            work.late, work.landing, work.turning, happens == LANDS, scheme.dt, contact_work, counts)
     if answer != OK or not pushed:
         return answer

@@ -41,6 +41,7 @@ import numpy as np
 from mpi4py import MPI
 
 from fecolumn.case import Material
+from fecolumn.contact.projection import nodes_under
 from fecolumn.dynamics.assembly import share_specimen_mesh
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
@@ -157,7 +158,7 @@ def stand(engine: str, foot, base, distortion: float = 0.0) -> Standing:
     state, plate, points = standing(system), system.base, system.interface.reference
     exact = system.weight / SIDE**2
     pressure = state.forces[:, 2] / (exact * system.areas)
-    nodes, weights = plate.grid.under(points)
+    nodes, weights = nodes_under(plate.grid, points)
     moved = plate.displacement(nodes, weights, -state.forces)[:, 2]
     above = plate.body.X[:, 2] + HEIGHT
     wrong = np.abs(moved * SOFT.youngs_modulus_pa / exact + above) / HEIGHT

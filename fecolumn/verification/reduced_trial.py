@@ -47,7 +47,7 @@ class Reduction:
 
     def projected(self, engine, state, system):
         """The Motion that a full-order State is, seen by the rigid motions and the modes: their momenta, not their values at nodes."""
-        model, body = self.model, system.column
+        body = system.column
         motion, whole = engine.motion_at_rest(), {"time": state.time, "static": state.static, "ground": state.ground}
 
         def modal(field):
@@ -104,7 +104,7 @@ class Expanded:
     @cached_property
     def a(self) -> np.ndarray:
         """Of translation and modes: the rotation has no memory of its acceleration."""
-        return self._frame.acceleration + self._modal(ACCELERATION)
+        return self._frame.acceleration + self._modal(ACCELERATION) @ self.rotation.T
 
 
 class ReducedTrial(Trial):

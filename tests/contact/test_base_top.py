@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from fecolumn.contact.base_top import OFF, ON, UNKNOWN, Base, BaseTop, project
+from fecolumn.contact.base_top import BaseTop
+from fecolumn.contact.projection import OFF, ON, UNKNOWN, Base, nodes_under, project
 from fecolumn.contact.points import POINT
 
 
@@ -16,7 +17,7 @@ def top():
 def test_a_linear_field_is_interpolated_exactly(top):
     rng = np.random.default_rng(1)
     positions = np.column_stack([rng.uniform(-0.3, 0.25, 50), rng.uniform(0.0, 0.4, 50), rng.normal(size=50)])
-    nodes, shares = top.under(positions)
+    nodes, shares = nodes_under(top, positions)
     np.testing.assert_allclose(np.einsum("nq,nqa->na", shares, top.points[nodes][:, :, :2]), positions[:, :2], atol=1e-15)
     assert shares.min() >= 0 and shares.sum(axis=1) == pytest.approx(1.0)
 
@@ -24,17 +25,17 @@ def test_a_linear_field_is_interpolated_exactly(top):
 def test_point_beyond_the_edge_matters_only_where_it_is_wanted(top):
     base = Base(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36)), 0.0)
     positions, points = np.array([[0.0, 0.1, 0.0], [0.26, 0.1, 0.0]]), np.zeros(2, POINT)
-    assert project(base, positions, np.array([True, False]), points) == ON
-    assert project(base, positions, np.array([True, True]), points) == OFF
+    assert project(base, positions, np.array([0]), points) == ON
+    assert project(base, positions, np.array([0, 1]), points) == OFF
 
 
 def test_node_whose_compliance_is_not_known_is_asked_for(top):
     slot = np.full(12, -1)
     base, points = Base(top.x, top.y, top.number, slot, np.zeros((0, 0)), 0.0), np.zeros(1, POINT)
     place = np.array([[-0.2, 0.3, 0.0]])
-    assert project(base, place, np.array([True]), points) == UNKNOWN
+    assert project(base, place, np.array([0]), points) == UNKNOWN
     slot[top.around(place, 0)] = np.arange(4)
-    assert project(base, place, np.array([True]), points) == ON
+    assert project(base, place, np.array([0]), points) == ON
 
 
 def test_nodes_around_the_edge_are_those_there(top):

@@ -8,6 +8,7 @@ from fecolumn import manual
 from fecolumn.case import Material
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.layer import layer_response
+from fecolumn.contact.projection import nodes_under
 from fecolumn.contact.unbounded_base import shear_frequency, unbounded_base
 from fecolumn.fem.body import Body
 from fecolumn.mesh.bricks import BASE
@@ -52,7 +53,7 @@ def test_unbounded_base_gives_as_much_wherever_the_foot_is():
     base = unbounded_base(SIZE, DEPTHS, STEEL, foot)
     found = []
     for moved in (np.zeros(3), np.array([1234 * SIZE, -77 * SIZE, 0.0])):
-        nodes, weights = base.grid.under(foot + moved + [0.0013, 0.0004, 0.0])
+        nodes, weights = nodes_under(base.grid, foot + moved + [0.0013, 0.0004, 0.0])
         base.need(nodes.ravel())
         found.append(np.einsum("np,npnqab,nq->nab", weights, base.compliance[base.slot[nodes][:, :, None, None], base.slot[nodes]], weights))
     np.testing.assert_allclose(found[0], found[1], atol=1e-11 * base.compliance.max())

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fecolumn.contact.base_top import Base
+from fecolumn.contact.projection import Base
 from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.pad import Springs
