@@ -4,7 +4,7 @@ Units are SI everywhere. z points up, gravity along -z; displacements are relati
 a contact pressure positive in compression.
 """
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 _HOMES = {"Case": "case", "read_case": "case", "case_from_tables": "case", "InputError": "schema", "run": "simulation",
           "AnalysisFailed": "simulation", "specimen_mesh": "mesh.specimen", "load_motion": "motions.load",

@@ -111,7 +111,7 @@ class Integration(Section):
     dt_s: float = parameter(1e-3, doc="time step", unit="s", above=0, high=0.1)
     alpha_hht: float = parameter(-0.2, doc="HHT alpha of Hilber, Hughes and Taylor (OpenSees writes 1 + alpha)", low=-1 / 3, high=0)
     engine: str = parameter("full", doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, exact static compliance of the same mesh; rigid: reduced without modes", choices=("full", "reduced", "rigid"))
-    n_modes: int = parameter(30, doc="elastic modes of the reduced engine; all others respond statically", low=0, high=1000)
+    n_modes: int = parameter(100, doc="elastic modes of the reduced engine, all where the mesh has fewer; the others respond statically", low=0, high=1000)
     kinematics: str = parameter("corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian"))
     duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration, and must not stand where there is no motion", unit="s", low=0, high=1e5)
     tolerance: float = parameter(1e-7, doc="residual force at convergence as a fraction of the largest nodal force; of engine = \"full\" alone", above=0, high=1e-2)

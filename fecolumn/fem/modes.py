@@ -90,8 +90,9 @@ def _hertz(values: np.ndarray) -> np.ndarray:
 
 
 def elastic_modes(body, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies (count,) [rad/s] and shapes (count, n_owned, 3) of unit modal mass of the lowest elastic modes."""
-    if not count:
+    """Frequencies (m,) [rad/s] and shapes (m, n_owned, 3) of unit modal mass of the lowest elastic modes: `count` of them, or all there are."""
+    count = min(count, 3 * (body.n_nodes - len(body.constraint.nodes)) - 6)
+    if count <= 0:
         return np.zeros(0), np.zeros((0, body.n_owned, 3))
     modes = free_modes(body, count + 6)
     return 2 * np.pi * modes.frequencies[6:], modes.shapes[6:]

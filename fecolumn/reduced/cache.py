@@ -40,7 +40,7 @@ SOURCES = (
     "contact/unbounded_base.py",
     "dynamics/assembly.py", "dynamics/observer.py", "reduced/build.py", "reduced/cache.py")
 # Elastic modes that a model keeps at least, so that analyses with fewer share it
-KEPT_MODES = 40
+KEPT_MODES = 100
 # Least reach of the first compliance of the base around the foot, over the foot's width
 LEAST_REACH = 0.1
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -44,11 +44,7 @@ class ColumnModel:
         return self.arms + self.center
 
     def with_modes(self, count: int) -> "ColumnModel":
-        """The column with its `count` lowest elastic modes; the others stay in the flexibility."""
-        if not 0 <= count <= len(self.frequencies):
-            raise ValueError(f"n_modes = {count}: the model has {len(self.frequencies)} elastic modes")
-        from dataclasses import replace
-
+        """The column with its `count` lowest elastic modes, or all it has; the others stay in the flexibility."""
         return replace(self, frequencies=self.frequencies[:count], shapes=np.ascontiguousarray(self.shapes[:, :, :count]),
                        top_shape=np.ascontiguousarray(self.top_shape[:, :count]))
 
