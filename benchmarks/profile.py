@@ -10,9 +10,8 @@ import pstats
 PARTS = {
     ("fem/effective.py", "solve"): "solves with the effective matrix",
     ("fem/foot.py", "position"): "filtered positions of the foot",
-    ("contact/friction.py", "solve_contact"): "friction problem",
-    ("contact/interface.py", "static_compliance"): "compliance of base and foot",
-    ("contact/interface.py", "static_displacement"): "static displacement of base and foot",
+    ("dynamics/interface.py", "solve"): "contact problem",
+    ("dynamics/interface.py", "begin_step"): "rolling of the rim",
     ("fem/total_lagrangian.py", "internal"): "internal forces and energy",
     ("fem/total_lagrangian.py", "tangent"): "tangent",
     ("fem/corotated.py", "internal"): "internal forces and energy",

@@ -58,7 +58,7 @@ def what_happens(interface, listed, before, after, dt, early, late, landing, tur
     """Whether the velocities at the end of a step must be taken anew: NOTHING, a point LANDS, or slip TURNS for most of the foot.
 
     Args:
-        early, late: (n, 3) velocities [m/s] of the marked points at the start and at the end of the step, both in its final place.
+        early, late: (n, 3) velocities [m/s] of the marked points at the start and at the end of the step.
         listed: (k,) the points that may carry. landing, turning: (n,) marked by the functions above; of `turning` those stay that do turn.
     """
     lands, turned, total = False, 0.0, 0.0
@@ -98,7 +98,7 @@ def find_impact(bodies, base, points, interface, springs, listed, arms, rotation
 
     The points that held the foot before carry it until the moment of impact, all together from then on: two projections, without
     which the weight's impulse of the whole step would act at the new contact. Where a long step would gain energy by them, because its positions know
-    the new contact only, a single projection is made, or none.
+    the new contact only, a single projection is made; where the end of slip would gain, none.
 
     Args:
         listed: (k,) points that may carry. arms: (n, 3) of the points on their slaves at the end of the step [m]. early, late: (n, 3) velocities [m/s], relative to the master, at least of

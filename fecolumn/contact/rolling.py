@@ -66,7 +66,6 @@ def plan_roll(interface, rim, rim_state, contact, rotation, halfway, allowed):
             past = k + phase[OLD] - (index[NEW] + phase[NEW] if leaps else index[OLD] + phase[OLD])
             if abs(_sectors(past, n)) <= REACH and force > most:
                 strongest, most = k, force
-    # nothing stands on a point below the rim; one above it only carries less
     rolls = allowed and tilt >= FLAT and not (leaps and loaded and strongest < 0)
     if leaps:
         # a part of the rim that rested takes over: the nearest of its points goes to the lowest place
@@ -168,6 +167,7 @@ def stay(roll, rim, rim_state, tilt, arms, points):
     """Leave the points of a rim where they are, at the heights that they have there."""
     n = len(rim)
     if tilt < FLAT:
+        # nothing stands on a point below the rim; one above it only carries less
         for off in range(2 * REACH + 1):
             rim_state.lift[off] = max(rim_state.lift[off], 0.0)
     if np.isnan(rim_state.angle):

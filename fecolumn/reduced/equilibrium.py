@@ -25,7 +25,8 @@ from fecolumn.contact.problem import (
 )
 from fecolumn.contact.stick import Stick, holds, no_stick
 from fecolumn.contact.tolerances import CLOSE, FLAT, ITERATIONS, PAD_TURN, SOLVED, STICK_STAYS, STICK_TURN, STICK_WAY
-from fecolumn.reduced.motion import COORDINATE, END, START, Action, Elastic, find_elastic, find_position, follow, locate_start, no_action, no_elastic
+from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_elastic, find_position, locate_start, no_elastic
+from fecolumn.reduced.motion import Action, follow, no_action
 
 
 class Work(NamedTuple):
@@ -87,7 +88,7 @@ def find_positions(structure, work, start, end):
             for a in range(3):
                 positions[i, a] = end.frames[b].center[a] + R[b, a, 0] * arm[0] + R[b, a, 1] * arm[1] + R[b, a, 2] * arm[2]
             positions[i, 2] += points[i].lift
-            # a point of the rim moves with four nodes near to its own
+            # a point of the rim moves with nodes near to its own, which may reach farther, but not twice as far
             high = positions[i, 2] > CLOSE * interface.width + 2 * reach * structure.reach[points[i].node]
             if high and not all_of_them and not (work.before[i].force[2] > 0 or end.contact[i].force[2] > 0):
                 continue

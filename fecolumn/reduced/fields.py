@@ -8,7 +8,7 @@ from fecolumn.dynamics.assembly import foot_of
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.post.fields import FieldWriter
 from fecolumn.reduced.cache import make_bodies
-from fecolumn.reduced.motion import COORDINATE
+from fecolumn.reduced.elastic import COORDINATE
 
 
 class ReducedFields:

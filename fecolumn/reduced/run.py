@@ -16,7 +16,7 @@ from fecolumn.reduced import motion as motions
 from fecolumn.reduced.equilibrium import equilibrate, work_of
 from fecolumn.reduced.ledger import N_PLACES
 from fecolumn.reduced.model import scheme, structure_of
-from fecolumn.reduced.motion import COORDINATE, END, START
+from fecolumn.reduced.elastic import COORDINATE, END, START
 from fecolumn.reduced.observe import ENERGY, WIDTH, lost, observe
 from fecolumn.reduced.step import step
 

@@ -7,6 +7,7 @@ import numpy as np
 from fecolumn.contact.problem import FAR_BASE, OK
 from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
 from fecolumn.reduced import motion as motions
+from fecolumn.reduced.elastic import ACCELERATION, COORDINATE
 from fecolumn.reduced.model import resting_scheme
 
 
@@ -37,7 +38,7 @@ def standing(engine) -> motions.Motion:
     iterate_to_rest(proximal_step, 2 * depth)
     engine.counts[:] = 0
     start.frames["acceleration"] = -start.forces.sum(axis=0) / model.mass
-    start.modal[0, motions.ACCELERATION] = -structure.squares[0] * start.modal[0, motions.COORDINATE]
+    start.modal[0, ACCELERATION] = -structure.squares[0] * start.modal[0, COORDINATE]
     return start
 
 

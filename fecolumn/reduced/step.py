@@ -13,7 +13,9 @@ from fecolumn.contact.tolerances import CREATED
 from fecolumn.contact.work import move_anchors
 from fecolumn.reduced.equilibrium import equilibrate
 from fecolumn.reduced.ledger import FRICTION, HIT, book, kinetic
-from fecolumn.reduced.motion import ACCELERATION, COORDINATE, END, RATE, START, find_elastic, find_places, find_velocity, orthonormal, push_bodies, turn_by
+from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START, find_elastic, find_places, find_velocity
+from fecolumn.reduced.motion import push_bodies
+from fecolumn.reduced.rotation import orthonormal, turn_by
 
 
 @njit

@@ -14,7 +14,8 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.dynamics.system import State
 from fecolumn.reduced import start as starts
 from fecolumn.reduced.build import column_model
-from fecolumn.reduced.motion import ACCELERATION, COORDINATE, RATE, copy
+from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
+from fecolumn.reduced.motion import copy
 from fecolumn.reduced.observe import COLUMNS, view
 from fecolumn.reduced.run import Engine
 from fecolumn.verification.trial import N_MODES, Trial

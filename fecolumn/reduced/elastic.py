@@ -1,0 +1,113 @@
+"""Where the points of reduced bodies are: their elastic displacement, positions and velocities, found where they are wanted."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn._compiled import njit
+
+# Rows of Motion.modal: coordinate, rate, and the acceleration that HHT remembers, without contact
+COORDINATE, RATE, ACCELERATION = range(3)
+
+
+class Elastic(NamedTuple):
+    """Elastic displacement at the START and at the END of a step, found where it is wanted. node: (2, N, 3) [m] of nodes, stamp: (2, N) with which they are
+    up to date, now: (2,) the present stamps; point: (2, P, 3) of points, in their slaves' frames."""
+
+    node: np.ndarray
+    stamp: np.ndarray
+    now: np.ndarray
+    point: np.ndarray
+
+
+START, END = range(2)
+
+
+def no_elastic(nodes: int, points: int) -> Elastic:
+    return Elastic(np.zeros((2, nodes, 3)), np.zeros((2, nodes), np.int64), np.zeros(2, np.int64), np.zeros((2, points, 3)))
+
+
+@njit(fastmath={"reassoc", "contract"})
+def _node_displacement(pushes, coordinates, node, target):
+    """target (3,): filtered displacement of a node by modal coordinates (m,)."""
+    x = y = z = 0.0
+    for k in range(len(coordinates)):
+        x += pushes[node, 0, k] * coordinates[k]
+        y += pushes[node, 1, k] * coordinates[k]
+        z += pushes[node, 2, k] * coordinates[k]
+    target[0], target[1], target[2] = x, y, z
+
+
+@njit
+def find_elastic(structure, points, i, motion, elastic, when):
+    """Find the elastic displacement of point i in a motion at START or END of a step."""
+    b = points[i].slave
+    x = y = z = 0.0
+    for q in range(points[i].count):
+        node, w = points[i].carriers[q], points[i].weights[q]
+        if elastic.stamp[when, node] != elastic.now[when]:
+            elastic.stamp[when, node] = elastic.now[when]
+            _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node])
+        x += w * elastic.node[when, node, 0]
+        y += w * elastic.node[when, node, 1]
+        z += w * elastic.node[when, node, 2]
+    elastic.point[when, i, 0], elastic.point[when, i, 1], elastic.point[when, i, 2] = x, y, z
+
+
+@njit
+def find_places(structure, points, motion, elastic, wanted, places):
+    """places (N, 3): positions at the START of the wanted nodes (mask) of the points, without their static part."""
+    for i in range(len(points)):
+        node, b = points[i].node, points[i].slave
+        if not wanted[node]:
+            continue
+        if elastic.stamp[START, node] != elastic.now[START]:
+            elastic.stamp[START, node] = elastic.now[START]
+            _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[START, node])
+        arms, moved = structure.bodies.arms, elastic.node[START]
+        x, y, z = arms[node, 0] + moved[node, 0], arms[node, 1] + moved[node, 1], arms[node, 2] + moved[node, 2]
+        for a in range(3):
+            places[node, a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
+
+
+@njit
+def find_position(points, i, motion, elastic, when, target):
+    """target (3,): position of point i without its static part, its elastic displacement being known."""
+    b, u = points[i].slave, elastic.point[when, i]
+    x, y, z = points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2]
+    for a in range(3):
+        target[a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
+    target[2] += points[i].lift
+
+
+@njit
+def locate_start(structure, points, i, start, elastic, before, place):
+    """Elastic displacement at the START of a step of point i, which was open, and where it was, unless the step before located it; place: (3,) room."""
+    find_elastic(structure, points, i, start, elastic, START)
+    if before[i].located:
+        return
+    find_position(points, i, start, elastic, START, place)
+    for a in range(3):
+        before[i].relative[a] = place[a]
+        if a < 2:
+            before[i].anchor[a] = place[a]
+    before[i].located = True
+
+
+@njit
+def find_velocity(structure, points, i, motion, elastic, when, target):
+    """target (3,): velocity of point i in a motion, its elastic displacement being known."""
+    b, u = points[i].slave, elastic.point[when, i]
+    R, w, moved = motion.rotation[b], motion.frames[b].spin, np.empty(3)
+    v0 = v1 = v2 = 0.0
+    for q in range(points[i].count):
+        _node_displacement(structure.pushes, motion.modal[b, RATE], points[i].carriers[q], moved)
+        v0 += points[i].weights[q] * moved[0]
+        v1 += points[i].weights[q] * moved[1]
+        v2 += points[i].weights[q] * moved[2]
+    x, y, z = points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2]
+    v0, v1, v2 = v0 + w[1] * z - w[2] * y, v1 + w[2] * x - w[0] * z, v2 + w[0] * y - w[1] * x
+    for a in range(3):
+        target[a] = motion.frames[b].velocity[a] + R[a, 0] * v0 + R[a, 1] * v1 + R[a, 2] * v2
