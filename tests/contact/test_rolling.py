@@ -6,7 +6,7 @@ import pytest
 from fecolumn.contact.interface import interface_of, rims_at_rest
 from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.rim import Rim
-from fecolumn.contact.rolling import LIKE, NEW, OLD, plan_roll, roll_points, stay
+from fecolumn.contact.rolling import NEW, OLD, plan_roll, roll_points, stay
 from fecolumn.contact.tolerances import FLAT, REACH, ROLL
 from fecolumn.fem.rotation import rotation_matrix
 
@@ -184,3 +184,14 @@ def test_where_the_lowest_point_leaps_the_rim_waits_until_what_carried_is_free()
     assert all(foot.plan(across)[1].leaps for foot in (loaded, free, landed))
     less, more = (Foot(0.7, 0.7).plan(leaning(0.7 + share * ROLL))[1].leaps for share in (0.99, 1.01))
     assert not less and more
+
+
+@pytest.mark.parametrize("azimuth", 0.7 + np.pi + np.array([-0.12, -0.05, 0.0, 0.03, 0.1]))
+def test_after_a_leap_the_nearest_point_that_rested_there_takes_the_lowest_place(azimuth):
+    foot = Foot(0.78, 0.7, forces=(0.0,))
+    _, roll = foot.plan(leaning(azimuth))
+    place = foot.angle_of(roll, OLD, roll.index[NEW] - roll.passed)
+    assert roll.leaps and abs((place - azimuth + np.pi) % (2 * np.pi) - np.pi) <= SECTOR / 2
+    before = foot.roll(roll)
+    carried = before["force"][foot.nodes], foot.contact["force"][foot.nodes]
+    assert (carried[0] == np.roll(carried[1], roll.passed, axis=0)).all()

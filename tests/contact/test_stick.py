@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from test_problem import DEEP, answer, many
+from one_foot import DEEP, answer, many
 
 from fecolumn._compiled import interpreted
 from fecolumn.contact.friction import solve_contact
@@ -77,9 +77,15 @@ def test_a_foot_that_mostly_opens_is_left_to_the_whole_problem():
     after = np.zeros(N, CONTACT)
     after["force"][:, 2] = 7.0
     slack = np.tile([0.0, 0.0, DEEP], (N, 1))
-    slack[0, 2] = -DEEP
+    slack[0, 2] = -0.5 * DEEP
     residual, _ = interpreted(solve_sticking)(stick, foot.points, slack, np.ones(N, bool), after, TIGHT, USABLE)
     assert residual == np.inf and (after["force"][:, 2] == 7.0).all()
+    # so is one that was solved no better than usable
+    exact, slack = answer(N, 2, 2, 1)
+    after["force"] = exact + 7.0
+    under = slack + (stick.W @ (after["force"] - exact).ravel()).reshape(N, 3)
+    residual, _ = interpreted(solve_sticking)(stick, foot.points, under, np.ones(N, bool), after, TIGHT, 0.0)
+    assert 0 < residual <= TIGHT and (after["force"] == exact + 7.0).all()
 
 
 def test_a_contact_problem_with_the_operator_ends_with_the_forces_without_it():
