@@ -147,7 +147,8 @@ class Stepper:
         lands = mark_landing(interface.record, interface.near, before, after.contact, landing)
         if not mark_turning(interface.points, interface.near, before, after.contact, turning) and not lands:
             return
-        early, late = interface.velocities(start.v, R), interface.velocities(after.v, R)
+        # each in the frame of its own time: turned by another one a rotation looks like a strain, which the foot's filter takes away
+        early, late = interface.velocities(start.v, start.rotation), interface.velocities(after.v, R)
         happens = what_happens(interface.record, interface.near, before, after.contact, hht.dt, early, late, landing, turning)
         if happens == NOTHING:
             return

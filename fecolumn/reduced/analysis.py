@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import time
 
@@ -84,19 +85,13 @@ class ReducedAnalysis(Analysis):
         saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
-                began, made_s, count = time.perf_counter(), self.base.made_s, min(CHUNK, self.steps - self.step)
+                count = min(CHUNK, self.steps - self.step)
                 if self.step < self.motion_steps:
                     count = min(count, self.motion_steps - self.step)
                 if self.fields:
                     count = min(count, self.field_steps - self.step % self.field_steps)
-                steps = range(self.step + 1, self.step + count + 1)
-                rows, over = engine.advance(np.array([self.ground(k) for k in steps]), np.array([self.steepest(k) for k in steps]), self.rest_j)
-                self.step += len(rows)
-                made_s = self.base.made_s - made_s
-                self.began += made_s
-                self.stepping_s += time.perf_counter() - began - made_s
-                self._note(rows)
-                last = rows[-1]
+                over = self._advance(count)
+                last = engine.made[-1]
                 progress.show(self.step, dict(time=last[0], tilt=last[4], active_nodes=int(last[11])), engine.record)
                 if self.fields and self.step % self.field_steps == 0:
                     self.fields.write(engine)
@@ -107,8 +102,6 @@ class ReducedAnalysis(Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            self._note(engine.made)
-            self.step += len(engine.made)
             off = self.slid_off(failure, self.base, engine.motion.frames["center"][0] + self.model.arms @ engine.motion.rotation[0].T)
             if off is None:
                 self._save()
@@ -117,6 +110,32 @@ class ReducedAnalysis(Analysis):
             progress.end()
         fallen = engine.fallen(self.steepest(self.step)) if over else STANDS
         return self.finish(off or self.ending(fallen, engine.motion.rotation[0]), self.model.dofs + self.base.dofs, engine.record, 0)
+
+    def _advance(self, count: int) -> bool:
+        """So many steps at most; whether the column is lost or at rest. Whatever error stops them, those made are noted.
+
+        Raises:
+            StepFailed: as `Engine.advance`. Any other error, of a full disk for example, once a checkpoint is written if the disk still takes it.
+        """
+        engine, steps, began, made_s = self.engine, range(self.step + 1, self.step + count + 1), time.perf_counter(), self.base.made_s
+        grounds, steepest = np.array([self.ground(k) for k in steps]), np.array([self.steepest(k) for k in steps])
+        failure, over = None, False
+        try:
+            over = engine.advance(grounds, steepest, self.rest_j)[1]
+        except Exception as error:  # of the disk, of memory, of the steps
+            failure = error
+        self._note(engine.made)
+        self.step += len(engine.made)
+        made_s = self.base.made_s - made_s
+        self.began += made_s
+        self.stepping_s += time.perf_counter() - began - made_s
+        if failure is None:
+            return over
+        # where compiled steps were broken off, the motion is of none of the rows
+        if not isinstance(failure, StepFailed) and engine.motion.time == self.history.last()["time"]:
+            with contextlib.suppress(OSError):
+                self._save()
+        raise failure
 
     def _note(self, rows: np.ndarray) -> None:
         columns, place = {}, 0

@@ -55,42 +55,42 @@ class KnownBase:
     """
 
     def __init__(self, folder: Path, make):
-        self._folder, self._make, self._reach, self.made_s = folder, make, 0, 0.0
+        self._folder, self._make, self.made_s = folder, make, 0.0
         with np.load(folder / "base.npz") as file:
             self.grid, self.frequency, self.dofs = BaseTop(file["points"]), float(file["frequency"]), int(file["dofs"])
             self._foot, self._allowance = file["foot"], float(file["allowance"])
-        self._open()
+        self._open(0)
 
     def need(self, wanted: np.ndarray) -> None:
         """Make sure that the compliance holds the top nodes `wanted`; a reach that no analysis needed before takes seconds."""
         while (self.slot[wanted] < 0).any():
-            self._reach += 1
-            if not self._file("known").is_file():
+            reach = self._reach + 1
+            if not self._file("known", reach).is_file():
                 began = time.perf_counter()
                 with alone(self._folder):
-                    if not self._file("known").is_file():
-                        self._extend()
+                    if not self._file("known", reach).is_file():
+                        self._extend(reach)
                 self.made_s += time.perf_counter() - began
-            self._open()
+            self._open(reach)
 
-    def _file(self, name: str) -> Path:
-        return self._folder / f"{name}-{self._reach}.npy"
+    def _file(self, name: str, reach: int) -> Path:
+        return self._folder / f"{name}-{reach}.npy"
 
-    def _open(self) -> None:
-        known = np.load(self._file("known"))
+    def _open(self, reach: int) -> None:
+        known = np.load(self._file("known", reach))
         # copy on write: compiled code wants arrays that may be written to
-        self.compliance = np.load(self._file("compliance"), mmap_mode="c").view(np.ndarray).transpose(0, 2, 1, 3)
+        self.compliance = np.load(self._file("compliance", reach), mmap_mode="c").view(np.ndarray).transpose(0, 2, 1, 3)
         self.slot = np.full(len(self.grid.points), -1, np.int64)
         self.slot[known] = np.arange(len(known))
-        self._known = known
+        self._known, self._reach = known, reach
 
-    def _extend(self) -> None:
+    def _extend(self, reach: int) -> None:
         plate = self._make()
         if not np.allclose(plate.grid.points, self.grid.points):
             raise RuntimeError(f"{self._folder}: the base has other nodes than the mesh made now; delete this folder")
         plate.adopt(self._known, self.compliance)
-        plate.need(_under(self.grid.points, self._foot, self._allowance * 2**self._reach))
-        _keep_base(plate, self._file)
+        plate.need(_under(self.grid.points, self._foot, self._allowance * 2**reach))
+        _keep_base(plate, lambda name: self._file(name, reach))
 
 
 def _keep_base(plate, file) -> None:

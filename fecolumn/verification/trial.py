@@ -108,7 +108,8 @@ class RigidRocking:
         column, radius = system.column, np.linalg.norm(system.interface.reference[:, :2], axis=1).max()
         height = column.center[2]
         self.slenderness, self.diagonal = float(np.arctan2(radius, height)), float(np.hypot(radius, height))
-        about_center = column.node_mass @ (column.X[:, 0] ** 2 + (column.X[:, 2] - height) ** 2)
+        turn = np.cross([0.0, 1.0, 0.0], column.X - column.center)
+        about_center = column.dot(turn, column.apply(column.mass, turn))
         self.inertia = float(about_center + column.total_mass * self.diagonal**2)
         self.p = float(np.sqrt(system.weight * self.diagonal / self.inertia))
         self.restitution = 1 - 2 * column.total_mass * self.diagonal**2 * np.sin(self.slenderness) ** 2 / self.inertia
