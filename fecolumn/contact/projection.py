@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn._compiled import interpreted, njit
 from fecolumn.contact.bodies import node_matrix
-from fecolumn.contact.points import POINT
+from fecolumn.contact.points import BASE, POINT
 
 # Answers of `project`
 ON, OFF, UNKNOWN = range(3)
@@ -33,7 +33,7 @@ def base_for_steps(base) -> Base:
 
 @njit
 def project(base, positions, listed, points):
-    """Find the base's nodes under the listed points (k,) at positions (n, 3): ON, OFF its top, or UNKNOWN compliance.
+    """Find the base's nodes under those of the listed points (k,) at positions (n, 3) that stand on it: ON, OFF its top, or UNKNOWN compliance.
 
     Bilinear interpolation on the facet vertically below: the top's slope under load is about 1e-5 rad and changes gap and cone by 1e-5 of themselves.
     An unbounded base is moved along with the middle of the positions by whole squares.
@@ -45,6 +45,8 @@ def project(base, positions, listed, points):
             dy += positions[i, 1] / len(positions)
         dx, dy = base.square * np.rint(dx / base.square), base.square * np.rint(dy / base.square)
     for i in listed:
+        if points[i].master != BASE:
+            continue
         x, y = positions[i, 0] - dx, positions[i, 1] - dy
         if not (base.x[0] <= x <= base.x[-1] and base.y[0] <= y <= base.y[-1]):
             return OFF
@@ -75,6 +77,7 @@ def _cell(lines, value):
 def nodes_under(grid, positions: np.ndarray, wanted: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Nodes (n, 4) of a `contact.base_top.BaseTop` under `positions` (n, 3) [m] and their shares (n, 4), of the wanted ones (mask) if it is given."""
     points, listed = np.zeros(len(positions), POINT), np.arange(len(positions)) if wanted is None else np.flatnonzero(wanted)
+    points["master"] = BASE
     base = Base(grid.x, grid.y, grid.number, np.arange(len(grid.points)), np.empty((0, 0)), grid.square)
     interpreted(project)(base, positions, listed, points)
     return points["below"], points["shares"]

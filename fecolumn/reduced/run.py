@@ -153,6 +153,8 @@ class Engine:
                 rows of the steps made are in `made`. So they are where anything else stops the steps, a base that cannot be extended for example.
         """
         grounds, done = np.array(grounds, float), 0
+        if not np.isfinite(grounds).all():
+            raise ValueError("a ground acceleration is not a finite number")
         steepest = steepest_to_come(self.structure.gravity, grounds) if steepest is None else np.asarray(steepest, float)
         rows = np.empty((len(grounds), WIDTH))
         self.made = rows[:0]
@@ -191,11 +193,10 @@ class Engine:
         try:
             in_halves(take, None, self.motion.whole["ground"][0].copy(), ground, self.hht, self.max_cuts, failure, self._count_cut)
         except BaseException as error:
-            time = self.motion.time
             motions.copy(saved, self.motion)
             self.ledger[:] = booked
             if isinstance(error, StepFailed):
-                raise StepFailed(error.stop, f"t = {time:.6g} s: {error}") from None
+                raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None
             raise
 
     def _count_cut(self) -> None:

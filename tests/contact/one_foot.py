@@ -4,7 +4,7 @@ import numpy as np
 from two_blocks import Blocks, compliance
 
 from fecolumn._compiled import interpreted
-from fecolumn.contact.base_top import Base
+from fecolumn.contact.projection import Base
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.interface import interface_of
