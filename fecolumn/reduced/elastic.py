@@ -41,6 +41,18 @@ def _node_displacement(pushes, coordinates, node, target):
 
 
 @njit
+def find_all_elastic(structure, b, motion, elastic, when):
+    """Find the elastic displacement of all nodes of body b, for a foot of which all points touch: one product."""
+    first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
+    flat = structure.pushes.reshape(3 * len(structure.pushes), structure.pushes.shape[2])
+    moved = flat[3 * first:3 * (first + count)] @ motion.modal[b, COORDINATE]
+    for i in range(count):
+        elastic.stamp[when, first + i] = elastic.now[when]
+        for a in range(3):
+            elastic.node[when, first + i, a] = moved[3 * i + a]
+
+
+@njit
 def find_elastic(structure, points, i, motion, elastic, when):
     """Find the elastic displacement of point i in a motion at START or END of a step."""
     b = points[i].slave

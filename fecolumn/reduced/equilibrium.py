@@ -25,7 +25,7 @@ from fecolumn.contact.problem import (
 )
 from fecolumn.contact.stick import Stick, holds, no_stick
 from fecolumn.contact.tolerances import CLOSE, FLAT, ITERATIONS, PAD_TURN, SOLVED, STICK_STAYS, STICK_TURN, STICK_WAY
-from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_elastic, find_position, locate_start, no_elastic
+from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, follow, no_action
 
 
@@ -81,6 +81,8 @@ def find_positions(structure, work, start, end):
             stored += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
         # no node moves farther than the modes' energy allows
         reach = np.sqrt(stored)
+        if all_of_them and end.modal.shape[2] > 0:
+            find_all_elastic(structure, b, end, elastic, END)
         for i in range(len(points)):
             if points[i].slave != b:
                 continue

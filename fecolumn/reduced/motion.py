@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.arrays import put_matrix
+from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.interface import RIM
 from fecolumn.contact.points import CONTACT
 from fecolumn.contact.record import record
@@ -125,9 +125,22 @@ def modal_forces(structure, points, listed, b, rotation, contact, target):
     target[:] = 0.0
     if len(target) == 0:
         return
+    if 2 * len(listed) <= len(points):
+        for i in listed:
+            if points[i].slave == b and contact[i].force[2] > 0.0:
+                _add_modal(structure.pushes, points[i], rotation, contact[i].force[0], contact[i].force[1], contact[i].force[2], target)
+        return
+    # of a whole foot: forces on its nodes first, then one product
+    first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
+    nodal, flat = np.zeros(3 * count), structure.pushes.reshape(3 * len(structure.pushes), len(target))
     for i in listed:
-        if points[i].slave == b and contact[i].force[2] > 0.0:
-            _add_modal(structure.pushes, points[i], rotation, contact[i].force[0], contact[i].force[1], contact[i].force[2], target)
+        r0, r1, r2 = contact[i].force[0], contact[i].force[1], contact[i].force[2]
+        if points[i].slave == b and r2 > 0.0:
+            for a in range(3):
+                along = rotation[0, a] * r0 + rotation[1, a] * r1 + rotation[2, a] * r2
+                for q in range(points[i].count):
+                    nodal[3 * (points[i].carriers[q] - first) + a] += points[i].weights[q] * along
+    put(nodal @ flat[3 * first:3 * (first + count)], target)
 
 
 @njit
