@@ -147,7 +147,7 @@ def _draw_heights(axes, below) -> None:
     def heights(past, points):
         return ((nodes @ turned(past).T)[points["carriers"], 2] * points["weights"]).sum(axis=1) + np.sin(tilt)
 
-    rim, points, contact, rims = Rim.find(nodes), node_points(nodes, 0.5), np.zeros(n, CONTACT), rims_at_rest(np.zeros(1))
+    rim, points, contact, rims = Rim.find(nodes), node_points(nodes, 0.5), np.zeros(n, CONTACT), rims_at_rest()
     ring = np.asarray(rim.nodes)
     contact["located"], contact["force"][ring[(int(start) - int(np.rint(rim.first / sector))) % n], 2] = True, 1.0
     rims["angle"] = (start - step / 2) * sector

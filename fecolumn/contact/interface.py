@@ -30,8 +30,8 @@ def interface_of(reference: np.ndarray, rim=None, restitution: float = 0.0, roll
     return interface
 
 
-def rims_at_rest(interfaces: np.ndarray) -> np.ndarray:
-    """(ni,) of RIM that touch with their nodes only."""
-    rims = np.zeros(len(interfaces), RIM)
+def rims_at_rest(count: int = 1) -> np.ndarray:
+    """(count,) of RIM that touch with their nodes only."""
+    rims = np.zeros(count, RIM)
     rims["angle"] = np.nan
     return rims

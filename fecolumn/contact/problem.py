@@ -30,8 +30,8 @@ N_COUNTS = 5
 class Problem(NamedTuple):
     """Room and memory of the contact problem of n points within a step.
 
-    near: (n,) points that are low or carry force, as many as the first of `count` (2,) says: those of which more than the place matters; close: (n,) whether a
-    point is one; active: (n,) those that take part, `count[1]` of them; evened: (n,) those whose `uneven` is found.
+    near: (n,) points that are low or carry force, as many as the first of `count` (2,) says: those of which more than the place matters;
+    active: (n,) those that take part, `count[1]` of them; evened: (n,) those whose `uneven` is found.
     displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,) stiffness by which the laws are measured [N/m].
     W: (9 n^2,) room for the compliance of the active points. flags: (3,) whether W is assembled, the foot stays where its stick operator
     holds, and it stays long enough for finding one.
@@ -39,7 +39,6 @@ class Problem(NamedTuple):
 
     near: np.ndarray
     count: np.ndarray
-    close: np.ndarray
     active: np.ndarray
     evened: np.ndarray
     displaced: np.ndarray
@@ -54,7 +53,7 @@ ASSEMBLED, STICKS_STILL, WORTH_STICK = range(3)
 
 def room(n: int) -> Problem:
     """For n points."""
-    return Problem(np.zeros(n, np.int64), np.zeros(2, np.int64), *(np.zeros(n, bool) for _ in range(3)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
+    return Problem(np.zeros(n, np.int64), np.zeros(2, np.int64), *(np.zeros(n, bool) for _ in range(2)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
 
 
 @njit
@@ -71,7 +70,6 @@ def mark_close(problem, interface, positions, before, after):
     count, everyone, height = 0, problem.flags[STICKS_STILL], CLOSE * interface.width
     for i in range(len(after)):
         close = everyone or positions[i, 2] < height or after[i].force[2] > 0 or before[i].force[2] > 0
-        problem.close[i] = close
         after[i].located = close
         if close:
             problem.near[count] = i
@@ -126,7 +124,7 @@ def find_residual(problem, bodies, base, points, interface, springs, dynamic, ri
         for a in range(3):
             after[i].relative[a] = positions[i, a] + problem.displaced[i, a]
         new = (positions[i, 2] < NEAR * interface.width or after[i].force[2] > 0
-                                    or after[i].relative[2] < -PENETRATION * interface.width)
+               or after[i].relative[2] < -PENETRATION * interface.width)
         changed |= new != problem.active[i]
         problem.active[i] = new
         active += new
@@ -261,7 +259,8 @@ def solve_linear(problem, bodies, base, points, interface, springs, dynamic, ela
     listed = near_points(problem)
     k, arms, old = len(listed), np.zeros((len(after), 3)), np.empty(3 * len(listed))
     response = np.empty((3 * k, 3 * k))
-    assemble(bodies, base, points, arms, listed, rotations, 0.0, elastic, 0.0, springs.own, response)
+    if most > 0:
+        assemble(bodies, base, points, arms, listed, rotations, 0.0, elastic, 0.0, springs.own, response)
     for attempt in range(most + 1):
         answer, residual = find_residual(problem, bodies, base, points, interface, springs, dynamic, 0.0, stick, rim_angle, center, rotations,
                                          positions, attempt == 0, before, after, counts)

@@ -6,13 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn._compiled import interpreted
+from fecolumn._compiled import compile_for, compiled, interpreted
 from fecolumn.contact.projection import base_for_steps, project
 from fecolumn.contact.bodies import node_matrix, one_body
 from fecolumn.contact.compliance import assemble
-from fecolumn.contact.interface import RIM, interface_of
+from fecolumn.contact.impact import find_impact
+from fecolumn.contact.interface import interface_of
 from fecolumn.contact.pad import springs_of
-from fecolumn.contact.points import node_points
+from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, begin_problem, near_points, room, solve_linear, stored_energy
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
@@ -62,6 +63,17 @@ class Interface:
         self.bodies = one_body(reference, node_matrix(foot.static), mobility)
         self.surface, self.counts = base_for_steps(base), np.zeros(N_COUNTS, np.int64)
         self._problem, self._stick = room(self.size), no_stick(0)
+
+    def prepare(self, say=lambda text: None) -> None:
+        """Have compiled what the steps call, so that the first landing costs what all cost; `say` is told why it takes long, if it does."""
+        if not (compiled(solve_linear) and compiled(find_impact)):
+            say("compiling the contact of the full-order engine, once on this machine: a minute")
+        before, values, mask = np.zeros(self.size, CONTACT), np.zeros((self.size, 3)), np.zeros(self.size, bool)
+        static, springs = self.bodies.static, springs_of(self.points, self.record, 1.0)
+        compile_for(solve_linear, (self._problem, self.bodies, self.surface, self.points, self.record, springs, static, static, self._stick, np.nan, values[0],
+                                   np.eye(3)[None], values, ITERATIONS, before, before, self.counts))
+        compile_for(find_impact, (self.bodies, self.surface, self.points, self.record, springs, self.near, values, np.eye(3)[None], before, before, values, values,
+                                  mask, mask, True, 1.0, 1.0, self.counts))
 
     def at_points(self, values: np.ndarray) -> np.ndarray:
         """Values (n, ...) at the points from those at the nodes."""
@@ -147,7 +159,7 @@ class Interface:
                                             self._stick, np.nan, positions[0], rotation[None], positions, times, before, after, self.counts)
             if answer != FAR_BASE:
                 return _STOPS.get(answer, Stop.CONVERGED), residual
-            self._extend_base(positions[self._problem.close])
+            self._extend_base(positions[self.near])
 
     def _extend_base(self, positions) -> None:
         """Make the base's compliance known under positions (k, 3) and one row of its nodes around."""
@@ -167,10 +179,3 @@ class Interface:
         """Iterations of contact problems since the last call."""
         count, self.counts[N_CONTACT] = int(self.counts[N_CONTACT]), 0
         return count
-
-
-def rims_at_nodes() -> np.ndarray:
-    """(1,) of RIM: touching with its nodes only."""
-    rims = np.zeros(1, RIM)
-    rims["angle"] = np.nan
-    return rims

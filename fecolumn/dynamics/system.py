@@ -6,9 +6,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.points import CONTACT
 from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.interface import Interface, Nodal, rims_at_nodes
+from fecolumn.dynamics.interface import Interface, Nodal
 from fecolumn.dynamics.resistance import Resistance
 from fecolumn.fem.damping import DampedFactor
 from fecolumn.fem.effective import Factor, effective_factor
@@ -38,7 +39,7 @@ class State:
     contact: np.ndarray
     static: float
     ground: np.ndarray
-    rims: np.ndarray = field(default_factory=rims_at_nodes)
+    rims: np.ndarray = field(default_factory=rims_at_rest)
 
     @property
     def forces(self) -> np.ndarray:

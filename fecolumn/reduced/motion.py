@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put, put_matrix
-from fecolumn.contact.interface import RIM
+from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.points import CONTACT
 from fecolumn.contact.record import record
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
@@ -47,10 +47,8 @@ class Motion(NamedTuple):
 
 def at_rest(points: int, modes: int, bodies: int = 1, interfaces: int = 1) -> Motion:
     """Zeros everywhere but for upright rotations."""
-    motion = Motion(np.zeros(bodies, FRAME), np.tile(np.eye(3), (bodies, 1, 1)), np.zeros((bodies, 3, modes)), np.zeros(points, CONTACT),
-                    np.zeros(interfaces, RIM), np.zeros(1, WHOLE))
-    motion.rims["angle"] = np.nan
-    return motion
+    return Motion(np.zeros(bodies, FRAME), np.tile(np.eye(3), (bodies, 1, 1)), np.zeros((bodies, 3, modes)), np.zeros(points, CONTACT),
+                  rims_at_rest(interfaces), np.zeros(1, WHOLE))
 
 
 class Action(NamedTuple):

@@ -31,7 +31,7 @@ class Foot:
         self.arms = np.column_stack([RADIUS * np.cos(circle), RADIUS * np.sin(circle), np.full(N, -HEIGHT)])
         rim = Rim.find(self.arms)
         self.nodes, self.interface, self.points = np.asarray(rim.nodes, np.int64), interface_of(self.arms, rim)[0], node_points(self.arms, 0.5)
-        self.first, self.rim = rim.first, rims_at_rest(np.zeros(1))
+        self.first, self.rim = rim.first, rims_at_rest()
         self.rotation, self.contact, rng = leaning(azimuth, tilt), np.zeros(N, CONTACT), np.random.default_rng(1)
         if angle is not None:
             self.rim["angle"] = angle
