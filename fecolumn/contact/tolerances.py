@@ -11,7 +11,12 @@ NEAR = 2e-5
 CLOSE = 4e-5
 #: Residual of the contact laws at which a step is solved: a thousandth of the elastic indentation of a standing steel column.
 SOLVED = 1e-11
-#: Residual to which a contact problem is solved, over SOLVED: so that what the motion adds to it may be as large as it is.
+#: Force over the strongest one that a residual may stand for, where that is less: the same thousandth, which a stiff, light or short-stepped foot
+#: passes within a far shorter length.
+SHARE = 1e-3
+#: Residual that is always small enough: 400 times the rounding of a position, so that a column twenty times as high as wide reaches it.
+EXACT = 1e-13
+#: Residual to which a contact problem is solved, over that at which a step is: so that what the motion adds to it may be as large as it is.
 SHARP = 0.1
 #: Residual of a contact problem that may still be used to go on from; above it the step has failed.
 USABLE = 1e-9

@@ -24,7 +24,7 @@ from fecolumn.contact.problem import (
     stored_energy,
 )
 from fecolumn.contact.stick import Stick, holds, no_stick
-from fecolumn.contact.tolerances import CLOSE, FLAT, ITERATIONS, PAD_TURN, SOLVED, STICK_STAYS, STICK_TURN, STICK_WAY
+from fecolumn.contact.tolerances import CLOSE, FLAT, ITERATIONS, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, follow, no_action
 
@@ -135,7 +135,7 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
                                          rim_angle, end.frames[0].center, end.rotation, work.positions, iteration == 0, before, end.contact, counts)
         if answer != OK:
             return answer
-        if residual <= SOLVED * interface.width:
+        if residual <= 1.0:
             end.whole[0].static = stored_energy(problem, points, interface, scheme.springs, before, end.contact)
             return OK
         answer = find_forces(problem, points, interface, work.stick, end.contact, counts)
