@@ -189,9 +189,10 @@ def test_where_the_lowest_point_leaps_the_rim_waits_until_what_carried_is_free()
 def test_a_contact_that_rolls_on_widens_without_landing_and_one_that_comes_down_lands():
     """Points beside the lowest one of a rim that carries belong to it; with nothing carried, after a leap, and where the points stay, all of them may land."""
     foot, halfway = steady(0.02)
-    foot.roll(foot.plan(halfway)[1])
-    beside = np.abs((foot.nodes - foot.nodes[np.argmax(foot.contact["force"][foot.nodes, 2])] + N / 2) % N - N / 2) * SECTOR <= ROLL
-    assert foot.points["rolls"][foot.nodes].sum() == 2 * int(ROLL / SECTOR) + 1 and (foot.points["rolls"][foot.nodes] == beside).all()
+    roll = foot.plan(halfway)[1]
+    foot.roll(roll)
+    away = [(foot.angle_of(roll, NEW, k) - roll.angle + np.pi) % (2 * np.pi) - np.pi for k in range(N)]
+    assert (foot.points["rolls"][foot.nodes] == (np.abs(away) <= ROLL)).all() and 1 < foot.points["rolls"].sum() < N / 2
     for other, towards in ((Foot(0.7, 0.7, forces=(0.0,)), 0.72), (Foot(0.7, 0.7, about=0.7 + np.pi), 0.7 + np.pi)):
         other.points["rolls"] = True
         other.roll(other.plan(leaning(towards))[1])
