@@ -20,16 +20,18 @@ _FOOT_HEIGHT = 0.9
 
 @dataclass(frozen=True, slots=True)
 class Camera:
-    """A parallel projection: (3,) unit vectors to the right, upwards and towards the viewer; (3,) point in the middle [m]; half the height shown [m]."""
+    """A parallel projection: (3,) unit vectors to the right, upwards and towards the viewer; (3,) point in the middle [m]; half the height shown [m].
+    natural: width over height [-] of what is to be seen."""
 
     right: np.ndarray
     up: np.ndarray
     toward: np.ndarray
     focus: np.ndarray
     half_height: float
+    natural: float
 
 
-def camera(result: Result, view: str, times: np.ndarray, aspect: float) -> Camera:
+def camera(result: Result, view: str, times: np.ndarray, aspect: float = 1.0) -> Camera:
     """The camera of a view that shows the column at all `times` [s], on pictures `aspect` times as wide as high."""
     azimuth, elevation = VIEWS[view]
     azimuth, elevation = np.radians(_across_lean(result, times) if azimuth is None else azimuth), np.radians(elevation)
@@ -41,7 +43,7 @@ def camera(result: Result, view: str, times: np.ndarray, aspect: float) -> Camer
     middle = [extent.mean() for extent in extents]
     half = [np.ptp(extent) / 2 for extent in extents]
     focus = right * middle[0] + up * middle[1] + toward * (shown @ toward).mean()
-    return Camera(right, up, toward, focus, float(_MARGIN * max(half[1], half[0] / aspect)))
+    return Camera(right, up, toward, focus, float(_MARGIN * max(half[1], half[0] / aspect)), float(half[0] / half[1]))
 
 
 def _across_lean(result: Result, times: np.ndarray) -> float:

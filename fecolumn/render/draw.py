@@ -24,7 +24,6 @@ _SIDES, _DPI = (128, 4096), 400
 _ASPECT = 1.4, 3.0
 # A longer movie was asked for by mistake
 _MOST_PICTURES = 100_000
-_STILL = 1000, 1300  # [pixels]
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,23 +127,27 @@ def _path(result: Result) -> np.ndarray:
 
 def _pictures(result: Result, wish: Wish, start: float, end: float, target: Path) -> list[Path]:
     """Stills, and the sequence figure of them."""
-    from fecolumn.post.style import save  # noqa: F401  (matplotlib, before VTK)
     from fecolumn.render.scene import Scene
     from fecolumn.render.sequence import picture_size, sequence_figure
-    from fecolumn.render.still import still_figure
+    from fecolumn.render.still import still_figure, still_size
 
     instants = np.unique(wish.instants) if wish.instants else chosen_instants(result, start, end)
     interval = max(1 / wish.fps * wish.speed, result.fields.interval if len(result.fields.time) > 1 else 0.0)
     frames = Frames(result, instants, interval, wish.exaggerate, wish.color)
-    moving, drawn = np.linspace(start, end, 200), list(frames)
+    drawn = list(frames)
+
+    def scene(size):
+        return Scene(frames, camera(result, wish.view, frames.times, size[0] / size[1]), size, _path(result), result.poses.time)
+
     with written(target, "render pictures", names=("sequence.png", "sequence.pdf")) as draft:
-        size = picture_size(len(drawn), _DPI)
-        with Scene(frames, camera(result, wish.view, frames.times if wish.view != "foot" else moving, size[0] / size[1]), size, _path(result), result.poses.time) as scene:
-            images = [scene.image(frame) for frame in drawn]
-        sequence_figure(frames, images, np.array([start, end]), draft / "sequence")
-        with Scene(frames, camera(result, wish.view, frames.times, _STILL[0] / _STILL[1]), _STILL, _path(result), result.poses.time) as scene:
+        natural = camera(result, wish.view, frames.times).natural
+        size = picture_size(len(drawn), natural, _DPI)
+        with scene(size) as sequence:
+            sequence_figure(frames, [sequence.image(frame) for frame in drawn], _DPI, np.array([start, end]), draft / "sequence")
+        size = still_size(natural, _DPI)
+        with scene(size) as still:
             for frame in drawn:
-                still_figure(frames, frame, scene.image(frame), draft / f"still_{frame.time:.3f}s")
+                still_figure(frames, frame, still.image(frame), _DPI, draft / f"still_{frame.time:.3f}s")
         names = sorted(file.name for file in draft.iterdir())
     return [target / name for name in names]
 
@@ -163,7 +166,7 @@ def _movie(result: Result, wish: Wish, start: float, end: float, target: Path, q
     size = panel.scene_size
     with written(target, f"render {name}", names=(name,)) as draft:
         view = camera(result, wish.view, frames.times, size[0] / size[1])
-        with Scene(frames, view, size, _path(result), result.poses.time, quick=False) as scene:
+        with Scene(frames, view, size, _path(result), result.poses.time, quick=True) as scene:
 
             def picture(k):
                 frame = frames.frame(k)

@@ -16,6 +16,8 @@ COLOURS = ("stress", "displacement")
 _SEEN = 0.05
 # Frames that are looked at for the range of colours, and for "auto"
 _SAMPLES = 24
+# Points of the pressure's path a frame, so that it is a curve where the column rolls
+_FINER = 4
 # Share of the values [-] that colours range over: a single element under the edge on which the column stands would take all colours
 _RANGE = 99.8
 # Decades of stress and of pressure that colours show: under the edge on which a column rocks they are a hundred times those of standing
@@ -73,7 +75,9 @@ class Frames:
             times = fields.time[self._number]
         self.times = np.asarray(times, float)
         self._poses = result.poses.at(self.times)
-        self.centres = self._pressure_centres(interval)
+        rows = float(np.median(np.diff(result.poses.time)))
+        self._interval = max(interval, 2 * rows)  # of momentum, for which velocities are wanted
+        self.centres = self._pressure_centres(self.times)
         body = result.solid.mesh.body
         self._count, self._foot_points = len(body.points), np.unique(result.solid.foot_faces)
         self.exaggeration = 1.0 if exaggerate == "auto" else float(exaggerate)
@@ -122,12 +126,15 @@ class Frames:
         arms, middle = points - points.mean(axis=0), moved.mean(axis=0)
         return middle + arms @ polar_rotation((moved - middle).T @ arms).T
 
-    def _pressure_centres(self, interval: float) -> np.ndarray:
+    def _pressure_centres(self, times: np.ndarray) -> np.ndarray:
         from fecolumn.render.pressure_centre import pressure_centre
 
-        result = self.result
-        rows = float(np.median(np.diff(result.poses.time)))
-        return pressure_centre(result.poses, result.history["ground"], result.solid.mass, self.times, max(interval, 2 * rows))
+        return pressure_centre(self.result.poses, self.result.history["ground"], self.result.solid.mass, times, self._interval)
+
+    def pressure_path(self) -> tuple[np.ndarray, np.ndarray]:
+        """Times (n,) [s] from the first frame to the last, more than there are frames, and the centre of the pressure (n, 2) [m] at each."""
+        times = np.linspace(self.times[0], self.times[-1], _FINER * len(self))
+        return times, self._pressure_centres(times)
 
     def _sample(self) -> np.ndarray:
         return np.unique(np.linspace(0, len(self) - 1, _SAMPLES).round().astype(int))

@@ -21,6 +21,8 @@ _FOOT_BAR = (0.82, 0.105, 0.165, 0.018)
 _HEIGHT_IN = 5.4
 #: Colour map of the pressure, and of the gap
 PRESSURE_MAP, GAP_MAP = "YlOrRd", "Greys"
+# Share of the movie [-] of which the way of the pressure's centre is drawn thick
+_TRAIL = 0.06
 _VEIL = dict(facecolor="white", alpha=0.68, linewidth=0)
 
 
@@ -56,10 +58,11 @@ class Panel:
     def _place_strips(self, figure) -> None:
         strips = strips_of(self.frames.result, self.frames.times)
         left, bottom, width, height = _STRIPS
-        each, gap = height / len(strips), 0.045
+        gap = 0.048
+        each = (height - (len(strips) - 1) * gap) / len(strips)
         self._cursors = []
         for row, strip in enumerate(strips):
-            axes = figure.add_axes([left, bottom + height - (row + 1) * each + gap * (row < len(strips) - 1) * 0.4, width, each - gap])
+            axes = figure.add_axes([left, bottom + (len(strips) - 1 - row) * (each + gap), width, each])
             draw_strip(axes, strip, last=row == len(strips) - 1)
             veil = axes.axvspan(0, 1, zorder=3, animated=True, **_VEIL)
             cursor = axes.axvline(0, color=BLACK, linewidth=0.8, zorder=4, animated=True)
@@ -75,7 +78,7 @@ class Panel:
         half = 1.1 * max(np.abs(self._way).max(), 1e-9)
         axes.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xlabel=f"$u_x$ [{quantity.unit}]")
         axes.set_ylabel(f"$u_y$ [{quantity.unit}]", labelpad=1)
-        axes.set_title("top, from above", loc="left")
+        axes.set_title("top in plan", loc="left")
         self._trace, = axes.plot([], [], color=VERMILION, linewidth=0.9, animated=True)
         self._top, = axes.plot([], [], "o", color=VERMILION, markersize=4, animated=True)
         self._moving += [(axes, self._trace), (axes, self._top)]
@@ -94,14 +97,16 @@ class Panel:
         limits = [(centre - half) / quantity.scale for centre in middle], [(centre + half) / quantity.scale for centre in middle]
         axes.set(xlim=(limits[0][0], limits[1][0]), ylim=(limits[0][1], limits[1][1]), aspect="equal", xlabel=f"$x$ [{quantity.unit}]")
         axes.set_ylabel(f"$y$ [{quantity.unit}]", labelpad=1)
-        axes.set_title("foot, from above", loc="left")
+        axes.set_title("foot in plan", loc="left")
         self._shading = frames.pressure_quantity or Quantity.of("gap", "m", np.ptp(poses.move(corners, slice(None))[..., 2]))
         self._faces = PolyCollection([], cmap=PRESSURE_MAP if frames.pressure_quantity else GAP_MAP, norm=self._shading.norm(), edgecolors="#70757a", linewidths=0.15, animated=True)
         axes.add_collection(self._faces)
-        self._centres, = axes.plot([], [], color=BLUE, linewidth=0.8, animated=True)
+        self._way_of_centre = frames.pressure_path()
+        self._centres, = axes.plot([], [], color=BLUE, linewidth=0.4, alpha=0.5, animated=True)
+        self._last_centres, = axes.plot([], [], color=BLUE, linewidth=1.1, animated=True)
         self._centre, = axes.plot([], [], "o", color=BLUE, markersize=4.5, markeredgecolor="white", markeredgewidth=0.6, animated=True, label="pressure's centre")
-        axes.legend(handles=[self._centre], loc="lower right", bbox_to_anchor=(1.03, 0.99), borderaxespad=0, framealpha=0, handlelength=0.8)
-        self._moving += [(axes, self._faces), (axes, self._centres), (axes, self._centre)]
+        axes.legend(handles=[self._centre], loc="lower right", bbox_to_anchor=(1.03, 0.99), borderaxespad=0, framealpha=0, handlelength=0.8, handletextpad=0.3)
+        self._moving += [(axes, self._faces), (axes, self._centres), (axes, self._last_centres), (axes, self._centre)]
         figure.colorbar(self._faces, cax=figure.add_axes(_FOOT_BAR), orientation="horizontal", label=self._shading.label)
 
     def _place_words(self, figure, speed: float) -> None:
@@ -117,6 +122,10 @@ class Panel:
 
     def picture(self, frame: Frame, scene: np.ndarray) -> np.ndarray:
         """(height, width, 3) pixels of a frame, with the image that `Scene` made of it."""
+        with styled():  # numbers of the time stamp are set now
+            return self._picture(frame, scene)
+
+    def _picture(self, frame: Frame, scene: np.ndarray) -> np.ndarray:
         self._canvas.restore_region(self._still)
         renderer = self._canvas.get_renderer()
         history = self.frames.result.history
@@ -131,8 +140,10 @@ class Panel:
         self._top.set_data(*way[-1:].T)
         self._faces.set_verts(frame.foot[..., :2] / self._foot_scale)
         self._faces.set_array((frame.foot[..., 2].mean(axis=1) if frame.pressure is None else frame.pressure) / self._shading.scale)
-        done = self.frames.centres[: int(np.searchsorted(self.frames.times, frame.time + 1e-12))] / self._foot_scale
-        self._centres.set_data(*done.T)
+        times, centres = self._way_of_centre
+        last, now = np.searchsorted(times, [frame.time - _TRAIL * (self._end - self.frames.times[0]), frame.time + 1e-12])
+        self._centres.set_data(*centres[:now].T / self._foot_scale)
+        self._last_centres.set_data(*centres[last:now].T / self._foot_scale)
         self._centre.set_data(*(frame.centre[:, None] / self._foot_scale))
         for axes, artist in self._moving:
             axes.draw_artist(artist)
