@@ -22,6 +22,8 @@ COMMAND = "fecolumn render"
 _SIDES, _DPI = (128, 4096), 400
 # Width over height of a movie: parts of the picture overlap in a narrower one
 _ASPECT = 1.4, 3.0
+# Frames that are looked at for the range of colours, and for the exaggeration "auto"
+_SAMPLES = 24
 # A longer movie was asked for by mistake
 _MOST_PICTURES = 100_000
 
@@ -120,6 +122,12 @@ def _window(result: Result, wish: Wish) -> tuple[float, float]:
     return start, end
 
 
+def _frames(result: Result, wish: Wish, start: float, end: float, times: np.ndarray, interval: float) -> Frames:
+    """Frames at `times` that range over the same colours, whichever they are of those from start to end [s]."""
+    whole = Frames(result, np.linspace(start, end, _SAMPLES), interval, wish.exaggerate, wish.color)
+    return Frames(result, times, interval, wish.exaggerate, wish.color, like=whole)
+
+
 def _path(result: Result) -> np.ndarray:
     """Positions (n, 3) [m] of the top's centre."""
     return result.history["u_top"] + result.solid.top
@@ -133,7 +141,7 @@ def _pictures(result: Result, wish: Wish, start: float, end: float, target: Path
 
     instants = np.unique(wish.instants) if wish.instants else chosen_instants(result, start, end)
     interval = max(1 / wish.fps * wish.speed, result.fields.interval if len(result.fields.time) > 1 else 0.0)
-    frames = Frames(result, instants, interval, wish.exaggerate, wish.color)
+    frames = _frames(result, wish, start, end, instants, interval)
     drawn = list(frames)
 
     def scene(size):
@@ -161,7 +169,7 @@ def _movie(result: Result, wish: Wish, start: float, end: float, target: Path, q
     interval, name = wish.speed / fps, "motion.gif" if wish.gif else "motion.mp4"
     count = int((end - start) / interval + 1e-6) + 1
     _check(count <= _MOST_PICTURES, "--fps, --speed", f"{wish.fps:g}, {wish.speed:g}", f"make {count} pictures, more than {_MOST_PICTURES}; give --start and --end")
-    frames = Frames(result, start + interval * np.arange(count), interval, wish.exaggerate, wish.color)
+    frames = _frames(result, wish, start, end, start + interval * np.arange(count), interval)
     panel, progress = Panel(frames, wish.size, wish.speed), CountProgress(len(frames), "pictures", quiet)
     size = panel.scene_size
     with written(target, f"render {name}", names=(name,)) as draft:

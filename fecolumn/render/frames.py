@@ -14,8 +14,6 @@ from fecolumn.schema import InputError
 COLOURS = ("stress", "displacement")
 # Largest elastic displacement as it is drawn under "auto", over the height of the column [-]
 _SEEN = 0.05
-# Frames that are looked at for the range of colours, and for "auto"
-_SAMPLES = 24
 # Points of the pressure's path a frame, so that it is a curve where the column rolls
 _FINER = 4
 # Share of the values [-] that colours range over: a single element under the edge on which the column stands would take all colours
@@ -56,8 +54,10 @@ class Frames:
         colour_quantity: Quantity of Frame.colour, pressure_quantity: of Frame.pressure, None where there is none.
     """
 
-    def __init__(self, result: Result, times: np.ndarray, interval: float, exaggerate: float | str = 1.0, colour: str = ""):
-        """Frames at `times` (k,) [s], each for `interval` [s]; exaggerate: elastic displacements by this factor, or "auto"; colour: of COLOURS, "" for what there is.
+    def __init__(self, result: Result, times: np.ndarray, interval: float, exaggerate: float | str = 1.0, colour: str = "",
+                 like: Frames | None = None):
+        """Frames at `times` (k,) [s], each for `interval` [s]; exaggerate: elastic displacements by this factor, or "auto"; colour: of COLOURS, "" for what there is;
+        like: others whose exaggeration and ranges of colours these have.
 
         Raises:
             InputError: elastic displacements or stress are asked for, and were not written.
@@ -76,13 +76,16 @@ class Frames:
         self.times = np.asarray(times, float)
         self._poses = result.poses.at(self.times)
         rows = float(np.median(np.diff(result.poses.time)))
-        self._interval = max(interval, 2 * rows)  # of momentum, for which velocities are wanted
+        self._interval = max(interval / _FINER, 4 * rows)  # of momentum, for which velocities are wanted
         self.centres = self._pressure_centres(self.times)
         body = result.solid.mesh.body
         self._count, self._foot_points = len(body.points), np.unique(result.solid.foot_faces)
+        if like:
+            self.exaggeration, self.colour_quantity, self.pressure_quantity = like.exaggeration, like.colour_quantity, like.pressure_quantity
+            return
         self.exaggeration = 1.0 if exaggerate == "auto" else float(exaggerate)
         if exaggerate == "auto":
-            self.exaggeration = _round_down(_SEEN * result.solid.height / max(self._largest_elastic(), 1e-12))
+            self.exaggeration = _round_down(_SEEN * result.solid.height / max(max(map(self._largest_elastic, range(len(self)))), 1e-12))
         self.colour_quantity, self.pressure_quantity = self._quantities()
 
     def __len__(self) -> int:
@@ -117,8 +120,10 @@ class Frames:
             colour = np.linalg.norm(fields.displacement[:self._count], axis=1)[solid.column.nodes]
         elif solid.base:
             base_colour = fields.stress[len(body.cells):][solid.base.cells]
-        pressure = fields.pressure[:self._count][solid.foot_faces].mean(axis=1)
-        return Frame(self.times[k], drawn[solid.column.nodes], base, colour, base_colour, moved[solid.foot_faces], pressure, self.centres[k])
+        at_corners, foot = fields.pressure[:self._count][solid.foot_faces], moved[solid.foot_faces]
+        pressure, force = at_corners.mean(axis=1), at_corners * _areas(foot)[:, None]
+        centre = np.einsum("fc,fca->a", force, foot[..., :2]) / force.sum() if force.sum() > 0 else np.full(2, np.nan)
+        return Frame(self.times[k], drawn[solid.column.nodes], base, colour, base_colour, foot, pressure, centre)
 
     def _rigid(self, moved: np.ndarray) -> np.ndarray:
         """The rigid motion of the column nearest to `moved`."""
@@ -136,18 +141,12 @@ class Frames:
         times = np.linspace(self.times[0], self.times[-1], _FINER * len(self))
         return times, self._pressure_centres(times)
 
-    def _sample(self) -> np.ndarray:
-        return np.unique(np.linspace(0, len(self) - 1, _SAMPLES).round().astype(int))
-
-    def _largest_elastic(self) -> float:
-        largest, points = 0.0, self.result.solid.mesh.body.points
-        for k in self._sample():
-            moved = points + self.result.fields.read(self._number[k]).displacement[:self._count]
-            largest = max(largest, float(np.linalg.norm(moved - self._rigid(moved), axis=1).max()))
-        return largest
+    def _largest_elastic(self, k: int) -> float:
+        moved = self.result.solid.mesh.body.points + self.result.fields.read(self._number[k]).displacement[:self._count]
+        return float(np.linalg.norm(moved - self._rigid(moved), axis=1).max())
 
     def _quantities(self) -> tuple[Quantity, Quantity | None]:
-        frames = [self.frame(k) for k in self._sample()]
+        frames = list(self)
         if self.colour == "displacement":
             colour = Quantity.of("displacement", "m", max(frame.colour.max() for frame in frames))
         else:
@@ -155,6 +154,12 @@ class Frames:
         if not self.from_fields:
             return colour, None
         return colour, Quantity.of("contact pressure", "Pa", max(np.percentile(frame.pressure, _RANGE) for frame in frames), _DECADES)
+
+
+def _areas(faces: np.ndarray) -> np.ndarray:
+    """(n,) areas in plan of faces with corners (n, k, 3)."""
+    x, y = faces[..., 0], faces[..., 1]
+    return np.abs((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)) / 2
 
 
 def _round_down(factor: float) -> float:

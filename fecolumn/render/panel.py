@@ -75,8 +75,8 @@ class Panel:
         quantity = Quantity.of("", "m", np.abs(history["u_top"][:, :2]).max())
         self._way = history["u_top"][:, :2] / quantity.scale
         axes.plot(*self._way.T, color=GREY, linewidth=0.4, alpha=0.5)
-        half = 1.1 * max(np.abs(self._way).max(), 1e-9)
-        axes.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xlabel=f"$u_x$ [{quantity.unit}]")
+        _square(axes, self._way, 1.1)
+        axes.set(xlabel=f"$u_x$ [{quantity.unit}]")
         axes.set_ylabel(f"$u_y$ [{quantity.unit}]", labelpad=1)
         axes.set_title("top in plan", loc="left")
         self._trace, = axes.plot([], [], color=VERMILION, linewidth=0.9, animated=True)
@@ -93,9 +93,8 @@ class Panel:
         reach = poses.move(corners[:: max(1, len(corners) // 100)], slice(None))[..., :2]
         quantity = Quantity.of("", "m", np.abs(reach).max())
         self._foot_scale = quantity.scale
-        middle, half = (reach.max(axis=(0, 1)) + reach.min(axis=(0, 1))) / 2, 0.56 * np.ptp(reach, axis=(0, 1)).max()
-        limits = [(centre - half) / quantity.scale for centre in middle], [(centre + half) / quantity.scale for centre in middle]
-        axes.set(xlim=(limits[0][0], limits[1][0]), ylim=(limits[0][1], limits[1][1]), aspect="equal", xlabel=f"$x$ [{quantity.unit}]")
+        _square(axes, reach.reshape(-1, 2) / quantity.scale, 1.12)
+        axes.set(xlabel=f"$x$ [{quantity.unit}]")
         axes.set_ylabel(f"$y$ [{quantity.unit}]", labelpad=1)
         axes.set_title("foot in plan", loc="left")
         self._shading = frames.pressure_quantity or Quantity.of("gap", "m", np.ptp(poses.move(corners, slice(None))[..., 2]))
@@ -158,6 +157,14 @@ class Panel:
     def _digits(self) -> int:
         times = self.frames.times
         return 2 if len(times) < 2 or times[1] - times[0] > 9e-3 else 3
+
+
+def _square(axes, points: np.ndarray, wider: float) -> None:
+    """Equal scales, and a square that holds points (n, 2) with some room."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    half = wider / 2 * max(float((high - low).max()), 1e-9)
+    (x, y) = (low + high) / 2
+    axes.set(xlim=(x - half, x + half), ylim=(y - half, y + half), aspect="equal")
 
 
 def draw_strip(axes, strip: Strip, last: bool) -> None:

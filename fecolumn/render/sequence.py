@@ -16,6 +16,8 @@ from fecolumn.render.strips import strips_of
 _STRIP_IN, _HEIGHTS_IN, _GAP_IN, _BAR_IN = 0.95, (1.3, 3.6), 0.06, 0.12
 _LEFT_IN, _RIGHT_IN = 0.55, 0.75
 _LETTERS = "abcdefghij"
+# Height that they take of a strip, over that of its line [-]
+_LETTERS_SHARE = 0.25
 
 
 def picture_size(count: int, natural: float, dpi: int) -> tuple[int, int]:
@@ -52,6 +54,8 @@ def sequence_figure(frames: Frames, images: list[np.ndarray], dpi: int, times: n
             bottom = 0.42 + (len(strips) - 1 - row) * (_STRIP_IN + 0.02)
             axes = figure.add_axes([_LEFT_IN / PAGE_WIDTH_IN, bottom / height, 1 - (_LEFT_IN + 0.12) / PAGE_WIDTH_IN, (_STRIP_IN - 0.22) / height])
             draw_strip(axes, strip, last=row == len(strips) - 1)
+            low, high = axes.get_ylim()
+            axes.set_ylim(low, high + _LETTERS_SHARE * (high - low) * (row == 1))
             for k, time in enumerate(frames.times):
                 axes.axvline(time, color=BLACK, linewidth=0.7, linestyle=(0, (3, 2)))
                 if row == 1:

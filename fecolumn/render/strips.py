@@ -11,6 +11,8 @@ from fecolumn.render.result import Result
 
 # Points of a line: more are not told apart at the width of a strip
 _MOST_POINTS = 4000
+# Uplift over the foot's width [-] below which a column only slides: elastic deformation alone opens some 1e-5 of it
+_LIFTED = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +31,10 @@ class Strip:
 
 
 def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
-    """Acceleration of the base (displacement of the top where it is at rest), tilt, uplift and energy, from the first of `times` [s] to the last."""
+    """Acceleration of the base (displacement of the top where it is at rest), tilt, uplift and energy, from the first of `times` [s] to the last.
+
+    Of a column that never lifts off: slide and twist in place of tilt and uplift.
+    """
     history = result.history
     rows = np.flatnonzero((history["time"] >= times[0] - 1e-9) & (history["time"] <= times[-1] + 1e-9))
     rows = rows if len(rows) > 1 else np.arange(len(history["time"]))
@@ -48,7 +53,13 @@ def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
         shaken = strip("top", "$u$", "m", [(top[:, axis], f"${'xy'[axis]}$") for axis in range(2)])
     kinetic, potential = history["energy/kinetic"], history["energy/gravity"] + history["energy/strain"]
     standing = potential[np.argmin(history["tilt"])]
-    return [shaken, strip("tilt", r"$\theta$", "rad", [(history["tilt"], "")]), strip("uplift", "$w$", "m", [(uplift(result), "")]),
+    lifted = uplift(result)
+    if lifted.max() > _LIFTED * result.solid.foot_width:
+        motion = strip("tilt", r"$\theta$", "rad", [(history["tilt"], "")]), strip("uplift", "$w$", "m", [(lifted, "")])
+    else:
+        motion = (strip("slide", "$s$", "m", [(history["slide"][:, axis], f"${'xy'[axis]}$") for axis in range(2)]),
+                  strip("twist", r"$\psi$", "rad", [(history["twist"], "")]))
+    return [shaken, *motion,
             strip("energy", "$E$", "J", [(kinetic, "kinetic"), (potential - standing, "potential"), (kinetic + potential - standing, "sum")])]
 
 
