@@ -13,6 +13,8 @@ _SAME = (f"supported: no paired p below 0.05 (Holm over the family) and a distan
          "distance at which a two-sample KS test of two times 115 motions rejects; not supported: a p below 0.05; else undecided")
 _DIFFERENT = (f"supported: a paired p below 0.05 (Holm over the family); not supported: none, and a distance beyond {MARGIN:.2f} excluded at "
               "95 % in every pair; else undecided")
+_COARSE_STEP = ("A coarse step does two things, it samples the motion coarsely and takes more in each impact; a study with motion.resample_s parts them "
+                "(benchmarks/coarse_step.toml, where most was the impacts').")
 
 
 def distribution_claims(pairs: list[Pair], alpha_note: str = "") -> list[Claim]:
@@ -20,14 +22,14 @@ def distribution_claims(pairs: list[Pair], alpha_note: str = "") -> list[Claim]:
     def family(axis, kind):
         return [pair for pair in pairs if pair.family == f"{axis}, {kind}"]
 
-    return [_different("b1", "The CDF depends moderately on Δt where steps above 1 ms take part.", family(DT, WITH_COARSE_STEP)),
+    return [_different("b1", "The CDF depends moderately on Δt where steps above 1 ms take part.", family(DT, WITH_COARSE_STEP), _COARSE_STEP),
             _same("b2", "The CDF does not depend significantly on Δt once Δt ≤ 1 ms.", family(DT, FINE_STEPS),
                   "two time steps of 1 ms or below"),
             _same("c", "Once Δt ≤ 1 ms, the influence of α on the CDF is marginal and practically insignificant.", family(ALPHA, FINE_STEPS),
                   "two values of α at a time step of 1 ms or below", alpha_note)]
 
 
-def _different(key: str, paper: str, pairs: list[Pair]) -> Claim:
+def _different(key: str, paper: str, pairs: list[Pair], note: str) -> Claim:
     if not pairs:
         return Claim(key, paper, "The study has no finished pair of a step above 1 ms with another one.", _DIFFERENT, UNDECIDED)
     clear, widest = [pair for pair in pairs if pair.p_holm < 0.05], max(pairs, key=lambda pair: pair.distance)
@@ -35,6 +37,7 @@ def _different(key: str, paper: str, pairs: list[Pair]) -> Claim:
     parts = [f"{len(clear)} of {count(len(pairs), 'pair')} differ significantly; {_widest(widest)}"]
     parts.append(_why(widest) if clear else _open(excluded))
     parts += [part for part in [_few(clear) if clear else equality_shortfall(min(pair.comparison.n_a for pair in pairs), MARGIN, excluded)] if part]
+    parts.append(note)
     return Claim(key, paper, " ".join(parts), _DIFFERENT, SUPPORTED if clear else NOT_SUPPORTED if excluded <= MARGIN else UNDECIDED)
 
 
