@@ -238,7 +238,7 @@ class Analysis:
             penetration_max_m=float(rows["penetration"].max()), ranks=self.comm.size,
             wall_s=self.earlier_s + time.perf_counter() - self.began, s_per_step=self.stepping_s / max(self.step, 1),
             iterations=record.iterations, contact_iterations=record.contact_iterations, impacts=record.impacts,
-            cuts=record.cuts, factorizations=factorizations, energy_closure_rel=energy_closure(rows),
+            cuts=record.cuts, parts=record.parts, factorizations=factorizations, energy_closure_rel=energy_closure(rows),
             energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS})
         self.write_history()
         if self.comm.rank == 0:

@@ -22,11 +22,11 @@ NOTHING, LANDS, TURNS = range(3)
 
 
 @njit
-def mark_landing(interface, listed, before, after, landing):
+def mark_landing(interface, points, listed, before, after, landing):
     """Mark in `landing` (n,) those of the listed points (k,) that touch at the end of the step and were open at its start: how many."""
     count = 0
     for i in listed:
-        landing[i] = before[i].force[2] <= 0 and before[i].relative[2] > OPEN * interface.width and after[i].force[2] > 0
+        landing[i] = not points[i].rolls and before[i].force[2] <= 0 and before[i].relative[2] > OPEN * interface.width and after[i].force[2] > 0
         count += landing[i]
     return count
 

@@ -14,10 +14,10 @@ CONTACT = record(("force", "f8", 3), ("anchor", "f8", 2), ("relative", "f8", 3),
 #: A point in a step. slave, master: bodies, -1 for the base. node: row of the slave's node in whose place it is; friction: coefficient;
 #: law: compliance of the contact law [m/N], springs: stiffness of a pad [N/m], each in x, y, z.
 #: carriers, weights: the slave's nodes that carry it, `count` of them; arm: from the slave's centre of mass in its frame [m]; lift: height given
-#: to it [m], see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's compliance. uneven: compliance [m/N] that a point
+#: to it [m], rolls: whether it belongs to a contact that rolls on in this step, see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's compliance. uneven: compliance [m/N] that a point
 #: between nodes lacks, see `compliance.even_out`.
 POINT = record(("slave", "i8"), ("master", "i8"), ("node", "i8"), ("friction", "f8"), ("law", "f8", 3), ("springs", "f8", 3), ("count", "i8"),
-                  ("carriers", "i8", 4), ("weights", "f8", 4), ("arm", "f8", 3), ("lift", "f8"), ("below", "i8", 4), ("shares", "f8", 4),
+                  ("carriers", "i8", 4), ("weights", "f8", 4), ("arm", "f8", 3), ("lift", "f8"), ("rolls", "?"), ("below", "i8", 4), ("shares", "f8", 4),
                   ("uneven", "f8", (3, 3)))
 
 #: The master of a point that stands on the base.

@@ -18,13 +18,13 @@ from fecolumn.contact.compliance import assemble, even_out, static_displacement
 from fecolumn.contact.friction import iterate, law_error
 from fecolumn.contact.pad import indent
 from fecolumn.contact.stick import find_stick, solve_sticking
-from fecolumn.contact.tolerances import CLOSE, NEAR, PENETRATION, SHARP, SOLVED, SWEEPS_MOST, USABLE
+from fecolumn.contact.tolerances import CLOSE, EXACT, NEAR, PENETRATION, SHARE, SHARP, SOLVED, SWEEPS_MOST, USABLE
 
-# Ways a step can end; FAR_BASE asks for more of the base's compliance, ENDED ends the analysis
-OK, FAR_BASE, OFF_BASE, CONTACT_FAILED, ITERATIONS_SPENT, IMPACT_FAILED, ENDED = range(7)
+# Ways a step can end; FAR_BASE asks for more of the base's compliance, ROLLS_FAST for shorter steps, ENDED ends the analysis
+OK, FAR_BASE, OFF_BASE, CONTACT_FAILED, ITERATIONS_SPENT, IMPACT_FAILED, ENDED, ROLLS_FAST = range(8)
 # Places in a record of counts
-N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_ASSEMBLED = range(5)
-N_COUNTS = 5
+N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_PARTS, N_ASSEMBLED = range(6)
+N_COUNTS = 6
 
 
 class Problem(NamedTuple):
@@ -32,7 +32,8 @@ class Problem(NamedTuple):
 
     near: (n,) points that are low or carry force, as many as the first of `count` (2,) says: those of which more than the place matters;
     active: (n,) those that take part, `count[1]` of them; evened: (n,) those whose `uneven` is found.
-    displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,) stiffness by which the laws are measured [N/m].
+    displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,) stiffness by which the laws are measured [N/m], allowed: (n,) by how
+    much they may be violated [m].
     W: (9 n^2,) room for the compliance of the active points. flags: (3,) whether W is assembled, the foot stays where its stick operator
     holds, and it stays long enough for finding one.
     """
@@ -44,6 +45,7 @@ class Problem(NamedTuple):
     displaced: np.ndarray
     slack: np.ndarray
     rho: np.ndarray
+    allowed: np.ndarray
     W: np.ndarray
     flags: np.ndarray
 
@@ -53,7 +55,7 @@ ASSEMBLED, STICKS_STILL, WORTH_STICK = range(3)
 
 def room(n: int) -> Problem:
     """For n points."""
-    return Problem(np.zeros(n, np.int64), np.zeros(2, np.int64), *(np.zeros(n, bool) for _ in range(2)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
+    return Problem(np.zeros(n, np.int64), np.zeros(2, np.int64), *(np.zeros(n, bool) for _ in range(2)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
 
 
 @njit
@@ -88,7 +90,10 @@ def near_points(problem):
 @njit
 def find_residual(problem, bodies, base, points, interface, springs, dynamic, rigid, stick, rim_angle, center, rotations, positions, first,
                   before, after, counts):
-    """Relative positions in `after`, and how well its forces obey the laws: a way to end, largest violation [m].
+    """Relative positions in `after`, and how well its forces obey the laws: a way to end, largest violation over what is allowed, solved where it is 1 at most.
+
+    Allowed is a length that is short for the foot, and what a small share of the strongest force indents: a stiff contact would meet the length under
+    forces that are no answer. A point above the base that carries anything is not solved at all.
 
     Args:
         dynamic, rigid: compliance of the bodies within a step, as of `compliance.assemble`; center: (3,) of the first body.
@@ -136,15 +141,27 @@ def find_residual(problem, bodies, base, points, interface, springs, dynamic, ri
     elif changed:
         _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rotations)
         counts[N_ASSEMBLED] += 1
-    worst = 0.0
+    worst = strongest = 0.0
+    for i in listed:
+        strongest = max(strongest, after[i].force[2])
     for i in listed:
         for a in range(3):
             slack = after[i].relative[a] + springs.own[i, a] * after[i].force[a] + springs.kept * before[i].indentation[a]
             problem.slack[i, a] = slack - before[i].anchor[a] if a < 2 else slack
         if problem.active[i]:
-            worst = max(worst, law_error(after[i].force[0], after[i].force[1], after[i].force[2], problem.slack[i, 0], problem.slack[i, 1],
-                                         problem.slack[i, 2], problem.rho[i], points[i].friction))
+            problem.allowed[i] = SOLVED * interface.width
+            if strongest > 0.0:
+                problem.allowed[i] = min(problem.allowed[i], max(SHARE * strongest / problem.rho[i], EXACT * interface.width))
+            error = law_error(after[i].force[0], after[i].force[1], after[i].force[2], problem.slack[i, 0], problem.slack[i, 1],
+                              problem.slack[i, 2], problem.rho[i], points[i].friction)
+            worst = max(worst, np.inf if _hangs(problem, after, i) else error / problem.allowed[i])
     return OK, worst
+
+
+@njit
+def _hangs(problem, after, i):
+    """Whether point i carries, above the base, a force that its place does not call for."""
+    return problem.slack[i, 2] > problem.allowed[i] and 0 < after[i].force[2] <= problem.rho[i] * problem.slack[i, 2]
 
 
 @njit
@@ -192,8 +209,10 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rot
 @njit
 def find_forces(problem, points, interface, stick, after, counts):
     """Forces in `after` that obey the laws as far as the compliance tells: a way to end."""
-    tight, usable = SHARP * SOLVED * interface.width, USABLE * interface.width
-    listed, sticks = _active(problem), problem.flags[STICKS_STILL]
+    usable, tight, listed, sticks = USABLE * interface.width, SOLVED * interface.width, _active(problem), problem.flags[STICKS_STILL]
+    for i in listed:
+        tight = min(tight, problem.allowed[i])
+    tight *= SHARP
     if sticks:
         residual, newtons = solve_sticking(stick, points, problem.slack, problem.active, after, tight, usable)
         counts[N_CONTACT] += newtons
@@ -219,6 +238,11 @@ def find_forces(problem, points, interface, stick, after, counts):
                 for b in range(3):
                     moved += W[3 * j + a, 3 * i + b] * old[i, b]
             q[j, a] = problem.slack[listed[j], a] - moved
+    for j in range(count):
+        # so small that the length would let it stay
+        if _hangs(problem, after, listed[j]):
+            for a in range(3):
+                old[j, a] = 0.0
     forces, residual, newtons, others = iterate(W, q, friction, old, tight, True, SWEEPS_MOST)
     counts[N_CONTACT] += newtons + others
     if not residual <= usable:
@@ -248,7 +272,7 @@ def stored_energy(problem, points, interface, springs, before, after):
 @njit
 def solve_linear(problem, bodies, base, points, interface, springs, dynamic, elastic, stick, rim_angle, center, rotations, positions, most, before,
                  after, counts):
-    """Forces of bodies that answer a change of forces linearly: a way to end, largest violation of the laws [m].
+    """Forces of bodies that answer a change of forces linearly: a way to end, largest violation of the laws as of `find_residual`.
 
     Args:
         elastic: (3 N, 3 n) of the bodies, `dynamic` without the static part.
@@ -264,7 +288,7 @@ def solve_linear(problem, bodies, base, points, interface, springs, dynamic, ela
     for attempt in range(most + 1):
         answer, residual = find_residual(problem, bodies, base, points, interface, springs, dynamic, 0.0, stick, rim_angle, center, rotations,
                                          positions, attempt == 0, before, after, counts)
-        if answer != OK or residual <= SOLVED * interface.width or attempt == most:
+        if answer != OK or residual <= 1.0 or attempt == most:
             return answer, residual
         for j in range(k):
             for a in range(3):

@@ -8,7 +8,8 @@ has them at both its ends. The lowest point's gap then changes by its displaceme
 do opposite work: rolling takes no energy up to dt^3, and what is left of the third order stays in the lift while the rim carries, so that
 it makes none either. Where the points stick moves on by the length of rim rolled.
 
-Where the lowest point leaps, in a column that rocks over, they stay until the part of the rim that carried is free.
+Where the lowest point leaps, in a column that rocks over, they stay until the part of the rim that carried is free, as in a foot that stands. One that passes upright beside
+planar rocking does not leap: its lowest point runs to the other side of the rim, faster the flatter the foot becomes. Such a step is made in parts.
 """
 
 from __future__ import annotations
@@ -19,7 +20,34 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.rim import lowest, on_circle
-from fecolumn.contact.tolerances import FLAT, REACH, ROLL
+from fecolumn.contact.tolerances import FLAT, PARTS, REACH, ROLL, ROLL_STEP
+
+
+@njit
+def part_of_step(x, y, u, v, dt, done):
+    """How much of a step to make at once, in dt / PARTS, so that the lowest point of a rim runs along it by ROLL_STEP at most: PARTS for the whole of it.
+
+    The way down, seen along the foot, hardly changes its rate (u, v) within a step: a straight way on which the rim's lowest point runs at the rate
+    |(x, y) x (u, v)| / (x^2 + y^2), fastest where the foot is flattest. Where that is below FLAT, or faster than the smallest part tells, the lowest point leaps:
+    planar rocking over, an impact.
+
+    Args:
+        x, y: way down along the column's axes x and y, the tilt [rad] towards it. u, v: its rate [rad/s]. dt: of the whole step [s].
+        done: parts of it that are made.
+    """
+    across, speed = abs(x * v - y * u), np.hypot(u, v)
+    whole = PARTS
+    if across > FLAT * speed and PARTS * ROLL_STEP * across > dt * speed**2:
+        while whole > 1:
+            within = dt * whole / PARTS
+            nearest = min(max(-(x * u + y * v) / speed**2, 0.0), within)
+            if across * within <= ROLL_STEP * ((x + nearest * u) ** 2 + (y + nearest * v) ** 2):
+                break
+            whole //= 2
+    # parts end where larger ones do, the last at the end of the step
+    while done % whole:
+        whole //= 2
+    return whole
 
 
 class Roll(NamedTuple):
@@ -58,15 +86,17 @@ def plan_roll(interface, rim, rim_state, contact, rotation, halfway, allowed):
     index[NEW], phase[NEW] = on_circle(angle, first, sector, n, offsets[NEW], weights[NEW])
     turned = _sectors(index[NEW] + phase[NEW] - index[OLD] - phase[OLD], n)
     leaps = np.isnan(before) or abs(turned) * sector > ROLL
-    loaded, strongest, most = False, -1, 0.0
+    loaded, stands, strongest, most = False, False, -1, 0.0
     for k in range(n):
         force = contact[rim[k]].force[2]
         if force > 0:
             loaded = True
+            # across the foot from its lowest point
+            stands |= abs(_sectors(k + phase[OLD] - index[NEW] - phase[NEW], n)) > n / 4
             past = k + phase[OLD] - (index[NEW] + phase[NEW] if leaps else index[OLD] + phase[OLD])
             if abs(_sectors(past, n)) <= REACH and force > most:
                 strongest, most = k, force
-    rolls = allowed and tilt >= FLAT and not (leaps and loaded and strongest < 0)
+    rolls = allowed and tilt >= FLAT and not stands and not (leaps and loaded and strongest < 0)
     if leaps:
         # a part of the rim that rested takes over: the nearest of its points goes to the lowest place
         turned -= np.rint(turned)
@@ -112,6 +142,8 @@ def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
         held += 0.0 if roll.leaps else rim_state.lift[REACH]
     for k in range(n):
         i, number, apart = rim[k], _around(k - passed, n), abs(k - index)
+        # a contact that carries widens and narrows as it rolls: nothing lands there
+        points[i].rolls = roll.strongest >= 0 and not roll.leaps and min(apart, n - apart) * 2 * np.pi <= ROLL * n
         taken = rim[number]
         before[i] = contact[taken]
         near = min(apart, n - apart) <= REACH
@@ -152,7 +184,7 @@ def place_points(roll, which, rim, arms, points):
     n = len(rim)
     for k in range(n):
         i = rim[k]
-        points[i].count, points[i].lift = 4, 0.0
+        points[i].count, points[i].lift, points[i].rolls = 4, 0.0, False
         for a in range(3):
             points[i].arm[a] = 0.0
         for q in range(4):
@@ -181,7 +213,7 @@ def stay(roll, rim, rim_state, tilt, arms, points):
     else:
         place_points(roll, OLD, rim, arms, points)
     for k in range(n):
-        points[rim[k]].lift = 0.0
+        points[rim[k]].lift, points[rim[k]].rolls = 0.0, False
     for off in range(-REACH, REACH + 1):
         points[rim[_around(roll.index[OLD] + off, n)]].lift = rim_state.lift[REACH + off]
 

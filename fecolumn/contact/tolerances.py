@@ -11,7 +11,12 @@ NEAR = 2e-5
 CLOSE = 4e-5
 #: Residual of the contact laws at which a step is solved: a thousandth of the elastic indentation of a standing steel column.
 SOLVED = 1e-11
-#: Residual to which a contact problem is solved, over SOLVED: so that what the motion adds to it may be as large as it is.
+#: Force over the strongest one that a residual may stand for, where that is less: the same thousandth, which a stiff, light or short-stepped foot
+#: passes within a far shorter length.
+SHARE = 1e-3
+#: Residual that is always small enough: 400 times the rounding of a position, so that a column twenty times as high as wide reaches it.
+EXACT = 1e-13
+#: Residual to which a contact problem is solved, over that at which a step is: so that what the motion adds to it may be as large as it is.
 SHARP = 0.1
 #: Residual of a contact problem that may still be used to go on from; above it the step has failed.
 USABLE = 1e-9
@@ -56,13 +61,19 @@ IMPACT_SOLVED, IMPACT_LEAST = 1e-8, 1e-3
 IMPACT_COMPLIANCE = 1e-3
 
 # --- Rolling rim ------------------------------------------------------------------------------------------------------------------------------
-#: Tilt [rad] below which the points stay where they are on the rim: circle and polygon are then nanometres apart.
-FLAT = 1e-4
+#: Tilt [rad] below which the points stay where they are on the rim: circle and polygon are then less than a nanometre apart.
+FLAT = 1e-5
 #: Angle [rad] by which the lowest point may move along the rim in a step and still be the contact that rolls on.
 ROLL = 0.8
+#: Angle [rad] by which it may run there in a step at the fastest rate in it; a step in which it would run farther is made in parts.
+ROLL_STEP = 0.1
+#: Parts of a step at most, a power of two.
+PARTS = 64
 #: Points so many sectors before and behind the lowest one belong to the same contact.
 REACH = 2
-#: Work of contact, over weight and foot's width, above which a step is made again with the rim's points at rest.
+#: Work of contact, over weight and foot's width, above which a step, or a part of it, is made again with the rim's points at rest: the most energy that
+#: contact can make in it. A traction along the rim shifts the pressure to the side, where it pushes a foot on that rolls; most of it comes back. Ten times
+#: less, and a column that wobbles at a small tilt would lose a tenth of its energy in a few revolutions to points at rest.
 CREATED = 1e-6
 #: Nodes that count as a circle: so many at least, their distances from its centre and their sectors equal up to this share.
 ROUND_NODES, ROUND = 12, 1e-6

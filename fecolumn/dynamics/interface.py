@@ -147,7 +147,8 @@ class Interface:
         return W
 
     def solve(self, nodal: Nodal, rotation, positions, dt: float, before, after, times: int = ITERATIONS) -> tuple[Stop, float]:
-        """Find forces in `after` that obey the laws at points that move from `positions` (n, 3) along with them: why it ended, violation [m].
+        """Find forces in `after` that obey the laws at points that move from `positions` (n, 3) along with them: why it ended, violation over
+        what is allowed.
 
         times: 0 only looks how well they do.
         """

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.contact.tolerances import SOLVED
 from fecolumn.dynamics.cuts import Stop
 from fecolumn.fem.rotation import polar_rotation
 
@@ -92,7 +91,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             if stop is not Stop.CONVERGED:
                 return ended(stop)
             static = interface.stored(stage.dt, stage.before, contact)
-            if size <= max(tolerance, system.rounding(operators.mass_factor) / reference) and violation <= SOLVED * interface.width:
+            if size <= max(tolerance, system.rounding(operators.mass_factor) / reference) and violation <= 1.0:
                 return ended(Stop.CONVERGED)
         if iteration == max_iterations:
             break
@@ -110,7 +109,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         old = contact["force"].copy()
         stop, violation = interface.solve(nodal, rotation, interface.positions(x, rotation), stage.dt, stage.before, contact)
         if stop is not Stop.CONVERGED:
-            return ended(stop, "" if stop is Stop.OFF_BASE else f"contact residual {violation:.2e} m")
+            return ended(stop, "" if stop is Stop.OFF_BASE else f"contact residual {violation:.2e} of what is allowed")
         x = system.kinematics.moved(x, scale * operators.response.displacement(interface.at_nodes(contact["force"] - old) @ along) @ along.T)
     return ended(Stop.ITERATIONS)
 

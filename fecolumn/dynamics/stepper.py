@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn._compiled import interpreted
 from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, what_happens
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.problem import OK
-from fecolumn.contact.tolerances import CREATED
+from fecolumn.contact.rolling import part_of_step
+from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import losses, move_anchors
 from fecolumn.dynamics.cuts import StepFailed, Stop, in_halves
+from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.record import Record
 from fecolumn.dynamics.stage import Stage, equilibrate
 from fecolumn.dynamics.system import State
@@ -49,15 +52,35 @@ class Stepper:
         Raises:
             StepFailed: no convergence after max_cuts halvings; `state` is unharmed.
         """
+        hht, booked, start, done = self.system.hht, dict(self.ledger.work), state, 0
         try:
-            return self._hht_step(state, ground, self.system.hht)
+            while done < PARTS:
+                part = self._to_make_at_once(state, done)
+                done += part
+                target = start.ground + done / PARTS * (np.asarray(ground, float) - start.ground) if done < PARTS else np.asarray(ground, float)
+                state = self._part(state, target, hht if part == PARTS else HHT(hht.dt * part / PARTS, hht.alpha))
+                self.record.parts += part < PARTS
+        except StepFailed as last:
+            self.ledger.work.update(booked)
+            raise StepFailed(last.stop, f"t = {start.time:.6g} s: {last}") from None
+        state.time = start.time + hht.dt
+        return state
+
+    def _to_make_at_once(self, state, done) -> int:
+        """As `rolling.part_of_step`."""
+        if not self.plastic or self.system.interface.rim is None:
+            return PARTS
+        half = self.system.hht.dt / 2
+        down = -state.rotation[2, :2]
+        rate = (-self.system.kinematics.rotation(state.x + half * state.v)[2, :2] - down) / half
+        return interpreted(part_of_step)(*down, *rate, self.system.hht.dt, done)
+
+    def _part(self, state, ground, hht) -> State:
+        """A step of `hht`, in halves where it fails."""
+        try:
+            return self._hht_step(state, ground, hht)
         except StepFailed as failure:
-            booked = dict(self.ledger.work)
-            try:
-                return in_halves(self._hht_step, state, state.ground, np.asarray(ground, float), self.system.hht, self.max_cuts, failure, self._count_cut)
-            except StepFailed as last:
-                self.ledger.work.update(booked)
-                raise StepFailed(last.stop, f"t = {state.time:.6g} s: {last}") from None
+            return in_halves(self._hht_step, state, state.ground, ground, hht, self.max_cuts, failure, self._count_cut)
 
     def _count_cut(self) -> None:
         self.record.cuts += 1
@@ -144,7 +167,7 @@ class Stepper:
         """
         system, interface, column, R = self.system, self.system.interface, self.system.column, after.rotation
         landing, turning = np.zeros(interface.size, bool), np.zeros(interface.size, bool)
-        lands = mark_landing(interface.record, interface.near, before, after.contact, landing)
+        lands = mark_landing(interface.record, interface.points, interface.near, before, after.contact, landing)
         if not mark_turning(interface.points, interface.near, before, after.contact, turning) and not lands:
             return
         # each in the frame of its own time: turned by another one a rotation looks like a strain, which the foot's filter takes away

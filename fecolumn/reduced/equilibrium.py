@@ -24,7 +24,7 @@ from fecolumn.contact.problem import (
     stored_energy,
 )
 from fecolumn.contact.stick import Stick, holds, no_stick
-from fecolumn.contact.tolerances import CLOSE, FLAT, ITERATIONS, PAD_TURN, SOLVED, STICK_STAYS, STICK_TURN, STICK_WAY
+from fecolumn.contact.tolerances import CLOSE, ITERATIONS, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, follow, no_action
 
@@ -66,7 +66,7 @@ def stays(interface, start, free_center, advance):
             way = max(way, abs(free_center[0, a] - start.frames[0].center[a]))
     if interface.on_pad:
         return turn < STICK_STAYS * PAD_TURN
-    flat = np.hypot(start.rotation[0, 2, 0], start.rotation[0, 2, 1]) < FLAT
+    flat = np.hypot(start.rotation[0, 2, 0], start.rotation[0, 2, 1]) < STICK_TURN
     return flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interface.width
 
 
@@ -135,7 +135,7 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
                                          rim_angle, end.frames[0].center, end.rotation, work.positions, iteration == 0, before, end.contact, counts)
         if answer != OK:
             return answer
-        if residual <= SOLVED * interface.width:
+        if residual <= 1.0:
             end.whole[0].static = stored_energy(problem, points, interface, scheme.springs, before, end.contact)
             return OK
         answer = find_forces(problem, points, interface, work.stick, end.contact, counts)

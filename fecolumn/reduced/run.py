@@ -7,7 +7,22 @@ import numpy as np
 from fecolumn._compiled import compile_for, interpreted, njit
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.projection import base_for_steps
-from fecolumn.contact.problem import CONTACT_FAILED, ENDED, FAR_BASE, IMPACT_FAILED, ITERATIONS_SPENT, N_COUNTS, N_CUTS, N_ITERATIONS, OFF_BASE, OK
+from fecolumn.contact.problem import (
+    CONTACT_FAILED,
+    ENDED,
+    FAR_BASE,
+    IMPACT_FAILED,
+    ITERATIONS_SPENT,
+    N_COUNTS,
+    N_CUTS,
+    N_ITERATIONS,
+    N_PARTS,
+    OFF_BASE,
+    OK,
+    ROLLS_FAST,
+)
+from fecolumn.contact.rolling import part_of_step
+from fecolumn.contact.tolerances import PARTS
 from fecolumn.dynamics.cuts import Stop, StepFailed, in_halves
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS, fallen, steepest_to_come
@@ -20,6 +35,8 @@ from fecolumn.reduced.elastic import COORDINATE, END, START
 from fecolumn.reduced.observe import ENERGY, WIDTH, lost, observe
 from fecolumn.reduced.step import step
 
+# step lengths from a whole step to its smallest part
+LENGTHS = PARTS.bit_length()
 # of the halves of a step, whose end alone counts: nothing is past returning
 _NO_END = np.array([np.inf])
 _STOPS = {CONTACT_FAILED: Stop.CONTACT, IMPACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.ITERATIONS, OFF_BASE: Stop.OFF_BASE}
@@ -32,15 +49,40 @@ def ended(eye, motion, row, steepest, rest):
 
 
 @njit
-def advance(structure, base, scheme, work, eye, motion, spare, grounds, steepest, rest, rows, ledger, counts):
+def to_make_at_once(structure, motion, dt, done):
+    """As `rolling.part_of_step`, of the rims of a structure."""
+    part = PARTS
+    for k in range(len(structure.interfaces)):
+        if structure.interfaces[k].rim_count > 0:
+            b = structure.interfaces[k].slave
+            R, spin = motion.rotation[b], motion.frames[b].spin
+            u, v = R[2, 2] * spin[1] - R[2, 1] * spin[2], R[2, 0] * spin[2] - R[2, 2] * spin[0]
+            part = min(part, part_of_step(-R[2, 0], -R[2, 1], u, v, dt, done))
+    return part
+
+
+@njit
+def begin_anew(elastic):
+    """What is known of the END is known of the next START."""
+    elastic.now[START] += 1
+    for i in range(elastic.node.shape[1]):
+        if elastic.stamp[END, i] == elastic.now[END]:
+            elastic.stamp[START, i] = elastic.now[START]
+            for a in range(3):
+                elastic.node[START, i, a] = elastic.node[END, i, a]
+
+
+@njit
+def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, steepest, rest, rows, ledger, counts):
     """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, WIDTH) are filled.
 
-    steepest: (k,) as of `overturning.fallen` after each step. rest: mechanical energy [J] at which the column is at rest; -inf not to ask.
+    schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are still to be made, for which ROLLS_FAST asks. kept: room for
+    a Motion. steepest: (k,) as of `overturning.fallen` after each step. rest: mechanical energy [J] at which the column is at rest; -inf not to ask.
 
-    Without any step to make: the row of `motion` where there is one to fill, else one proximal step of `scheme` towards gravity equilibrium, from
+    Without any step to make: the row of `motion` where there is one to fill, else one proximal step of the first scheme towards gravity equilibrium, from
     `motion` to `spare`; see `start.standing`. They are here because each function that Python calls is compiled with all it calls.
     """
-    elastic, bodies = work.elastic, len(motion.frames)
+    elastic, bodies, scheme, longest = work.elastic, len(motion.frames), schemes[0], len(schemes) - 1
     elastic.now[START] += 1
     if len(grounds) == 0:
         if len(rows):
@@ -52,27 +94,44 @@ def advance(structure, base, scheme, work, eye, motion, spare, grounds, steepest
             for a in range(3):
                 fall[b, a] = motion.frames[b].center[a] + scheme.half * structure.gravity[a]
         return 0, equilibrate(structure, base, scheme, work, motion, fall, bent, still, np.nan, spare, counts)
-    booked, now, then, made, answer = ledger.copy(), motion, spare, 0, OK
+    booked, now, then, swapped, made, answer, target = ledger.copy(), motion, spare, False, 0, OK, np.empty(3)
     for k in range(len(grounds)):
         before = counts[N_ITERATIONS]
         put(ledger, booked)
-        answer = step(structure, base, scheme, work, now, grounds[k], then, ledger, counts)
+        part, done = to_make_at_once(structure, now, scheme.dt, 0), 0
+        if part < PARTS:
+            if schemes[longest].dt == scheme.dt:
+                answer = ROLLS_FAST
+                break
+            motions.copy(now, kept)
+        while done < PARTS:
+            if done > 0:
+                part = to_make_at_once(structure, now, scheme.dt, done)
+            halved, whole = 0, PARTS
+            while whole > part:
+                halved, whole = halved + 1, whole // 2
+            for a in range(3):
+                first = kept.whole[0].ground[a] if part < PARTS else 0.0
+                target[a] = first + (done + part) / PARTS * (grounds[k, a] - first)
+            answer = step(structure, base, schemes[halved], work, now, target, then, ledger, counts)
+            if answer != OK:
+                break
+            now, then, swapped, done = then, now, not swapped, done + part
+            counts[N_PARTS] += part < PARTS
+            begin_anew(elastic)
         if answer != OK:
             put(booked, ledger)
+            if done > 0:
+                motions.copy(kept, now)
+                elastic.now[START] += 1
             break
-        observe(structure, eye, then, ledger, counts[N_ITERATIONS] - before, rows[made])
-        now, then, made = then, now, made + 1
-        # what is known of the end is known of the next start
-        elastic.now[START] += 1
-        for i in range(elastic.node.shape[1]):
-            if elastic.stamp[END, i] == elastic.now[END]:
-                elastic.stamp[START, i] = elastic.now[START]
-                for a in range(3):
-                    elastic.node[START, i, a] = elastic.node[END, i, a]
+        now.whole[0].time = now.whole[0].time if part == PARTS else kept.whole[0].time + scheme.dt
+        observe(structure, eye, now, ledger, counts[N_ITERATIONS] - before, rows[made])
+        made += 1
         if ended(eye, now, rows[made - 1], steepest[k], rest):
             answer = ENDED
             break
-    if made % 2:
+    if swapped:
         # a step that failed for want of the base's compliance tells by its end in `spare` where it is wanted
         for b in range(bodies):
             for a in range(3):
@@ -101,11 +160,12 @@ class Engine:
     def __init__(self, model, base, eye, hht: HHT, start, gravity, max_cuts: int = 4, damping_ratio: float = 0.0, **laws):
         self.model, self.base, self.eye, self.hht, self.max_cuts = model, base, eye, hht, max_cuts
         self.structure, self.points = structure_of(model, hht, gravity, damping_ratio=damping_ratio, **laws)
-        self.work, self.spare, self._schemes = work_of(self.structure, self.points), self.motion_at_rest(), {}
+        self.work, self.spare, self.kept = work_of(self.structure, self.points), self.motion_at_rest(), self.motion_at_rest()
+        self._schemes = {}
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
         self.base.need(base.grid.around(model.reference, 0))
         self.surface = base_for_steps(base)
-        compile_for(advance, self._arguments(self._scheme(hht), self.spare, self.spare))
+        compile_for(advance, self._arguments(self._schemes_of(hht), self.spare, self.spare))
         self.motion = start(self)
         self.ledger[0] = self.mechanical()
 
@@ -115,20 +175,20 @@ class Engine:
 
     def settle(self, scheme, motion, end) -> int:
         """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way to end."""
-        return advance(*self._arguments(scheme, motion, end))[1]
+        return advance(*self._arguments((scheme,) * LENGTHS, motion, end))[1]
 
-    def _arguments(self, scheme, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=-np.inf, rows=np.empty((0, WIDTH))) -> tuple:
-        return (self.structure, self.surface, scheme, self.work, self.eye, motion, spare, grounds, steepest, rest, rows, self.ledger, self.counts)
+    def _arguments(self, schemes, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=-np.inf, rows=np.empty((0, WIDTH))) -> tuple:
+        return (self.structure, self.surface, schemes, self.work, self.eye, motion, spare, self.kept, grounds, steepest, rest, rows, self.ledger, self.counts)
 
     @property
     def record(self) -> Record:
         """Counts as the full-order engine gives them."""
-        return Record(*self.counts[:4].tolist())
+        return Record(*self.counts[:5].tolist())
 
     def row(self) -> np.ndarray:
         """The present row (WIDTH,) of the history."""
         row = np.empty((1, WIDTH))
-        advance(*self._arguments(self._scheme(self.hht), self.motion, self.spare, rows=row))
+        advance(*self._arguments(self._schemes_of(self.hht), self.motion, self.spare, rows=row))
         return row[0]
 
     def mechanical(self) -> float:
@@ -176,7 +236,13 @@ class Engine:
         return rows, False
 
     def _steps(self, hht, grounds, rows, steepest, rest) -> tuple[int, int]:
-        return advance(*self._arguments(self._scheme(hht), self.motion, self.spare, grounds, steepest, rest, rows))
+        made, answer = advance(*self._arguments(self._schemes_of(hht), self.motion, self.spare, grounds, steepest, rest, rows))
+        if answer == ROLLS_FAST:
+            parts = (scheme(self.structure, self.points, HHT(hht.dt / 2**k, hht.alpha)) for k in range(1, LENGTHS))
+            self._schemes[hht] = (*self._schemes[hht][:1], *parts)
+            more, answer = self._steps(hht, grounds[made:], rows[made:], steepest[made:], rest)
+            made += more
+        return made, answer
 
     def _cut(self, ground, answer) -> None:
         """The step that failed with `answer`, in two halves and these in halves as far as it needs; nothing has changed where it fails."""
@@ -202,9 +268,10 @@ class Engine:
     def _count_cut(self) -> None:
         self.counts[N_CUTS] += 1
 
-    def _scheme(self, hht):
+    def _schemes_of(self, hht) -> tuple:
+        """Schemes of steps and of their parts, which are made when they are needed."""
         if hht not in self._schemes:
-            self._schemes[hht] = scheme(self.structure, self.points, hht)
+            self._schemes[hht] = (scheme(self.structure, self.points, hht),) * LENGTHS
         return self._schemes[hht]
 
     def extend_base(self, motion) -> None:

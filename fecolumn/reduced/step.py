@@ -153,7 +153,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, ledger, co
     """Take the velocities of `end` anew where a point lands or slip ends: a way to end."""
     interface, points, before, elastic = structure.interfaces[0], work.points, work.before, work.elastic
     listed = near_points(work.problem)
-    lands = mark_landing(interface, listed, before, end.contact, work.landing) > 0
+    lands = mark_landing(interface, points, listed, before, end.contact, work.landing) > 0
     if mark_turning(points, listed, before, end.contact, work.turning) == 0 and not lands:
         return OK
     for i in listed:

@@ -12,7 +12,7 @@ from fecolumn.contact.pad import Springs
 from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.problem import N_COUNTS, OK, begin_problem, find_forces, find_residual, mark_close, room, solve_linear
 from fecolumn.contact.stick import no_stick
-from fecolumn.contact.tolerances import ITERATIONS, SOLVED
+from fecolumn.contact.tolerances import ITERATIONS
 from fecolumn.fem.rotation import rotation_matrix
 
 # a point gives way by this [m/N], sunk into the base by this it presses with 1000 N
@@ -59,7 +59,7 @@ class Foot:
                                             self.counts)
         else:
             answer, residual = self._iterate(positions, before, after, stick)
-        assert answer == OK and residual <= SOLVED
+        assert answer == OK and residual <= 1.0
         return after
 
     def _iterate(self, positions, before, after, stick):
@@ -74,7 +74,7 @@ class Foot:
             answer, residual = interpreted(find_residual)(
                 self.problem, self.bodies, self.base, self.points, self.interface, self.springs, self.dynamic, self.rigid, stick, np.nan,
                 np.zeros(3), self.rotations, positions, iteration == 0, before, after, self.counts)
-            if answer != OK or residual <= SOLVED:
+            if answer != OK or residual <= 1.0:
                 break
             assert interpreted(find_forces)(self.problem, self.points, self.interface, stick, after, self.counts) == OK
         return answer, residual

@@ -34,7 +34,7 @@ def struck(bodies, points, velocity, mu=0.0, restitution=0.0, contact_work=-1.0)
     interface = interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]), restitution=restitution, master=points["master"][0])[0]
     before, after, landing = np.zeros(n, CONTACT), np.zeros(n, CONTACT), np.zeros(n, bool)
     before["relative"][:, 2], after["force"][:, 2] = 1e-6, 1.0
-    assert mark_landing(interface, np.arange(n), before, after, landing) == n
+    assert mark_landing(interface, points, np.arange(n), before, after, landing) == n
     # what the step's own impulse, about to be replaced, has done is taken out again
     late = np.array(velocity, float)
     answer, pushed, impulses = find_impact(bodies, NO_BASE, points, interface, Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0), np.arange(n), points["arm"].copy(),

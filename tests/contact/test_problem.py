@@ -5,7 +5,7 @@ import pytest
 from one_foot import DEEP, GIVES, Foot, answer, many
 from two_blocks import Blocks
 
-from fecolumn.contact.tolerances import CLOSE, NEAR, SOLVED
+from fecolumn.contact.tolerances import CLOSE, NEAR, SHARE, SOLVED
 
 
 def springs_alone(mu, n=1, static=0.4, **more):
@@ -48,6 +48,28 @@ def test_a_point_that_is_pulled_up_gives_its_force_back_and_opens(up, load):
     point = springs_alone(0.3).solve([[0.0, 0.0, up - 0.4 * DEEP]], forces=[[0.0, 0.0, 1000.0]])[0]
     assert point["force"] == pytest.approx([0.0, 0.0, load], rel=1e-9)
     assert point["relative"][2] == pytest.approx(max(up - DEEP, 0.0), abs=2 * SOLVED)
+
+
+@pytest.mark.parametrize("kind", ["alone", "nodal", "by mass and inertia"])
+def test_a_point_above_the_base_carries_nothing_however_small(kind):
+    """It begins 1e-6 m up with 0.004 N, which indents 4e-12 m: less than the length to which the laws hold, and yet a force that nothing presses."""
+    if kind == "alone":
+        foot, carries = springs_alone(0.3), []
+    else:
+        # the other end of the rod stands, pressed by a thousand newtons
+        foot, carries = rod(kind, 0.0)[0], [[-1.0, 0.0, -DEEP]]
+    places = carries + [[1.0, 0.0, 2 * DEEP]]
+    after = foot.solve(places, forces=[[0.0, 0, 100]] * len(carries) + [[0.0, 0, 0.004]], anchors=[place[:2] for place in places])
+    assert after["relative"][-1, 2] > DEEP
+    assert (after["force"][-1] == 0.0).all()
+
+
+def test_a_stiff_point_finds_its_force_to_a_thousandth_whatever_it_began_with():
+    """100 N indent 1e-10 m; 105 N are wrong by 5e-12 m, less than the length to which softer contacts are solved."""
+    gives, load = 1e-12, 100.0
+    foot = Foot(np.zeros((1, 3)), gives * np.eye(3), np.zeros((3, 3)), 0.3)
+    after = foot.solve([[0.0, 0, -gives * load]], forces=[[0.0, 0, 1.05 * load]])[0]
+    assert after["force"][2] == pytest.approx(load, rel=2 * SHARE)
 
 
 def test_points_above_the_base_take_no_part():

