@@ -133,6 +133,7 @@ class Motion(Section):
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
     delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1.0")
+    resample_s: float = parameter(0.0, doc="step at which the motion is sampled, band-limited, before straight lines join the samples up to integration.dt_s, which must not exceed it; 0 samples at integration.dt_s itself", unit="s", low=0, high=10, since="0.4")
     vertical: bool = parameter(False, doc="apply the vertical component too; refused where the record has none")
     free_vibration_s: float | str = parameter(1.0, doc='time analysed after the motion\'s end; "rest" goes on until the column is at rest', unit="s", low=0, high=1e4, words=(REST,))
     rest_ceiling_s: float = parameter(60.0, doc='longest time after the motion\'s end where free_vibration_s = "rest"', unit="s", above=0, high=1e5, since="0.2.0")

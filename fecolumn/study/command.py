@@ -91,6 +91,7 @@ def _run(args, share, pool) -> tuple[int, bool]:
 
 def _show(plan, rows: list[dict], folder, share) -> int:
     """Tables and figure, or for a share only its count; 1 when some failed."""
+    from fecolumn.ending import cut_short
     from fecolumn.study.store import DONE, FAILED
 
     done = f"{sum(row['state'] == DONE for row in rows)} of {len(rows)} analyses done"
@@ -103,8 +104,9 @@ def _show(plan, rows: list[dict], folder, share) -> int:
         write_tables(plan, rows, folder)
         files = write_figure(plan, rows, folder)
         print(f"{plan.title}: {done}\n{table_text(plan, rows)}")
-        if said := conclusion(plan, rows):
-            print(textwrap.fill(said, 110))
+        for said in (cut_short(row["summary"] for row in rows if row["state"] == DONE), conclusion(plan, rows)):
+            if said:
+                print(textwrap.fill(said, 110))
         print("\n".join(f"wrote {file}" for file in [os.path.join(folder, "table.csv"), *files]))
     failed = [row for row in rows if row["state"] == FAILED]
     for row in failed:

@@ -1,4 +1,4 @@
-"""What a study says, in two sentences below its table: how often the column overturns, and whether its settings differ."""
+"""What a study says, in a few sentences below its table: how often the column overturns, whether its settings differ, and how sure that is."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ import numpy as np
 
 from fecolumn.ending import lost
 from fecolumn.statistics.ecdf import censored, proportion_interval
-from fecolumn.statistics.equivalence import distance_bound
+from fecolumn.statistics.equivalence import difference_shortfall, distance_bound, equality_shortfall
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
+from fecolumn.study.alpha import ALPHA, alpha_note
 from fecolumn.study.plan import ENSEMBLE_AXES, Plan
 from fecolumn.study.store import DONE
 
@@ -22,19 +23,21 @@ _LEVEL = 0.05  # of significance, the usual one
 
 @dataclass(frozen=True, slots=True)
 class _Pair:
-    """Two settings that differ in one axis: its key, their names, the distance of their CDFs, its bound at 95 % and its paired p."""
+    """Two settings that differ in one axis: its key, their names, motions in both, distance of their CDFs, its bound at 95 % and its paired p."""
 
     axis: str
     names: tuple[str, str]
+    n: int
     distance: float
     bound: float
     p: float
 
 
 def conclusion(plan: Plan, rows: list[dict]) -> str:
-    """Two sentences on a study as far as it is done; "" where fewer than five motions are.
+    """A few sentences on a study as far as it is done; "" where fewer than five motions are.
 
-    p-values are of the largest distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
+    How often the column overturns; whether the settings differ; where the motions are few for what is said, how many it needs; what of an effect
+    of alpha, or its lack, is built into the scheme. p-values are of the largest distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
 
     Args:
         plan: the study.
@@ -44,7 +47,12 @@ def conclusion(plan: Plan, rows: list[dict]) -> str:
     if not settings or max(len(runs) for _, runs in settings) < _LEAST_MOTIONS:
         return ""
     pairs = _pairs(settings)
-    return _overturns(settings) + (" " + _differences(pairs, settings) if pairs else "")
+    parts = [_overturns(settings)]
+    if pairs:
+        parts += [_differences(pairs, settings), _shortfall(pairs)]
+        if any(pair.axis == ALPHA for pair in pairs):
+            parts.append(alpha_note(plan.case, plan.axes))
+    return " ".join(part for part in parts if part)
 
 
 def _settings(plan: Plan, rows) -> list[tuple[dict, dict]]:
@@ -99,7 +107,7 @@ def _pairs(settings) -> list[_Pair]:
                                         for runs in (runs_a, runs_b))
         names = tuple(_name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second))
         p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
-        found.append(_Pair(axis, names, *distance_bound(u_a, over_a, u_b, over_b), p))
+        found.append(_Pair(axis, names, len(common), *distance_bound(u_a, over_a, u_b, over_b), p))
     return found
 
 
@@ -123,6 +131,17 @@ def _differences(pairs: list[_Pair], settings) -> str:
     counts = {axis: [corrected[place] < _LEVEL for place, other in enumerate(pairs) if other.axis == axis] for axis in dict.fromkeys(p.axis for p in pairs)}
     told = ", ".join(f"{sum(differ)} of {len(differ)} by {axis}" for axis, differ in counts.items())
     return f"The CDFs of u_max part by more than chance explains in {told}; most {apart} ({judged}, corrected for {len(pairs)} pairs)."
+
+
+def _shortfall(pairs: list[_Pair]) -> str:
+    """Warnings where motions are too few for what is said: of the weakest difference that is claimed, and of the equality of the rest."""
+    corrected = holm([pair.p for pair in pairs])
+    clear = [pair for pair, p in zip(pairs, corrected) if p < _LEVEL]
+    same = [pair for pair, p in zip(pairs, corrected) if p >= _LEVEL]
+    told = [difference_shortfall(weakest.n, weakest.distance, len(pairs)) for weakest in sorted(clear, key=lambda pair: pair.distance)[:1]]
+    if same:
+        told.append(equality_shortfall(min(pair.n for pair in same), bound=max(pair.bound for pair in same)))
+    return " ".join(one for one in told if one)
 
 
 def _name(values: dict) -> str:
