@@ -68,6 +68,19 @@ def with_sizes(case: Case, file) -> Case:
     return dataclasses.replace(case, column=column, base=base, mesh=sizes)
 
 
+def opened(case: Case) -> Case:
+    """A finished case with those sizes left open that it would be given anyway, so that another column gets its own."""
+    followers = {"mesh": [field.name for field in dataclasses.fields(case.mesh) if field.default is None],
+                 "base": [field.name for field in dataclasses.fields(case.base) if field.default is None],
+                 "column": ["fine_height_m", *(["height_m"] if case.column.mesh_file else []), *(["wall_m"] if case.column.shape == "solid" else [])]}
+    for name, keys in followers.items():
+        for key in keys:
+            trial = dataclasses.replace(case, **{name: dataclasses.replace(getattr(case, name), **{key: None})})
+            if with_sizes(trial, "case") == with_sizes(case, "case"):
+                case = trial
+    return case
+
+
 def foot_sides(case: Case) -> tuple[float, float]:
     """Length along x and width along y [m] of the rectangle around the foot."""
     return _foot(case.column, case.flange)

@@ -7,6 +7,7 @@ import multiprocessing
 import os
 import queue
 import signal
+import sys
 import threading
 import time
 from collections import deque
@@ -113,7 +114,7 @@ class _Worker:
         self.tasks: dict[str, Task] = {}
         self.batches: deque[int] = deque()
         self.ready = False
-        with _environment(ONE_THREAD), _interrupts_held():
+        with _environment(ONE_THREAD), _interrupts_held(), _without_script():
             self.process.start()
         far_end.close()  # so that the end of the process is the end of the connection
 
@@ -193,6 +194,20 @@ def _environment(values: dict):
     finally:
         for name, value in before.items():
             os.environ.pop(name) if value is None else os.environ.update({name: value})
+
+
+@contextlib.contextmanager
+def _without_script():
+    """Started processes do not run the caller's script anew, as multiprocessing would have them: they need nothing of it."""
+    script, spec = sys.modules["__main__"], getattr(sys.modules["__main__"], "__spec__", None)
+    file = script.__dict__.pop("__file__", None)
+    script.__spec__ = None
+    try:
+        yield
+    finally:
+        script.__spec__ = spec
+        if file is not None:
+            script.__file__ = file
 
 
 @contextlib.contextmanager
