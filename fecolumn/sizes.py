@@ -119,8 +119,8 @@ def _sized(column, flange, cap, base, mesh, mesh_content):
         fine, times = min(max(own.foot_edge, side / 24), side / 8), 3
         coarse = times * fine
     else:
-        if column.shape == "solid":
-            column = _filled(column, wall_m=column.outer_diameter_m / 2)
+        if column.shape == "solid" and column.wall_m is None:
+            column = dataclasses.replace(column, wall_m=column.outer_diameter_m / 2)  # to the last digit: a finished case is finished again
         fine, times = _fine(column), _COARSE["solid" if column.shape == "tube" and _is_solid(column) else column.shape]
         coarse = times * fine
         if flange:

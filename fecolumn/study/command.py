@@ -16,6 +16,8 @@ def add_arguments(parser) -> None:
                         help="analyses at a time on this machine (default: one a core); under mpirun every rank but the first does one")
     parser.add_argument("--array-index", metavar="I", type=int, default=None, help="do one share only, counted from 0, as a task of a job array")
     parser.add_argument("--array-size", metavar="N", type=int, default=None, help="number of shares; the tasks may run at once in one DIR")
+    parser.add_argument("--scheduler", metavar="ADDRESS", default=None,
+                        help="do the analyses on the workers of a dask scheduler, such as tcp://node7:8786; DIR must be where all see it")
     parser.add_argument("--retry-failed", action="store_true", help="run the analyses again that failed before")
     parser.add_argument("--entry", metavar="MODULE:FUNCTION", default=None, help="analysis function (default: fecolumn.simulation:run)")
 
@@ -32,17 +34,33 @@ def main(args) -> int:
     if args.jobs is not None and args.jobs < 1:
         raise InputError("fecolumn study", "-j", args.jobs, "must be at least 1")
     share = _share(args)
+    if args.scheduler is not None:
+        return _run_on_scheduler(args, share)
     if not mpi.under_mpirun():
-        return _run(args, share, None)[0]
+        return _run(args, share)[0]
     if args.jobs is not None:
         raise InputError("fecolumn study", "-j", args.jobs, "is for one machine; here mpirun -n says how many, one more than analyses at a time")
     with mpi.executor() as pool:
         if pool is None:
             return 0
-        code, stopped = _run(args, share, pool)
+        from mpi4py import MPI
+
+        code, stopped = _run(args, share, lambda *told: mpi.MpiTeam(pool, MPI.COMM_WORLD.size - 1, *told))
         if stopped:  # the other ranks are at work
             mpi.abort(code)
     return code
+
+
+def _run_on_scheduler(args, share) -> int:
+    from fecolumn.schema import InputError
+    from fecolumn.study import dask, mpi
+
+    if mpi.under_mpirun():
+        raise InputError("fecolumn study", "--scheduler", args.scheduler, "goes without mpirun: the workers of the scheduler do the analyses")
+    if args.jobs is not None:
+        raise InputError("fecolumn study", "-j", args.jobs, "is for one machine; here the scheduler's workers say how many analyses at a time")
+    with dask.connected(args.scheduler) as client:
+        return _run(args, share, lambda *told: dask.DaskTeam(client, *told))[0]
 
 
 def _share(args) -> tuple[int, int] | None:
@@ -58,8 +76,8 @@ def _share(args) -> tuple[int, int] | None:
     return index, size
 
 
-def _run(args, share, pool) -> tuple[int, bool]:
-    """Run the study, by the executor `pool` or in processes; exit code, and whether it was stopped."""
+def _run(args, share, team_of=None) -> tuple[int, bool]:
+    """Run the study by the team that `team_of` makes, else in processes of this machine; exit code, and whether it was stopped."""
     from fecolumn.study.plan import read_plan
     from fecolumn.study.run import ENTRY, StudyError, check_motions, run_study
 
@@ -69,15 +87,10 @@ def _run(args, share, pool) -> tuple[int, bool]:
 
         check_motions(plan)
         print(estimate_of_all(analysis.case for analysis in plan.analyses), file=sys.stderr, flush=True)
-    entry, team = args.entry or ENTRY, None
-    if pool is not None:
-        from mpi4py import MPI
-
-        from fecolumn.study.mpi import MpiTeam
-
-        team = MpiTeam(pool, MPI.COMM_WORLD.size - 1, entry, args.output, share, plan.file)
+    entry = args.entry or ENTRY
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's stop is answered like Ctrl-C
     try:
+        team = team_of(entry, args.output, share, plan.file) if team_of else None
         rows = run_study(plan, args.output, workers=args.jobs or os.cpu_count() or 1, entry=entry, retry_failed=args.retry_failed,
                          share=share, team=team)
     except KeyboardInterrupt:

@@ -14,7 +14,7 @@ from collections import deque
 from multiprocessing import resource_tracker
 from multiprocessing.connection import wait
 
-from fecolumn.study.outcome import DONE, FAILED, RETURNED, Outcome, Task, finished
+from fecolumn.study.outcome import DONE, Outcome, Task, outcomes_of_dead
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, die_with_parent, in_words, work_off
 
@@ -77,21 +77,14 @@ class LocalPool:
         return word
 
     def _bury(self, worker: _Worker) -> list[Outcome]:
-        """Outcomes of what a dead worker had in hand: done where the result says so; the next in turn has killed it."""
+        """Outcomes of what a dead worker had in hand."""
         reason = worker.epitaph()
         worker.connection.close()
         if not worker.ready:
             self._stillborn += 1
             if self._stillborn == _STILLBORN or not reason.startswith("worker killed"):
                 raise StudyError(f"a worker could not start: {reason}")
-        outcomes, blamed = [], not worker.ready
-        for task in worker.tasks.values():
-            if done := finished(task.id, task.folder):
-                outcomes.append(done)
-            else:
-                outcomes.append(Outcome(task.id, RETURNED if blamed else FAILED, reason))
-                blamed = True
-        return outcomes
+        return list(outcomes_of_dead(worker.tasks.values(), reason, worker.ready))
 
     def stop(self) -> None:
         for worker in self._workers:
