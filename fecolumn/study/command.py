@@ -18,6 +18,11 @@ def add_arguments(parser) -> None:
     parser.add_argument("--array-size", metavar="N", type=int, default=None, help="number of shares; the tasks may run at once in one DIR")
     parser.add_argument("--scheduler", metavar="ADDRESS", default=None,
                         help="do the analyses on the workers of a dask scheduler, such as tcp://node7:8786; DIR must be where all see it")
+    parser.add_argument("--until", choices=["decided"], default=None,
+                        help="take motions of the ensemble stage by stage, 40, 80, 160, ..., until each pair of settings is told apart or told alike")
+    parser.add_argument("--margin", metavar="D", type=float, default=None, help="with --until: distance of two CDFs up to which they are alike (default: 0.1)")
+    parser.add_argument("--error", metavar="P", type=float, default=None, help="with --until: error allowed for each statement, all looks together (default: 0.05)")
+    parser.add_argument("--most", metavar="N", type=int, default=None, help="with --until: motions in each setting at most (default: 1000)")
     parser.add_argument("--retry-failed", action="store_true", help="run the analyses again that failed before")
     parser.add_argument("--entry", metavar="MODULE:FUNCTION", default=None, help="analysis function (default: fecolumn.simulation:run)")
 
@@ -87,19 +92,59 @@ def _run(args, share, team_of=None) -> tuple[int, bool]:
 
         check_motions(plan)
         print(estimate_of_all(analysis.case for analysis in plan.analyses), file=sys.stderr, flush=True)
-    entry = args.entry or ENTRY
+    entry, rule = args.entry or ENTRY, _rule(args, share, plan)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's stop is answered like Ctrl-C
-    try:
+
+    def work(only=None):
         team = team_of(entry, args.output, share, plan.file) if team_of else None
-        rows = run_study(plan, args.output, workers=args.jobs or os.cpu_count() or 1, entry=entry, retry_failed=args.retry_failed,
-                         share=share, team=team)
+        return run_study(plan, args.output, workers=args.jobs or os.cpu_count() or 1, entry=entry, retry_failed=args.retry_failed,
+                         share=share, team=team, only=only)
+
+    try:
+        verdicts, rows = _until_decided(plan, rule, work) if rule else ([], work())
     except KeyboardInterrupt:
         print("stopped; what is done is kept, the same command does the rest", file=sys.stderr, flush=True)
         return 130, True
     except StudyError as error:
         print(f"{error}; nothing done is lost, the same command does the rest", file=sys.stderr, flush=True)
         return 1, True
-    return _show(plan, rows, args.output, share), False
+    code = _show(plan, rows, args.output, share)
+    for verdict in verdicts:
+        print(verdict.text(rule))
+    return code, False
+
+
+def _rule(args, share, plan):
+    """The `sequential.Rule` of the options, None without --until."""
+    from fecolumn.schema import InputError
+    from fecolumn.study.sequential import Rule, stages
+
+    given = {name: value for name in ("margin", "error", "most") if (value := getattr(args, name)) is not None}
+    if args.until is None:
+        for name, value in given.items():
+            raise InputError("fecolumn study", f"--{name}", value, "goes with --until decided")
+        return None
+    if share:
+        raise InputError("fecolumn study", "--until", args.until, "is for one driver that sees all results, not for a share of a job array")
+    rule = Rule(**given)
+    rule.check("fecolumn study")
+    stages(plan, rule)
+    return rule
+
+
+def _until_decided(plan, rule, work):
+    """Work off stage by stage; the verdicts and the ledger's rows."""
+    from fecolumn.study import sequential
+
+    verdicts, looks, rows = [], sequential.stages(plan, rule), []
+    for motions in looks:
+        rows = work(sequential.stage_analyses(plan, motions, verdicts))
+        verdicts = sequential.judge(plan, rows, rule, len(looks), verdicts)
+        still = sum(verdict.word == sequential.OPEN for verdict in verdicts)
+        print(f"{motions} motions: {len(verdicts) - still} of {len(verdicts)} pairs of settings decided", file=sys.stderr, flush=True)
+        if verdicts and not still:
+            break
+    return verdicts, rows
 
 
 def _show(plan, rows: list[dict], folder, share) -> int:

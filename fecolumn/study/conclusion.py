@@ -22,10 +22,11 @@ _LEVEL = 0.05  # of significance, the usual one
 
 
 @dataclass(frozen=True, slots=True)
-class _Pair:
-    """Two settings that differ in one axis: its key, their names, motions in both, distance of their CDFs, its bound at 95 % and its paired p."""
+class Pair:
+    """Two settings that differ in one axis: its key, their axis values and names, motions in both, distance of their CDFs, its upper bound and its paired p."""
 
     axis: str
+    settings: tuple[dict, dict]
     names: tuple[str, str]
     n: int
     distance: float
@@ -43,10 +44,10 @@ def conclusion(plan: Plan, rows: list[dict]) -> str:
         plan: the study.
         rows: its ledger, as `run_study` returns it.
     """
-    settings = _settings(plan, rows)
+    settings = settings_of(plan, rows)
     if not settings or max(len(runs) for _, runs in settings) < _LEAST_MOTIONS:
         return ""
-    pairs = _pairs(settings)
+    pairs = pairs_of(settings)
     parts = [_overturns(settings)]
     if pairs:
         parts += [_differences(pairs, settings), _shortfall(pairs)]
@@ -55,7 +56,7 @@ def conclusion(plan: Plan, rows: list[dict]) -> str:
     return " ".join(part for part in parts if part)
 
 
-def _settings(plan: Plan, rows) -> list[tuple[dict, dict]]:
+def settings_of(plan: Plan, rows) -> list[tuple[dict, dict]]:
     """Axis values and, by motion, the summary of what is done, of each setting with anything done."""
     states = {row["id"]: row for row in rows}
     groups: dict[tuple, tuple[dict, dict]] = {}
@@ -88,8 +89,8 @@ def _overturns(settings) -> str:
     return f"P(overturn) lies between {said(ranked[0])} and {said(ranked[-1])}; in brackets the 95 % interval."
 
 
-def _pairs(settings) -> list[_Pair]:
-    """Settings that differ in one axis alone, over the motions done in both."""
+def pairs_of(settings, confidence: float = 0.95) -> list[Pair]:
+    """Settings that differ in one axis alone, over the motions done in both; confidence: of the bound of their distance."""
     lines: dict[tuple, list] = {}
     for values, runs in settings:
         for axis in values:
@@ -107,7 +108,7 @@ def _pairs(settings) -> list[_Pair]:
                                         for runs in (runs_a, runs_b))
         names = tuple(_name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second))
         p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
-        found.append(_Pair(axis, names, len(common), *distance_bound(u_a, over_a, u_b, over_b), p))
+        found.append(Pair(axis, (first, second), names, len(common), *distance_bound(u_a, over_a, u_b, over_b, confidence), p))
     return found
 
 
@@ -115,7 +116,7 @@ def _peak(summary: dict) -> float:
     return summary["u_max_m"]
 
 
-def _differences(pairs: list[_Pair], settings) -> str:
+def _differences(pairs: list[Pair], settings) -> str:
     """Whether the distributions of the peak displacement differ, and by what."""
     corrected = holm([pair.p for pair in pairs])
     widest = max(range(len(pairs)), key=lambda place: (corrected[place] < _LEVEL, pairs[place].distance))
@@ -133,7 +134,7 @@ def _differences(pairs: list[_Pair], settings) -> str:
     return f"The CDFs of u_max part by more than chance explains in {told}; most {apart} ({judged}, corrected for {len(pairs)} pairs)."
 
 
-def _shortfall(pairs: list[_Pair]) -> str:
+def _shortfall(pairs: list[Pair]) -> str:
     """Warnings where motions are too few for what is said: of the weakest difference that is claimed, and of the equality of the rest."""
     corrected = holm([pair.p for pair in pairs])
     clear = [pair for pair, p in zip(pairs, corrected) if p < _LEVEL]
