@@ -12,6 +12,7 @@ import math
 from pathlib import Path
 
 from fecolumn.dynamics.history import read_history
+from fecolumn.ending import lost
 from fecolumn.statistics.repeatability import aligned, horizon, spread, time_gained
 from fecolumn.study.store import DONE, read_study
 
@@ -26,7 +27,7 @@ def main(folder) -> None:
             axes = row["axes"]
             size = max(abs(axes["contact.friction_coefficient"] / 0.3 - 1), axes["motion.delay_s"] / row["summary"]["dt"])
             motions[axes["motion.source"]][float(f"{size:.0e}")].append((Path(folder) / "analyses" / row["id"] / "history.h5", row["summary"]))
-    print(f"{'motion':34} {'perturbed by':>12} {'runs':>4} {'overturned':>10} {'u_max [mm]':>10} {'apart by':>9} {'spread/peak':>11} {'end [s]':>7} "
+    print(f"{'motion':34} {'perturbed by':>12} {'runs':>4} {'lost':>10} {'u_max [mm]':>10} {'apart by':>9} {'spread/peak':>11} {'end [s]':>7} "
           f"{'horizon [s]':>11} {'rate [1/s]':>10}  95 % interval")
     names, sizes, horizons = [], [], []
     for motion, groups in motions.items():
@@ -36,20 +37,20 @@ def main(folder) -> None:
                 continue
             histories = [read_history(file) for file, _ in runs]
             times, paths = aligned([(history["time"], history["u_top"][:, :2]) for history in histories])
-            if all(summary["overturned"] for _, summary in runs):  # the last row, at the fall, may come a step earlier or later
+            if all(lost(summary) for _, summary in runs):  # the last row, at the fall, may come a step earlier or later
                 kept = times < min(history["time"][-1] for history in histories) - 1e-9
                 times, paths = times[kept], paths[:, kept]
             grown = spread(paths, times, _SHARE, size)
             names.append(motion)
             sizes.append(size)
             horizons.append(horizon(grown.spread, times, grown.peak, _SHARE))
-            peaks = sorted(1e3 * summary["u_max_m"] for _, summary in runs if not summary["overturned"])
+            peaks = sorted(1e3 * summary["u_max_m"] for _, summary in runs if not lost(summary))
             extent = f"{peaks[0]:10.3f} {peaks[-1] / peaks[0] - 1:9.1e}" if peaks else f"{'-':>10} {'-':>9}"
             end = f"{horizons[-1]:11.3f}" if math.isfinite(horizons[-1]) else f"{'beyond':>11}"
             rate = f"{grown.rate:10.2f}" if math.isfinite(grown.rate) else f"{'-':>10}"
             if math.isfinite(grown.interval[0]):
                 rate += f"  [{grown.interval[0]:.2f}, {grown.interval[1]:.2f}]"
-            print(f"{motion:34} {size:12.0e} {len(runs):4} {sum(summary['overturned'] for _, summary in runs):10} {extent} "
+            print(f"{motion:34} {size:12.0e} {len(runs):4} {sum(lost(summary) for _, summary in runs):10} {extent} "
                   f"{grown.spread.max() / grown.peak:11.1e} {times[-1]:7.2f} {end} {rate}")
     for motion in dict.fromkeys(names):
         of_motion = [place for place, name in enumerate(names) if name == motion and math.isfinite(horizons[place])]

@@ -4,11 +4,15 @@ Units are SI everywhere. z points up, gravity along -z; displacements are relati
 a contact pressure positive in compression.
 """
 
-__version__ = "0.3.0"
+__version__ = "0.4.0"
 
-_HOMES = {"Case": "case", "read_case": "case", "case_from_tables": "case", "InputError": "schema", "run": "simulation",
-          "AnalysisFailed": "simulation", "specimen_mesh": "mesh.specimen", "load_motion": "motions.load",
-          "read_history": "dynamics.history", "ecdf": "statistics.ecdf"}
+# module, and the name there where it is another
+_HOMES = {"Case": "case", "load_case": "case:read_case", "case_from_tables": "case", "InputError": "schema", "run": "simulation",
+          "AnalysisFailed": "simulation", "run_study": "results.script", "load": "results.load", "AnalysisResult": "results.analysis",
+          "StudyResult": "results.study", "motion_file": "motions.array", "specimen_mesh": "mesh.specimen", "load_motion": "motions.load",
+          "ecdf": "statistics.ecdf",
+          # names of earlier versions
+          "read_case": "case", "read_history": "dynamics.history"}
 __all__ = list(_HOMES)
 
 
@@ -18,4 +22,9 @@ def __getattr__(name):
         raise AttributeError(f"module fecolumn has no attribute {name!r}")
     import importlib
 
-    return getattr(importlib.import_module(f"fecolumn.{_HOMES[name]}"), name)
+    module, _, there = _HOMES[name].partition(":")
+    return getattr(importlib.import_module(f"fecolumn.{module}"), there or name)
+
+
+def __dir__():
+    return sorted([*globals(), *_HOMES])

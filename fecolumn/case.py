@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.files import is_file
-from fecolumn.schema import InputError, Section, build, parameter, read_toml
+from fecolumn.schema import InputError, Section, build, merge, parameter, read_toml
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
@@ -133,6 +133,7 @@ class Motion(Section):
     rotation_deg: float = parameter(0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360)
     strong_part: tuple[float, ...] = parameter((0.0, 1.0), doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]", low=0, high=1)
     delay_s: float = parameter(0.0, doc="time at rest before the motion, any fraction of dt; shifts the phase of the steps for tests of repeatability", unit="s", low=0, high=1e3, since="0.1.0")
+    resample_s: float = parameter(0.0, doc="step at which the motion is sampled, band-limited, before straight lines join the samples up to integration.dt_s, which must not exceed it; 0 samples at integration.dt_s itself", unit="s", low=0, high=10, since="0.4")
     vertical: bool = parameter(False, doc="apply the vertical component too; refused where the record has none")
     free_vibration_s: float | str = parameter(1.0, doc='time analysed after the motion\'s end; "rest" goes on until the column is at rest', unit="s", low=0, high=1e4, words=(REST,))
     rest_ceiling_s: float = parameter(60.0, doc='longest time after the motion\'s end where free_vibration_s = "rest"', unit="s", above=0, high=1e5, since="0.2.0")
@@ -200,6 +201,29 @@ class Case(Section):
         """
         return digest({name: section_text(name, getattr(self, name)) for name in SECTIONS})
 
+    def replace(self, changes: dict | None = None, **sections) -> Case:
+        """This case with other values, checked as a file's would be; sizes that followed the column follow the new one.
+
+        Args:
+            changes: values by dotted key, such as {"contact.friction_coefficient": 0.5}; None removes a section that may be absent.
+            sections: the same by section, such as contact={"friction_coefficient": 0.5}; title="...".
+
+        Raises:
+            InputError: unknown key, value out of range, parts that do not fit.
+        """
+        from fecolumn import sizes
+
+        tables = _stated(dataclasses.asdict(sizes.opened(self)))
+        for key, value in {**(changes or {}), **sections}.items():
+            own = {key.rpartition(".")[2]: value}
+            for part in reversed(key.split(".")[:-1]):
+                own = {part: own}
+            if value is None:
+                tables.pop(key, None)
+            else:
+                tables = merge(tables, own)
+        return case_from_tables(tables, "case")
+
     @property
     def n_modes(self) -> int:
         """Elastic modes that move with inertia in the reduced engine."""
@@ -219,6 +243,11 @@ class Case(Section):
     def top_m(self) -> float:
         """Height of the top of column and cap."""
         return self.seat_m + self.column.height_m + (self.cap.thickness_m if self.cap else 0.0)
+
+
+def _stated(tables: dict) -> dict:
+    """Tables without the keys that are left open."""
+    return {key: _stated(value) if isinstance(value, dict) else value for key, value in tables.items() if value is not None}
 
 
 # what tells one case from another: all but title and output

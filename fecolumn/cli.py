@@ -133,9 +133,27 @@ def _mesh(args) -> int:
     from fecolumn.mesh_report import mesh_report
 
     case = read_case(args.case)
+    _warn_of_motion(case, args.case)
     with written(args.output, "mesh", names=("specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt")) as draft:
         print(mesh_report(case, draft, lambda text: print(text, file=sys.stderr, flush=True)))
     return 0
+
+
+def _warn_of_motion(case, file) -> None:
+    """Tell of a motion that an analysis of the case would cut short, or could not use; its mesh may be looked at all the same."""
+    from fecolumn.analysis import cut_text
+    from fecolumn.motions.load import unsampled
+    from fecolumn.schema import InputError
+
+    if case.motion is None:
+        return
+    try:
+        motion_s, end_s = unsampled(case.motion, file).duration, case.integration.duration_s
+    except InputError as error:
+        warnings.warn(str(error), stacklevel=2)
+        return
+    if 0 < end_s < motion_s - case.integration.dt_s:
+        warnings.warn(cut_text(file, end_s, motion_s), stacklevel=2)
 
 
 def _prepare(args) -> int:

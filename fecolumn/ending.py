@@ -7,6 +7,9 @@ from dataclasses import dataclass
 #: Outcomes. Only a column at rest has shown its residual slide, and only one that is not lost, overturned or slid off, its peak.
 AT_REST, STILL_ROCKING, OVERTURNED, SLID_OFF = "at rest", "still rocking", "overturned", "slid off"
 
+#: Names of a share of columns: of those that overturned, and of those that overturned or slid off where both are counted together.
+P_OVERTURN, P_LOST = "P(overturn)", "P(lost: overturned or slid off)"
+
 #: A column whose foot meets the edge of the base has come as near to it before as this share of the foot's width; else a step went astray.
 EDGE = 0.05
 
@@ -33,7 +36,20 @@ def ending_text(summary: dict) -> str:
     if summary.get("outcome") == STILL_ROCKING:
         text = (f"{STILL_ROCKING} at {summary['duration_s']:.3f} s with {summary['energy_left_j']:.3g} J of the "
                 f"{summary['energy_to_overturn_j']:.3g} J to overturn")
+    if summary.get("motion_cut_at_s") is not None:
+        text += f"; the motion was cut at {summary['motion_cut_at_s']:g} s, by integration.duration_s"
     return text
+
+
+def cut_short(summaries) -> str:
+    """How many of some analyses ended within their motion, and what that means, from their summaries; "" where none did."""
+    summaries = list(summaries)
+    ends = [summary["motion_cut_at_s"] for summary in summaries if summary.get("motion_cut_at_s") is not None and not lost(summary)]
+    if not ends:
+        return ""
+    low, high = min(ends), max(ends)
+    return (f"{len(ends)} of {len(summaries)} analyses cut their motion short, at {low:g}{f' to {high:g}' if high > low else ''} s by "
+            "integration.duration_s: peaks and outcomes are of that part alone")
 
 
 def lost(summary: dict) -> bool:

@@ -68,6 +68,19 @@ def with_sizes(case: Case, file) -> Case:
     return dataclasses.replace(case, column=column, base=base, mesh=sizes)
 
 
+def opened(case: Case) -> Case:
+    """A finished case with those sizes left open that it would be given anyway, so that another column gets its own."""
+    followers = {"mesh": [field.name for field in dataclasses.fields(case.mesh) if field.default is None],
+                 "base": [field.name for field in dataclasses.fields(case.base) if field.default is None],
+                 "column": ["fine_height_m", *(["height_m"] if case.column.mesh_file else []), *(["wall_m"] if case.column.shape == "solid" else [])]}
+    for name, keys in followers.items():
+        for key in keys:
+            trial = dataclasses.replace(case, **{name: dataclasses.replace(getattr(case, name), **{key: None})})
+            if with_sizes(trial, "case") == with_sizes(case, "case"):
+                case = trial
+    return case
+
+
 def foot_sides(case: Case) -> tuple[float, float]:
     """Length along x and width along y [m] of the rectangle around the foot."""
     return _foot(case.column, case.flange)
@@ -106,8 +119,8 @@ def _sized(column, flange, cap, base, mesh, mesh_content):
         fine, times = min(max(own.foot_edge, side / 24), side / 8), 3
         coarse = times * fine
     else:
-        if column.shape == "solid":
-            column = _filled(column, wall_m=column.outer_diameter_m / 2)
+        if column.shape == "solid" and column.wall_m is None:
+            column = dataclasses.replace(column, wall_m=column.outer_diameter_m / 2)  # to the last digit: a finished case is finished again
         fine, times = _fine(column), _COARSE["solid" if column.shape == "tube" and _is_solid(column) else column.shape]
         coarse = times * fine
         if flange:

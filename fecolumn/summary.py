@@ -12,7 +12,7 @@ NAME = "summary.json"
 _NUMBERS = ("u_max_m", "residual_slide_m", "steps", "wall_s", "s_per_step", "energy_closure_rel")
 # The same of summaries that have them
 _OPTIONAL = ("tilt_max_rad", "duration_s", "overturn_time_s", "dofs", "iterations", "contact_iterations", "impacts", "cuts", "parts",
-             "factorizations", "ranks", "dt")
+             "factorizations", "ranks", "dt", "motion_cut_at_s")
 _MOST_BYTES = 10_000_000
 
 

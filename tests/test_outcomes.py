@@ -136,7 +136,17 @@ def test_motion_cut_short_is_said(tmp_path, capsys):
     said = capsys.readouterr()
     assert "integration.duration_s = 0.02 s cuts the motion short, which lasts 1.5 s" in said.err
     assert json.loads((out / "summary.json").read_text())["motion_cut_at_s"] == pytest.approx(0.02)
-    assert "at rest, residual slide" in said.out
+    assert "at rest, residual slide" in said.out and "the motion was cut at 0.02 s, by integration.duration_s" in said.out
+    assert main(["mesh", str(file), "-o", str(tmp_path / "mesh")]) == 0
+    assert "integration.duration_s = 0.02 s cuts the motion short, which lasts 1.5 s" in capsys.readouterr().err
+
+
+def test_a_look_at_the_mesh_says_that_the_motion_cannot_be_used(tmp_path, capsys):
+    file = tmp_path / "case.toml"
+    lines = [f"[{name}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items()) for name, keys in DRUM.items()]
+    file.write_text("".join(lines) + '[motion]\nsource = "missing.csv"\n')
+    assert main(["mesh", str(file), "-o", str(tmp_path / "mesh")]) == 0
+    assert "missing.csv" in capsys.readouterr().err
 
 
 def test_strong_motion_overturns_in_both_engines_at_the_same_time(tmp_path):

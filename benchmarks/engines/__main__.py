@@ -4,6 +4,8 @@
 
 physics      specimen: thresholds, quarter period, restitution; ten motions to the third main impact, 30 and 100 modes (five minutes)
 convergence  n_modes 0 to 200 (three minutes)
+impact       loss of the first impact over a rigid block's, and rebound of a flat landing, by time step, reduced engine (a minute)
+literal      the same of the literal scheme, by alpha_HHT (five minutes)
 ensemble     24 motions on a coarse mesh in both engines (an hour; goes on where it stopped; ENGINES_JOBS=2 for two processes)
 standing     a minute at every (dt, alpha) (five minutes)
 speed        a step, a motion, memory: on a machine that does nothing else
@@ -18,11 +20,13 @@ import sys
 from benchmarks.checks import print_checks
 from benchmarks.engines.convergence import convergence
 from benchmarks.engines.ensemble import ensemble
+from benchmarks.engines.impact import impact
+from benchmarks.engines.literal import literal
 from benchmarks.engines.physics import physics
 from benchmarks.engines.speed import motions115, paper, speed
 from benchmarks.engines.standing import standing
 
-GROUPS = {group.__name__: group for group in (physics, convergence, ensemble, standing, speed, motions115, paper)}
+GROUPS = {group.__name__: group for group in (physics, convergence, impact, literal, ensemble, standing, speed, motions115, paper)}
 
 
 def main(names) -> int:

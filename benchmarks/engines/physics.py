@@ -42,11 +42,14 @@ def thresholds():
 def rocking():
     """Release at 0.4 of the critical tilt."""
     system = system_of(case_of(contact={"friction_coefficient": 0.8}))
-    initial = RigidRocking(system).energy(0.4 * RigidRocking(system).slenderness)
+    rigid = RigidRocking(system)
+    initial = rigid.energy(0.4 * rigid.slenderness)
     full, reduced = (rocked(begin(one, system, leaning(0.4)), 0.4) for one in ENGINES)
     rebounds = [np.sqrt(1 - lost / initial) for _, lost in (full, reduced)]
     yield "free rocking from 0.4 alpha: quarter period [s]", full[0], reduced[0], abs(reduced[0] / full[0] - 1) <= 0.005
-    yield "free rocking from 0.4 alpha: restitution [-]", *rebounds, abs(rebounds[1] / rebounds[0] - 1) <= 0.005
+    yield "free rocking from 0.4 alpha: restitution, release included, both engines [-]", *rebounds, abs(rebounds[1] / rebounds[0] - 1) <= 0.005
+    # no judgement: the loss of an elastic column depends on the step, see `impact`
+    yield "free rocking from 0.4 alpha: restitution, beside a rigid block's (Housner) [-]", rigid.restitution, rebounds[1], None
 
 
 def motions(count: int = MOTIONS, most: int = MOST):

@@ -19,7 +19,7 @@ from fecolumn.study.plan import read_plan
 from fecolumn.study.run import run_study
 from fecolumn.study.store import read_study
 from fecolumn.study.table import write_tables
-from fecolumn.study.worker import work_off
+from fecolumn.study.worker import streams_kept, work_off
 
 _STUDY = """title = "pulses"
 case = "specimen.toml"
@@ -60,13 +60,8 @@ class OwnTeam:
         self._batches.append(batch)
 
     def collect(self, timeout_s: float) -> list:
-        kept = [(stream, os.dup(stream)) for stream in (1, 2)]  # work_off lends them to the analyses' logs
-        try:
+        with streams_kept():
             return list(work_off(self._batches.popleft(), analyse, "study.toml")) if self._batches else []
-        finally:
-            for stream, copy in kept:
-                os.dup2(copy, stream)
-                os.close(copy)
 
     def stop(self) -> None:
         self._batches.clear()

@@ -13,7 +13,7 @@ from fecolumn.motions.columns import read_columns
 from fecolumn.motions.ensemble_file import file_and_number, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
 from fecolumn.motions.fema_p695 import PREFIX, read_fema_p695
-from fecolumn.motions.processing import delay, resample, rotate, scale, scale_time, strong_part, without_vertical
+from fecolumn.motions.processing import delay, join, resample, rotate, scale, scale_time, strong_part, without_vertical
 from fecolumn.motions.record import METRES_PER_S2, MOST_SAMPLES, GroundMotion, Recording, UnusableRecord, sound
 from fecolumn.motions.text import read_text
 from fecolumn.schema import InputError
@@ -26,7 +26,7 @@ _LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as ma
 
 
 def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
-    """Ground motion of a case: read, in m/s2, rotated, scaled, compressed, trimmed, resampled, delayed, in this order.
+    """Ground motion of a case: read, in m/s2, rotated, scaled, compressed, trimmed, resampled, joined by lines, delayed, in this order.
 
     Args:
         motion: the case's [motion] table.
@@ -40,16 +40,19 @@ def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
         AliasingWarning: dt is too coarse for the motion.
     """
     ground = unsampled(motion, file)
-    if dt > ground.duration:
-        raise InputError(file, "integration.dt_s", dt, f"must be at most the motion's length, {ground.duration:g} s")
+    if motion.resample_s and dt > motion.resample_s * (1 + _DT_TOLERANCE):
+        raise InputError(file, "integration.dt_s", dt, f"must be at most motion.resample_s = {motion.resample_s:g} s")
+    key, step = ("motion.resample_s", motion.resample_s) if motion.resample_s else ("integration.dt_s", dt)
+    if step > ground.duration:
+        raise InputError(file, key, step, f"must be at most the motion's length, {ground.duration:g} s")
     if (least := (ground.duration + motion.delay_s) / MOST_SAMPLES) > dt or (least := ground.dt / _LARGEST_RATIO) > dt:
         raise InputError(file, "integration.dt_s", dt, f"must be at least {least:.3g} s for a motion of {ground.duration:g} s sampled at {ground.dt:g} s")
-    if dt > _LARGEST_RATIO * ground.dt:
-        raise InputError(file, "integration.dt_s", dt, f"must be at most {_LARGEST_RATIO * ground.dt:.3g} s for a motion sampled at {ground.dt:g} s")
+    if step > _LARGEST_RATIO * ground.dt:
+        raise InputError(file, key, step, f"must be at most {_LARGEST_RATIO * ground.dt:.3g} s for a motion sampled at {ground.dt:g} s")
     try:
-        return delay(resample(ground, dt), motion.delay_s)
+        return delay(join(resample(ground, step), dt), motion.delay_s)
     except ValueError as error:
-        raise InputError(file, "integration.dt_s", dt, str(error)) from None
+        raise InputError(file, key, step, str(error)) from None
 
 
 def unsampled(motion: Motion, file) -> GroundMotion:

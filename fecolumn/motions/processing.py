@@ -223,6 +223,19 @@ def resample(motion: GroundMotion, dt: float) -> GroundMotion:
     return dataclasses.replace(motion, acceleration=resampled[:(n_steps - 1) * up // down + 1], dt=dt)
 
 
+def join(motion: GroundMotion, dt: float) -> GroundMotion:
+    """Motion at k dt up to its end on straight lines between its samples; returned as it is where its step already is dt.
+
+    Args:
+        motion: at its own step. dt: new step, not longer [s].
+    """
+    if math.isclose(dt, motion.dt, rel_tol=1e-9):
+        return motion
+    times = dt * np.arange(math.floor(motion.duration / dt * (1 + 1e-9)) + 1)
+    samples = motion.dt * np.arange(len(motion.acceleration))
+    return dataclasses.replace(motion, acceleration=np.column_stack([np.interp(times, samples, a) for a in motion.acceleration.T]), dt=dt)
+
+
 def delay(motion: GroundMotion, seconds: float) -> GroundMotion:
     """Motion that begins later, by any fraction of its step, after rest.
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.ending import P_OVERTURN
 from fecolumn.post.style import COLUMN_WIDTH_IN, LINES, PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.statistics.ecdf import Ecdf, proportion_interval
 
@@ -20,10 +21,11 @@ SHADES, BARS = "shades: pointwise 95 % bands", "bars: pointwise 95 % bands"
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """One set of axes: its title, and a label with a distribution of u_max [m] for each line."""
+    """One set of axes: its title, a label with a distribution of u_max [m] for each line, and what its legend calls the share beyond."""
 
     title: str
     lines: tuple[tuple[str, Ecdf], ...]
+    p_lost: str = P_OVERTURN
 
 
 def cdf_figure(panels: list[Panel], path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN) -> list[Path]:
@@ -31,7 +33,7 @@ def cdf_figure(panels: list[Panel], path, formats=("png", "pdf"), width_in: floa
 
     Each distribution ends at 1 - P(overturn) and runs on as a level to the end of the axis, a little beyond the largest peak of all
     panels. The pointwise 95 % band of Greenwood is a shade where a panel has one or two lines, and bars beside each other where it
-    has more; the legend gives P(overturn) with Wilson's 95 % interval.
+    has more; the legend gives P(overturn), or what else `Panel.p_lost` calls it, with Wilson's 95 % interval.
 
     Args:
         panels: at least one.
@@ -64,7 +66,7 @@ def cdf_figure(panels: list[Panel], path, formats=("png", "pdf"), width_in: floa
                 axes.tick_params(labelleft=False)
             handles, names = axes.get_legend_handles_labels()
             strip.legend([*handles, _nothing()], [*names, note], loc="upper center", framealpha=0, borderaxespad=0,
-                         title=r"$P$(overturn) [95 % interval]", title_fontsize=7.5)
+                         title=f"{panels[place].p_lost.replace('P(', '$P$(')} [95 % interval]", title_fontsize=7.5)
         return save(figure, path, formats)
 
 
@@ -100,6 +102,6 @@ def _nothing():
 
 
 def overturn_text(distribution: Ecdf) -> str:
-    """P(overturn) and its interval, such as "43.5 % [34.8, 52.6]"."""
+    """Share of the runs that were lost and its interval, such as "43.5 % [34.8, 52.6]"."""
     low, high = proportion_interval(distribution.overturned, distribution.n)
     return f"{100 * distribution.overturned / distribution.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"

@@ -16,38 +16,40 @@ from fecolumn.statistics.ecdf import censored, ecdf, proportion_interval
 _STRIP = 0.09  # beyond the axes' ends, where overturned runs are drawn; as a share of the axis
 
 
-def compare_figure(a: tuple, b: tuple, labels: tuple[str, str], *, paired: bool, correlation: float | None, path) -> list[Path]:
+def compare_figure(a: tuple, b: tuple, labels: tuple[str, str], *, paired: bool, correlation: float | None, path,
+                   slides: bool = False) -> list[Path]:
     """Write the figure as PNG and PDF.
 
     Left, both CDFs with the pointwise 95 % band of Greenwood of each (shaded) and the simultaneous one of b, the reference
     (dotted). Right, of the same motions in both, u_max of a over that of b; overturned runs lie in the strips beyond the axes' ends.
 
     Args:
-        a, b: u_max [m] and overturned, (n,) each; with the same motion at the same place where paired.
+        a, b: u_max [m] and whether overturned or slid off, (n,) each; with the same motion at the same place where paired.
         labels: of a and b.
         paired: whether the right panel is drawn.
         correlation: R, written into the right panel; None or nan writes none.
         path: file name without suffix.
+        slides: whether some slid off their base, so that the figure says "lost" for "overturned".
     """
     limit_mm = 1e3 * axis_end(peak for sample in (a, b) for peak in ecdf(*sample).x)
     with styled():
         figure = new_figure(PAGE_WIDTH_IN if paired else PAGE_WIDTH_IN / 2, 3.75)
         figure.get_layout_engine().set(w_pad=0.06)
         grid = figure.subplots(1, 2 if paired else 1, squeeze=False)[0]
-        _distributions(grid[0], a, b, labels, limit_mm)
+        _distributions(grid[0], a, b, labels, limit_mm, "lost" if slides else "overturned")
         if paired:
-            _pairs(grid[1], censored(*a), censored(*b), labels, limit_mm, correlation)
+            _pairs(grid[1], censored(*a), censored(*b), labels, limit_mm, correlation, slides)
         return save(figure, path)
 
 
-def _distributions(axes, a, b, labels, limit_mm: float) -> None:
+def _distributions(axes, a, b, labels, limit_mm: float, word: str) -> None:
     for sample, label, colour, dashes in ((b, labels[1], VERMILION, "--"), (a, labels[0], BLUE, "-")):
         curve = ecdf(*sample)
         low, high = proportion_interval(curve.overturned, curve.n)
         x = np.concatenate([[0.0], 1e3 * curve.x, [limit_mm]])
         axes.fill_between(x, _whole(curve.lower), _whole(curve.upper), step="post", color=colour, alpha=0.18, linewidth=0, zorder=1)
         axes.step(x, _whole(curve.cdf), where="post", color=colour, linestyle=dashes, zorder=3,
-                  label=f"{label}: $n$ = {curve.n}, overturned {100 * curve.overturned / curve.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]")
+                  label=f"{label}: $n$ = {curve.n}, {word} {100 * curve.overturned / curve.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]")
         if sample is b and curve.x.size:
             lower, upper = dkw(curve)
             for edge, first, note in ((lower, 0.0, "simultaneous 95 % band of the reference"), (upper, dkw_distance(curve.n), None)):
@@ -63,7 +65,7 @@ def _whole(edge: np.ndarray, first: float = 0.0) -> np.ndarray:
     return np.concatenate([[first], edge, edge[-1:] if edge.size else [first]])
 
 
-def _pairs(axes, a, b, labels, limit_mm: float, correlation) -> None:
+def _pairs(axes, a, b, labels, limit_mm: float, correlation, slides: bool) -> None:
     end, fallen = limit_mm * (1 + _STRIP), limit_mm * (1 + _STRIP / 2)
     x, y = (np.where(np.isinf(u), fallen, np.minimum(1e3 * np.where(np.isinf(u), 0, u), limit_mm)) for u in (b, a))
     both, one = np.isinf(a) & np.isinf(b), np.isinf(a) ^ np.isinf(b)
@@ -74,12 +76,12 @@ def _pairs(axes, a, b, labels, limit_mm: float, correlation) -> None:
     axes.plot(x[stood], y[stood], "o", color=BLUE, markersize=3.2, markeredgewidth=0, alpha=0.75, zorder=3, clip_on=False,
               label=f"stands in both: {stood.sum()}")
     axes.plot(x[one], y[one], "D", color=VERMILION, markersize=3.4, markerfacecolor="none", markeredgewidth=0.8, zorder=3,
-              label=f"overturns in one: {one.sum()}")
-    axes.plot(x[both][:1], y[both][:1], "s", color=BLACK, markersize=4.5, zorder=3, label=f"overturns in both: {both.sum()}")
+              label=f"{'lost' if slides else 'overturns'} in one: {one.sum()}")
+    axes.plot(x[both][:1], y[both][:1], "s", color=BLACK, markersize=4.5, zorder=3, label=f"{'lost' if slides else 'overturns'} in both: {both.sum()}")
     ticks = [tick for tick in MaxNLocator(5).tick_values(0, limit_mm) if 0 <= tick < 0.97 * limit_mm]
     if not (both | one).any():  # no strip for what is not there
         end, fallen = limit_mm, []
-    names = [f"{tick:g}" for tick in ticks] + (["over-\nturned"] if np.size(fallen) else [])
+    names = [f"{tick:g}" for tick in ticks] + (["lost" if slides else "over-\nturned"] if np.size(fallen) else [])
     axes.set(xlim=(0, end), ylim=(0, end), aspect="equal", xlabel=rf"$u_{{\max}}$ [mm], {labels[1]}", ylabel=rf"$u_{{\max}}$ [mm], {labels[0]}")
     axes.set_xticks([*ticks, *np.atleast_1d(fallen)], names)
     axes.set_yticks([*ticks, *np.atleast_1d(fallen)], names)

@@ -20,7 +20,7 @@ _CLOSED = 1e-3  # closure error that a reader should look at
 
 def audit(sweep: Sweep, gallery: Gallery) -> Section:
     """The section."""
-    blocks = [Paragraph(_completeness(sweep)), _code(sweep), Paragraph(_energy(sweep)), _table(sweep)]
+    blocks = [Paragraph(_completeness(sweep)), *([Paragraph(f"{sweep.cut}.", warning=True)] if sweep.cut else []), _code(sweep), Paragraph(_energy(sweep)), _table(sweep)]
     if figure := _overturn_times(sweep, gallery):
         blocks.append(figure)
     failed = [row for row in sweep.rows if row["state"] == FAILED]

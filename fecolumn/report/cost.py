@@ -8,7 +8,8 @@ import numpy as np
 
 from fecolumn.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED, Claim
 from fecolumn.report.notation import axis_name, count, fixed, interval, level_text, number
-from fecolumn.report.sweep import ALPHA, DT, Setting, Sweep
+from fecolumn.report.sweep import DT, Setting, Sweep
+from fecolumn.study.alpha import ALPHA
 
 _RESAMPLES = 2000
 _SMALL = 1.5  # a factor below it is a small increase

@@ -5,39 +5,45 @@ from __future__ import annotations
 from fecolumn.report.claim import MARGIN, NOT_SUPPORTED, SUPPORTED, UNDECIDED, Claim
 from fecolumn.report.notation import count, fixed, level_text, p_clause, percent, setting_text
 from fecolumn.report.pair import FINE_STEPS, WITH_COARSE_STEP, Pair
-from fecolumn.report.sweep import ALPHA, DT
+from fecolumn.report.sweep import DT
+from fecolumn.statistics.equivalence import difference_shortfall, equality_shortfall
+from fecolumn.study.alpha import ALPHA
 
 _SAME = (f"supported: no paired p below 0.05 (Holm over the family) and a distance beyond {MARGIN:.2f} excluded at 95 % in every pair, the "
          "distance at which a two-sample KS test of two times 115 motions rejects; not supported: a p below 0.05; else undecided")
 _DIFFERENT = (f"supported: a paired p below 0.05 (Holm over the family); not supported: none, and a distance beyond {MARGIN:.2f} excluded at "
               "95 % in every pair; else undecided")
+_COARSE_STEP = ("A coarse step does two things, it samples the motion coarsely and takes more in each impact; a study with motion.resample_s parts them "
+                "(benchmarks/coarse_step.toml, where most was the impacts').")
 
 
-def distribution_claims(pairs: list[Pair]) -> list[Claim]:
-    """Time step, small time step, and alpha at small time steps."""
+def distribution_claims(pairs: list[Pair], alpha_note: str = "") -> list[Claim]:
+    """Time step, small time step, and alpha at small time steps; alpha_note: what of alpha's effect, or its lack, is built in."""
     def family(axis, kind):
         return [pair for pair in pairs if pair.family == f"{axis}, {kind}"]
 
-    return [_different("b1", "The CDF depends moderately on Δt where steps above 1 ms take part.", family(DT, WITH_COARSE_STEP)),
+    return [_different("b1", "The CDF depends moderately on Δt where steps above 1 ms take part.", family(DT, WITH_COARSE_STEP), _COARSE_STEP),
             _same("b2", "The CDF does not depend significantly on Δt once Δt ≤ 1 ms.", family(DT, FINE_STEPS),
                   "two time steps of 1 ms or below"),
             _same("c", "Once Δt ≤ 1 ms, the influence of α on the CDF is marginal and practically insignificant.", family(ALPHA, FINE_STEPS),
-                  "two values of α at a time step of 1 ms or below")]
+                  "two values of α at a time step of 1 ms or below", alpha_note)]
 
 
-def _different(key: str, paper: str, pairs: list[Pair]) -> Claim:
+def _different(key: str, paper: str, pairs: list[Pair], note: str) -> Claim:
     if not pairs:
         return Claim(key, paper, "The study has no finished pair of a step above 1 ms with another one.", _DIFFERENT, UNDECIDED)
     clear, widest = [pair for pair in pairs if pair.p_holm < 0.05], max(pairs, key=lambda pair: pair.distance)
     excluded = max(pair.bound for pair in pairs)
     parts = [f"{len(clear)} of {count(len(pairs), 'pair')} differ significantly; {_widest(widest)}"]
     parts.append(_why(widest) if clear else _open(excluded))
+    parts += [part for part in [_few(clear) if clear else equality_shortfall(min(pair.comparison.n_a for pair in pairs), MARGIN, excluded)] if part]
+    parts.append(note)
     return Claim(key, paper, " ".join(parts), _DIFFERENT, SUPPORTED if clear else NOT_SUPPORTED if excluded <= MARGIN else UNDECIDED)
 
 
-def _same(key: str, paper: str, pairs: list[Pair], needed: str) -> Claim:
+def _same(key: str, paper: str, pairs: list[Pair], needed: str, note: str = "") -> Claim:
     if not pairs:
-        return Claim(key, paper, f"Not to be judged: the study has no finished pair of {needed}.", _SAME, UNDECIDED)
+        return Claim(key, paper, f"Not to be judged: the study has no finished pair of {needed}. {note}".rstrip(), _SAME, UNDECIDED)
     clear, widest = [pair for pair in pairs if pair.p_holm < 0.05], max(pairs, key=lambda pair: pair.distance)
     excluded = max(pair.bound for pair in pairs)
     if clear:
@@ -47,8 +53,17 @@ def _same(key: str, paper: str, pairs: list[Pair], needed: str) -> Claim:
         independent = min(pair.comparison.ks_p for pair in pairs)
         parts = [f"Of {count(len(pairs), 'pair')} not one differs significantly (smallest Holm "
                  f"{p_clause(min(pair.p_holm for pair in pairs))}; as independent samples, uncorrected, {p_clause(independent)}); "
-                 f"{_widest(widest)}", _open(excluded)]
+                 f"{_widest(widest)}", _open(excluded), equality_shortfall(min(pair.comparison.n_a for pair in pairs), MARGIN, excluded)]
+    parts = [part for part in (*parts, _few(clear), note) if part]
     return Claim(key, paper, " ".join(parts), _SAME, NOT_SUPPORTED if clear else SUPPORTED if excluded <= MARGIN else UNDECIDED)
+
+
+def _few(clear: list[Pair]) -> str:
+    """Warning where the motions are few for the claim that the clearest pair differs; "" where they are not, or none differs."""
+    if not clear:
+        return ""
+    widest = max(clear, key=lambda pair: pair.distance)
+    return difference_shortfall(widest.comparison.n_a, widest.distance, widest.comparisons)
 
 
 def _widest(pair: Pair) -> str:
@@ -68,8 +83,8 @@ def _open(bound: float) -> str:
 def _why(pair: Pair) -> str:
     """Which way the distribution moves, and what tells it: overturns or peaks."""
     it = pair.comparison
-    change = it.p_overturn_b - it.p_overturn_a
+    change = it.p_lost_b - it.p_lost_a
     low, high = (setting_text({pair.axis: value}) for value in (pair.low, pair.high))
-    text = f"From {low} to {high}, P(overturn) goes from {percent(it.p_overturn_a)} to {percent(it.p_overturn_b)}"
+    text = f"From {low} to {high}, {pair.p_lost} goes from {percent(it.p_lost_a)} to {percent(it.p_lost_b)}"
     return text + (", which makes most of the distance." if abs(change) > 0.5 * pair.distance else
-                   ": the distance is in the peaks of standing columns more than in overturns.")
+                   ": the distance is in the peaks of standing columns more than in those that are lost.")

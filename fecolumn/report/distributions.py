@@ -11,6 +11,7 @@ from fecolumn.post.interval_figure import Estimate, Scale, interval_figure
 from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.claim import CALIBRATION_TARGET
 from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.families import families, shortfalls
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, p_value, percent, percent_interval, plain_level, sentence, setting_text)
 from fecolumn.report.pair import Pair
@@ -18,6 +19,7 @@ from fecolumn.report.power import power
 from fecolumn.report.sweep import Setting, Sweep
 from fecolumn.statistics.convergence import cdf_convergence
 from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
+from fecolumn.study.alpha import ALPHA
 
 _LINES, _PANELS, _ROWS = 7, 9, 40
 _FOLD, _LONGEST = 20, 60
@@ -35,8 +37,8 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
             "settings of the study" if len(sweep.done) <= _LINES else "the settings of least, middle and largest P(overturn)"
         blocks.append(gallery.draw(name, f"Distribution of the largest top displacement: {what}"
                       + (f", a panel for each {' and '.join(other)}" if other and axis else "") + _left_out(sweep, axis, panels)
-                      + f". Overturned runs are censored: a distribution ends at 1 − P(overturn). {_bands(panels)}: pointwise 95 % bands (Greenwood)"
-                        f"{_seen(panels)}; in the legend P(overturn) with Wilson's 95 % interval.", cdf_figure, panels))
+                      + f". {'Lost' if sweep.slides else 'Overturned'} runs are censored: a distribution ends at 1 − {sweep.p_lost}. {_bands(panels)}: pointwise "
+                        f"95 % bands (Greenwood){_seen(panels)}; in the legend {sweep.p_lost} with Wilson's 95 % interval.", cdf_figure, panels))
     first = blocks[0].name
     blocks.insert(0, Paragraph(_opening(sweep, first)))
     blocks += _overturning(sweep, gallery)
@@ -47,7 +49,8 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
                              "motions are in both, so the paired permutation p is the one to judge by, and that of independent samples is "
                              "conservative; p (Holm) is the paired one, corrected for the family of tests that answer one question. The "
                              "last column is the other side of the test, the largest distance that the data cannot exclude at 95 %."),
-                   _families(pairs), _comparisons(sweep, pairs)]
+                   *shortfalls(pairs), *([Paragraph(sweep.alpha_note, warning=True)] if sweep.alpha_note and ALPHA in sweep.varied else []),
+                   families(pairs), _comparisons(sweep, pairs)]
     return Section("Distributions", blocks + _convergence(sweep, gallery))
 
 
@@ -74,12 +77,12 @@ def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
             ranked = sorted(chosen, key=lambda one: (one.column("overturned").mean(), percentile(*one.peaks(), 0.5)))
             chosen = [ranked[0], ranked[len(ranked) // 2], ranked[-1]]
         labels = _labels(sweep)
-        return [Panel("", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen))]
+        return [Panel("", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen), sweep.p_lost)]
     groups: dict[str, list[Setting]] = {}
     for setting in sorted(sweep.done, key=lambda one: [sweep.axes[key].index(value) for key, value in one.values.items()]):
         title = _in_figure({key: value for key, value in setting.values.items() if key != axis and key in sweep.varied})
         groups.setdefault(title, []).append(setting)
-    panels = [Panel(title, tuple((axis_text(axis, one.values[axis]), ecdf(*one.peaks())) for one in group)) for title, group in groups.items()]
+    panels = [Panel(title, tuple((axis_text(axis, one.values[axis]), ecdf(*one.peaks())) for one in group), sweep.p_lost) for title, group in groups.items()]
     return panels[:_PANELS]
 
 
@@ -188,26 +191,9 @@ def _comparisons(sweep: Sweep, pairs: list[Pair]) -> Table:
     return Table("comparisons", columns, rows, "Settings compared in pairs: Kolmogorov-Smirnov distance D with p of independent samples and "
                                                "the field's word for the evidence against one distribution; p of paired permutations; "
                                                "Anderson-Darling and Cramér-von Mises as independent samples; error of the median e₅₀ (a "
-                                               "against b); correlation R with overturned runs at the limit; motions that overturn in one "
+                                               "against b); correlation R with lost runs (overturned or slid off) at the limit; motions lost in one "
                                                "setting alone (flips) with McNemar's p.",
                  folded=len(rows) > _FOLD)
-
-
-def _families(pairs: list[Pair]) -> Table:
-    rows = []
-    for family in dict.fromkeys(pair.family for pair in pairs):
-        own = [pair for pair in pairs if pair.family == family]
-        axis, _, kind = family.partition(", ")
-        rows.append((axis, kind or "all", len(own), sum(pair.p_holm < 0.05 for pair in own), max(pair.distance for pair in own),
-                     min(pair.comparison.ks_p for pair in own), min(pair.comparison.paired_p for pair in own), min(pair.p_holm for pair in own),
-                     max(pair.bound for pair in own)))
-    columns = (Column("axis", "settings that differ in", axis_name, text=True), Column("pairs_of", "pairs", text=True), Column("pairs", "number"),
-               Column("significant", "p (Holm) < 0.05"), Column("ks_max", "largest D", fixed),
-               Column("ks_p_min", "least p, independent", p_value), Column("paired_p_min", "least p, paired", p_value),
-               Column("p_holm_min", "least p (Holm)", p_value), Column("bound_95_max", "largest D not excluded", fixed))
-    return Table("families", columns, rows, "Families of pairs: the largest Kolmogorov-Smirnov distance D of two CDFs, the smallest p "
-                                            "values, and the largest distance that the data cannot exclude at 95 % in the pair where they "
-                                            "say least.")
 
 
 def _convergence(sweep: Sweep, gallery: Gallery) -> list:

@@ -48,7 +48,7 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sec
     fallen = sum(np.isfinite(curve.first[1]) for curve in here.curves)
     levels = max(len(curve.im) for curve in here.curves)
     text = (f"[[ida]]: each of {count(len(here.curves), 'motion')} scaled to {count(levels, 'level')} (Vamvatsikos and Cornell 2002), {at}. "
-            f"{fallen} overturn the column at one of their scales. ")
+            f"{fallen} overturn the column at one of their scales{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. ")
     if here.fit:
         text += (f"Half of the motions have overturned it by a PGV of {_speed(here.fit.median)} m/s {interval(*here.fit.median_interval(), _speed)}, "
                  f"with a logarithmic standard deviation of {fixed(here.fit.beta)} {interval(*here.fit.beta_interval())}. Each motion counts once, by the intensities between which it "
@@ -120,7 +120,7 @@ def _table(sweep: Sweep, found: list[Scaled]) -> Table:
         rows.append((*(one.values[axis] for axis in axes), len(one.curves), sum(len(curve.im) for curve in one.curves),
                      sum(bool(np.isfinite(curve.first[1])) for curve in one.curves), sum(curve.stands_again for curve in one.curves), *law))
     return Table("first_overturnings", columns, rows,
-                 "PGV by which half of the motions have overturned the column, and logarithmic standard deviation β of that PGV over the motions: "
+                 f"PGV by which half of the motions have overturned the column{', or let it slide off' if sweep.slides else ''}, and logarithmic standard deviation β of that PGV over the motions: "
                  "lognormal, maximum likelihood of the intervals known, 95 % intervals over the motions. A dash: the motions do not bound the law.",
                  folded=len(rows) > _FOLD)
 
@@ -137,8 +137,8 @@ def _motions(sweep: Sweep, found: list[Scaled]) -> Table:
             u = float(curve.u_max[np.searchsorted(curve.im, stood)]) if stood else None
             rows.append((*(one.values[axis] for axis in axes), curve.motion.strip("[]'\""), len(curve.im), stood or None, u,
                          fallen if np.isfinite(fallen) else None, curve.stands_again))
-    return Table("ida_motions", columns, rows, "Every motion: the largest PGV below its first overturning, and that of the first overturning; a dash "
-                                               "where there is none.", folded=True)
+    return Table("ida_motions", columns, rows, "Every motion: the largest PGV below its first overturning, and that of the first overturning"
+                                               f"{', or sliding off' if sweep.slides else ''}; a dash where there is none.", folded=True)
 
 
 def _speed(value) -> str:

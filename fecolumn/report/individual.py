@@ -13,6 +13,7 @@ from fecolumn.report.gallery import Gallery
 from fecolumn.report.individual_claims import line_trends, spread
 from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres, p_value, percent
 from fecolumn.report.sweep import Line, Sweep
+from fecolumn.study.alpha import ALPHA
 
 _VARIABLES, _MATRICES, _FOLD = 6, 4, 20
 
@@ -26,7 +27,7 @@ def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
     text = f"One by one, the same motion gives different peaks in different settings: {' and '.join(f'[[{one.name}]]' for one in matrices)}. "
     if found.motions:
         text += (f"Of the {count(found.motions, 'motion')} run in all {found.settings} settings, {found.flipped} "
-                 f"({percent(found.flipped / found.motions)}) overturn in some and stand in others")
+                 f"({percent(found.flipped / found.motions)}) {'are lost' if sweep.slides else 'overturn'} in some and stand in others")
         text += (f"; of those that always stand, the largest peak is {fixed(float(np.median(found.factor)))} times the smallest in the median."
                  if found.factor.size else ".")
     blocks = [Paragraph(text), *matrices]
@@ -38,7 +39,9 @@ def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
         blocks.append(Table("trends", columns, rows,
                             "Trend of the peak of one and the same motion along a parameter: motions whose peak rises or falls on the "
                             "whole, mean Kendall τ with its 95 % interval over the motions, p of no trend (Page; sign test for two levels). "
-                            "Overturned runs rank above all standing ones.", folded=len(rows) > _FOLD))
+                            "Lost runs, overturned or slid off, rank above all standing ones.", folded=len(rows) > _FOLD))
+    if ALPHA in sweep.varied and sweep.alpha_note:
+        blocks.append(Paragraph(sweep.alpha_note, warning=True))
     blocks.append(_motions(sweep))
     return Section("One by one", blocks)
 
@@ -58,7 +61,7 @@ def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
     at = f" {sweep.at(line.others)}" if line.others else ""
     return gallery.draw(name, f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} values of {axis_name(axis)}{at}, one "
                               "against the other. Shaded strip: lost (overturned or slid off); open red diamonds: lost in one of the two alone (flips). R with "
-                              f"overturned runs at {millimetres(sweep.limit_m)} mm.", pair_figure, variables, sweep.limit_m)
+                              f"lost runs at {millimetres(sweep.limit_m)} mm.", pair_figure, variables, sweep.limit_m)
 
 
 def _trends(sweep: Sweep, axis: str) -> list[tuple]:
@@ -75,10 +78,11 @@ def _motions(sweep: Sweep) -> Table:
     for motion in sweep.motions:
         runs = [setting.runs[motion] for setting in sweep.done if motion in setting.runs]
         peaks = np.array([run["u_max_m"] for run in runs if not lost(run)])
-        fallen = sum(bool(run["overturned"]) for run in runs)
+        fallen, slid = sum(bool(run["overturned"]) for run in runs), [sum(bool(run.get("slid_off")) for run in runs)] if sweep.slides else []
         low, high = (float(peaks.min()), float(peaks.max())) if peaks.size else (None, None)
-        rows.append((runs[0].get("motion") or motion.strip("[]'\""), len(runs), fallen, low, high, high / low if low else None))
+        rows.append((runs[0].get("motion") or motion.strip("[]'\""), len(runs), fallen, *slid, low, high, high / low if low else None))
     return Table("motions", (Column("motion", "motion", text=True), Column("n", "settings"), Column("overturned", "overturned"),
+                             *((Column("slid_off", "slid off"),) if sweep.slides else ()),
                              Column("u_max_smallest_m", "smallest [mm]", millimetres), Column("u_max_largest_m", "largest [mm]", millimetres),
                              Column("factor", "factor", fixed)), rows,
-                 "Every motion over all settings: runs that overturned, smallest and largest peak of those that stood, and their ratio.", folded=True)
+                 "Every motion over all settings: runs that overturned" + (" or slid off" if sweep.slides else "") + ", smallest and largest peak of those that stood, and their ratio.", folded=True)

@@ -11,6 +11,7 @@ from fecolumn.report.notation import axis_name, count, fixed, interval, p_clause
 from fecolumn.report.sweep import DT, FINE_DT_S, Line, Sweep, common_motions
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.trend import Trend, trend
+from fecolumn.study.alpha import ALPHA
 
 _STRONG_SPREAD, _LITTLE_SPREAD = 1.25, 1.05
 _OFTEN = 0.05
@@ -24,8 +25,8 @@ class Spread:
     Attributes:
         settings, motions: settings, and the motions done in all of them.
         factor: (k,) largest over smallest u_max [-] of each motion that stands in every setting and moves.
-        flipped: motions that overturn in some settings and stand in others.
-        always, never: motions that overturn in all settings, in none.
+        flipped: motions that are lost, overturned or slid off, in some settings and stand in others.
+        always, never: motions that are lost in all settings, in none.
     """
 
     settings: int
@@ -82,8 +83,8 @@ def _change(sweep: Sweep) -> Claim:
             f"motions flip; not supported: factor below {_LITTLE_SPREAD} and no flip")
     if not n or found.settings < 2:
         return Claim("a1", paper, "No motion has been run in two settings yet.", rule, UNDECIDED)
-    parts = [f"Over {count(found.settings, 'setting')}, {found.flipped} of {count(n, 'motion')} ({percent(found.flipped / n)}) overturn in "
-             f"some and stand in others; {found.always} overturn in all, {found.never} in none."]
+    parts = [f"Over {count(found.settings, 'setting')}, {found.flipped} of {count(n, 'motion')} ({percent(found.flipped / n)}) {'are lost' if sweep.slides else 'overturn'} "
+             f"in some and stand in others; {found.always} {'are lost' if sweep.slides else 'overturn'} in all, {found.never} in none."]
     median = float(np.median(found.factor)) if found.factor.size else float("nan")
     if found.factor.size:
         parts.append(f"Of those that always stand, the largest peak is {fixed(median)} times the smallest in the median, "
@@ -117,6 +118,8 @@ def _trend(sweep: Sweep, axis: str) -> Claim:
                      if not outside else f"A drift is detected ({_line(worst)} {p_clause(worst.p_holm)}), its strength is not settled.")
     else:
         parts.append(f"Not one is significant (smallest {p_clause(worst.p_holm)}).")
+    if axis == ALPHA and sweep.alpha_note:
+        parts.append(sweep.alpha_note)
     if verdict == UNDECIDED:
         widest = max(outside, key=lambda one: one.trend.tau_high - one.trend.tau_low)
         parts.append(f"{count(widest.trend.n, 'motion')} leave τ {interval(widest.trend.tau_low, widest.trend.tau_high)} open {_line(widest)}.")

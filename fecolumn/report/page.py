@@ -26,10 +26,11 @@ from fecolumn.report.power import power
 from fecolumn.report.provenance import provenance
 from fecolumn.report.sensitivity import sensitivity_section
 from fecolumn.report.specimen import specimen
-from fecolumn.report.sweep import ALPHA, DT, Sweep, read_sweep
+from fecolumn.report.sweep import DT, Sweep, read_sweep
 from fecolumn.report.timing import timing
 from fecolumn.schema import InputError
 from fecolumn.statistics.ecdf import proportion_interval
+from fecolumn.study.alpha import ALPHA
 from fecolumn.study.store import DONE, FAILED
 
 
@@ -80,7 +81,7 @@ def has_claims(sweep: Sweep) -> bool:
 
 def claims_of(sweep: Sweep, pairs: list[Pair]) -> list[Claim]:
     """The paper's claims (a) to (d) put to the study."""
-    return [*individual_claims(sweep, (DT, ALPHA)), *distribution_claims(pairs), *cost_claims(sweep)]
+    return [*individual_claims(sweep, (DT, ALPHA)), *distribution_claims(pairs, sweep.alpha_note), *cost_claims(sweep)]
 
 
 def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
@@ -131,7 +132,9 @@ def _abstract(sweep: Sweep, sections: list[Section]) -> str:
     if done < total:
         parts.append(f"{total - done - failed} of {total} analyses not run yet" + (f", {failed} failed." if failed else ".") if total - done - failed
                      else f"{failed} of {total} analyses failed.")
-    u, over = sweep.reference.peaks()
+    if sweep.cut:
+        parts.append(f"{sweep.cut}.")
+    over = sweep.reference.column("overturned")
     bounds = proportion_interval(int(over.sum()), over.size)
     if len(sweep.done) > 1:
         parts.append(f"P(overturn) lies between {percent(low)} and {percent(high)}; {sweep.at(sweep.reference.values)} it is "

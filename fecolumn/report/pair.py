@@ -6,10 +6,11 @@ import itertools
 from dataclasses import dataclass
 from typing import Any
 
-from fecolumn.report.sweep import ALPHA, DT, FINE_DT_S, Line, Sweep
+from fecolumn.report.sweep import DT, FINE_DT_S, Line, Sweep
 from fecolumn.statistics.compare import Comparison, compare
 from fecolumn.statistics.equivalence import distance_bound
 from fecolumn.statistics.holm import holm
+from fecolumn.study.alpha import ALPHA
 
 _MOST = 240  # beyond it only the extreme levels of each line are compared
 _LEAST_MOTIONS = 2
@@ -25,8 +26,8 @@ class Pair:
         others: values of all other axes.
         comparison: of the low level (a) with the high one (b), over the motions done in both.
         distance, bound: largest distance of the two CDFs, and what the data exclude at 95 %.
-        family: the tests that are judged together.
-        p_holm: paired p of the distance, corrected for the family.
+        family: the tests that are judged together. comparisons: how many they are.
+        p_holm: paired p of the distance, corrected for the family. p_lost: name of the share of columns that the distributions end short of.
     """
 
     axis: str
@@ -37,7 +38,9 @@ class Pair:
     distance: float
     bound: float
     family: str
+    comparisons: int
     p_holm: float
+    p_lost: str
 
 
 def read_pairs(sweep: Sweep) -> list[Pair]:
@@ -59,7 +62,8 @@ def read_pairs(sweep: Sweep) -> list[Pair]:
     for family in dict.fromkeys(families):
         members = [place for place, name in enumerate(families) if name == family]
         corrected |= dict(zip(members, holm([found[place][1].paired_p for place in members])))
-    return [Pair(line.axis, *line.levels, line.others, result, distance, bound, families[place], float(corrected[place]))
+    return [Pair(line.axis, *line.levels, line.others, result, distance, bound, families[place], families.count(families[place]),
+                 float(corrected[place]), sweep.p_lost)
             for place, (line, result, distance, bound) in enumerate(found)]
 
 

@@ -6,10 +6,7 @@ from fecolumn.report.document import Paragraph
 from fecolumn.report.notation import count, fixed, percent
 from fecolumn.report.sweep import Sweep, common_motions
 from fecolumn.statistics.ecdf import proportion_interval
-from fecolumn.statistics.equivalence import detectable_distance, motions_needed
-
-# A difference of two CDFs that most would call small
-SMALL = 0.1
+from fecolumn.statistics.equivalence import SMALL, detectable_distance, motions_needed
 
 
 def power(sweep: Sweep, wanted: float = SMALL, why: str = "") -> Paragraph:

@@ -9,6 +9,7 @@ from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import axis_name, count, fixed, interval, level_text, percent_interval, sentence
 from fecolumn.report.ranking import Rank, ranking
 from fecolumn.report.sweep import Sweep
+from fecolumn.study.alpha import ALPHA
 
 
 def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
@@ -32,9 +33,10 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
     columns = [
         (Scale("largest distance of the CDF", (0, None)),
          [Estimate(name, r.effect.distance, r.effect.distance_low, r.effect.distance_high, r.effect.chance) for name, r in zip(names, ranks)]),
-        (Scale(r"change of $P$(overturn) [%]", level=0.0),
+        (Scale(f"change of {sweep.p_lost.replace('P(', '$P$(')} [%]", level=0.0),
          [Estimate(name, 100 * r.effect.change, 100 * r.effect.change_low, 100 * r.effect.change_high) for name, r in zip(names, ranks)])]
-    figure = gallery.draw("sensitivity", "Effect of each parameter between its extreme levels: largest distance of the CDF, and change of P(overturn), "
+    figure = gallery.draw("sensitivity", "Effect of each parameter between its extreme levels: largest distance of the CDF, and change of "
+                                         f"{sweep.p_lost}, "
                                          "with 95 % intervals over the motions. Red: the distance that levels swapped at random within each motion exceed "
                                          "in 5 % of cases; a largest distance is never negative, so only beyond the red line is there evidence of an effect.",
                           interval_figure, columns)
@@ -42,10 +44,11 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
              r.effect.chance, r.effect.change, r.effect.change_low, r.effect.change_high) for r in ranks]
     columns = (Column("axis from to", "parameter", _span, text=True), Column("settings", "settings"),
                Column("n", "motions"), Column("distance", "distance", fixed), Column("distance_low distance_high", "95 %", interval),
-               Column("chance", "chance", fixed), Column("change_p_overturn", "change of P(overturn) [%]", lambda share: fixed(100 * share, 1)),
+               Column("chance", "chance", fixed), Column("change_p_lost", f"change of {sweep.p_lost} [%]", lambda share: fixed(100 * share, 1)),
                Column("change_low change_high", "95 % [%]", percent_interval))
     return Section("Sensitivity", [
         Paragraph(text),
+        *([Paragraph(sweep.alpha_note, warning=True)] if any(rank.axis == ALPHA for rank in ranks) and sweep.alpha_note else []),
         figure,
         Table("ranking", columns, rows, "Parameters ranked by the largest distance of the CDF between their extreme levels (of a sampled "
                                         "parameter: its outer quarters), averaged over the settings of all others, of "

@@ -9,13 +9,15 @@ from typing import Any
 
 import numpy as np
 
+from fecolumn.ending import P_LOST, P_OVERTURN, cut_short
 from fecolumn.files import read_json
 from fecolumn.report.notation import ALL, setting_text
 from fecolumn.statistics.ecdf import largest_peak
+from fecolumn.study.alpha import ALPHA, alpha_note
 from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE, FAILED, read_study
 
-DT, ALPHA = "integration.dt_s", "integration.alpha_hht"
+DT = "integration.dt_s"
 FINE_DT_S = 1e-3 * (1 + 1e-9)  # what the paper calls small enough
 PAPER_CHOICE = {DT: 1e-3, ALPHA: -0.2}
 
@@ -99,6 +101,26 @@ class Sweep:
     @cached_property
     def motions(self) -> list[str]:
         return list(dict.fromkeys(motion for setting in self.settings for motion in setting.runs))
+
+    @cached_property
+    def cut(self) -> str:
+        """What is said of analyses that cut their motion short; "" where none does."""
+        return cut_short(run for setting in self.settings for run in setting.runs.values())
+
+    @cached_property
+    def slides(self) -> bool:
+        """Whether any column slid off its base: what is lost is then more than what overturned."""
+        return any(run.get("slid_off") for setting in self.settings for run in setting.runs.values())
+
+    @property
+    def alpha_note(self) -> str:
+        """What goes beside every statement on the effect of alpha, see `study.alpha`."""
+        return alpha_note(self.case, self.axes)
+
+    @property
+    def p_lost(self) -> str:
+        """Name of the share of columns that are lost, where no figure parts what overturned from what slid off."""
+        return P_LOST if self.slides else P_OVERTURN
 
     @property
     def varied(self) -> list[str]:

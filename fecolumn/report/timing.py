@@ -11,7 +11,8 @@ from fecolumn.report.distributions import axis_columns
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import axis_name, number, sentence
-from fecolumn.report.sweep import ALPHA, DT, Setting, Sweep
+from fecolumn.report.sweep import DT, Setting, Sweep
+from fecolumn.study.alpha import ALPHA
 
 _CURVES, _FOLD = 7, 40
 

@@ -29,7 +29,7 @@ class Comparison:
         correlation: R with overturned runs and larger displacements at the cap; None of unpaired ensembles, nan where undefined.
         flips: motions that overturn in one ensemble alone; None of unpaired ensembles.
         mcnemar_p: p-value of as many flips one way as the other; None of unpaired ensembles.
-        p_overturn_a, p_overturn_b: share of runs that overturned; intervals: `ecdf.proportion_interval`.
+        p_lost_a, p_lost_b: share of runs whose peak is not known, as they overturned or slid off; intervals: `ecdf.proportion_interval`.
     """
 
     n_a: int
@@ -48,8 +48,8 @@ class Comparison:
     correlation: float | None
     flips: int | None
     mcnemar_p: float | None
-    p_overturn_a: float
-    p_overturn_b: float
+    p_lost_a: float
+    p_lost_b: float
 
 
 def compare(u_a, overturned_a, u_b, overturned_b, *, paired: bool, cap_m: float | None = None, seed: int = 0,

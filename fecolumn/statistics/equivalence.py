@@ -9,6 +9,11 @@ import numpy as np
 from fecolumn.statistics.ecdf import normal_quantile
 
 
+#: A difference of two CDFs that most would call small: "no difference" is claimed up to it.
+SMALL = 0.1
+_LEVEL = 0.05  # of significance, the usual one
+
+
 def distance_bound(u_a, overturned_a, u_b, overturned_b, confidence: float = 0.95) -> tuple[float, float]:
     """Largest distance of the two distributions, and the distance the data exclude at `confidence`.
 
@@ -72,3 +77,32 @@ def detectable_distance(n: int, significance: float = 0.05) -> float:
 def motions_needed(distance: float, significance: float = 0.05) -> int:
     """Motions in each setting from which a distance of two CDFs can be seen, the inverse of `detectable_distance`."""
     return math.ceil(round(math.log(2 / significance) / distance**2, 9))
+
+
+def difference_shortfall(n: int, distance: float, comparisons: int = 1) -> str:
+    """Warning that n motions are few to claim a difference; "" where they are enough.
+
+    A claim is made where one of several comparisons differs: it is judged at 5 % over their number, the strictest level of Holm's correction.
+
+    Args:
+        n: motions in each setting. distance: of the two CDFs, as found. comparisons: pairs of settings that answer one question.
+    """
+    told = detectable_distance(n, _LEVEL / comparisons)
+    if distance >= told:
+        return ""
+    among = f" among {comparisons} comparisons" if comparisons > 1 else ""
+    return (f"With {n} motions a KS distance below {told:.2f} cannot be told from 0{among} but by the pairing of motions: the claim of a difference of "
+            f"{distance:.2f} needs about N = {motions_needed(distance, _LEVEL / comparisons)}.")
+
+
+def equality_shortfall(n: int, margin: float = SMALL, bound: float = math.inf) -> str:
+    """Warning that n motions are few to claim that there is no difference; "" where they are enough, or where they exclude it all the same.
+
+    Args:
+        n: motions in each setting. margin: distance of two CDFs up to which they are called equal. bound: distance that the data exclude, see
+            `distance_bound`.
+    """
+    if n >= motions_needed(margin) or bound <= margin:
+        return ""
+    return (f"With {n} motions a KS distance below {detectable_distance(n):.2f} cannot be told from 0: the claim of no difference beyond {margin:.2f} "
+            f"needs about N = {motions_needed(margin)}.")

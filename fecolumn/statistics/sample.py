@@ -17,8 +17,9 @@ class Sample:
         choice: value of each axis that was chosen, by its dotted key.
         motions: (n,) name of each run's motion, all different.
         u_max: (n,) [m]; nan where the run overturned or slid off its base.
-        overturned: (n,) bool; or slid off: either way the peak is beyond what was seen.
-        missing: analyses of the choice that are not done.
+        lost: (n,) bool, overturned or slid off: either way the peak is beyond what was seen.
+        slid_off: (n,) bool, of these the ones that slid off.
+        missing: analyses of the choice that are not done. cut: what is said of analyses that cut their motion short, see `ending.cut_short`.
     """
 
     source: str
@@ -26,10 +27,13 @@ class Sample:
     choice: dict
     motions: tuple[str, ...]
     u_max: np.ndarray
-    overturned: np.ndarray
+    lost: np.ndarray
+    slid_off: np.ndarray
     missing: int = 0
+    cut: str = ""
 
     def take(self, motions) -> Sample:
         """The runs of some motions, in their order."""
         places = [self.motions.index(motion) for motion in motions]
-        return Sample(self.source, self.title, self.choice, tuple(motions), self.u_max[places], self.overturned[places], self.missing)
+        return Sample(self.source, self.title, self.choice, tuple(motions), self.u_max[places], self.lost[places], self.slid_off[places], self.missing,
+                      self.cut)

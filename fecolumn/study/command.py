@@ -16,6 +16,13 @@ def add_arguments(parser) -> None:
                         help="analyses at a time on this machine (default: one a core); under mpirun every rank but the first does one")
     parser.add_argument("--array-index", metavar="I", type=int, default=None, help="do one share only, counted from 0, as a task of a job array")
     parser.add_argument("--array-size", metavar="N", type=int, default=None, help="number of shares; the tasks may run at once in one DIR")
+    parser.add_argument("--scheduler", metavar="ADDRESS", default=None,
+                        help="do the analyses on the workers of a dask scheduler, such as tcp://node7:8786; DIR must be where all see it")
+    parser.add_argument("--until", choices=["decided"], default=None,
+                        help="take motions of the ensemble stage by stage, 40, 80, 160, ..., until each pair of settings is told apart or told alike")
+    parser.add_argument("--margin", metavar="D", type=float, default=None, help="with --until: distance of two CDFs up to which they are alike (default: 0.1)")
+    parser.add_argument("--error", metavar="P", type=float, default=None, help="with --until: error allowed for each statement, all looks together (default: 0.05)")
+    parser.add_argument("--most", metavar="N", type=int, default=None, help="with --until: motions in each setting at most (default: 1000)")
     parser.add_argument("--retry-failed", action="store_true", help="run the analyses again that failed before")
     parser.add_argument("--entry", metavar="MODULE:FUNCTION", default=None, help="analysis function (default: fecolumn.simulation:run)")
 
@@ -32,17 +39,33 @@ def main(args) -> int:
     if args.jobs is not None and args.jobs < 1:
         raise InputError("fecolumn study", "-j", args.jobs, "must be at least 1")
     share = _share(args)
+    if args.scheduler is not None:
+        return _run_on_scheduler(args, share)
     if not mpi.under_mpirun():
-        return _run(args, share, None)[0]
+        return _run(args, share)[0]
     if args.jobs is not None:
         raise InputError("fecolumn study", "-j", args.jobs, "is for one machine; here mpirun -n says how many, one more than analyses at a time")
     with mpi.executor() as pool:
         if pool is None:
             return 0
-        code, stopped = _run(args, share, pool)
+        from mpi4py import MPI
+
+        code, stopped = _run(args, share, lambda *told: mpi.MpiTeam(pool, MPI.COMM_WORLD.size - 1, *told))
         if stopped:  # the other ranks are at work
             mpi.abort(code)
     return code
+
+
+def _run_on_scheduler(args, share) -> int:
+    from fecolumn.schema import InputError
+    from fecolumn.study import dask, mpi
+
+    if mpi.under_mpirun():
+        raise InputError("fecolumn study", "--scheduler", args.scheduler, "goes without mpirun: the workers of the scheduler do the analyses")
+    if args.jobs is not None:
+        raise InputError("fecolumn study", "-j", args.jobs, "is for one machine; here the scheduler's workers say how many analyses at a time")
+    with dask.connected(args.scheduler) as client:
+        return _run(args, share, lambda *told: dask.DaskTeam(client, *told))[0]
 
 
 def _share(args) -> tuple[int, int] | None:
@@ -58,8 +81,8 @@ def _share(args) -> tuple[int, int] | None:
     return index, size
 
 
-def _run(args, share, pool) -> tuple[int, bool]:
-    """Run the study, by the executor `pool` or in processes; exit code, and whether it was stopped."""
+def _run(args, share, team_of=None) -> tuple[int, bool]:
+    """Run the study by the team that `team_of` makes, else in processes of this machine; exit code, and whether it was stopped."""
     from fecolumn.study.plan import read_plan
     from fecolumn.study.run import ENTRY, StudyError, check_motions, run_study
 
@@ -69,28 +92,64 @@ def _run(args, share, pool) -> tuple[int, bool]:
 
         check_motions(plan)
         print(estimate_of_all(analysis.case for analysis in plan.analyses), file=sys.stderr, flush=True)
-    entry, team = args.entry or ENTRY, None
-    if pool is not None:
-        from mpi4py import MPI
-
-        from fecolumn.study.mpi import MpiTeam
-
-        team = MpiTeam(pool, MPI.COMM_WORLD.size - 1, entry, args.output, share, plan.file)
+    entry, rule = args.entry or ENTRY, _rule(args, share, plan)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's stop is answered like Ctrl-C
+
+    def work(only=None):
+        team = team_of(entry, args.output, share, plan.file) if team_of else None
+        return run_study(plan, args.output, workers=args.jobs or os.cpu_count() or 1, entry=entry, retry_failed=args.retry_failed,
+                         share=share, team=team, only=only)
+
     try:
-        rows = run_study(plan, args.output, workers=args.jobs or os.cpu_count() or 1, entry=entry, retry_failed=args.retry_failed,
-                         share=share, team=team)
+        verdicts, rows = _until_decided(plan, rule, work) if rule else ([], work())
     except KeyboardInterrupt:
         print("stopped; what is done is kept, the same command does the rest", file=sys.stderr, flush=True)
         return 130, True
     except StudyError as error:
         print(f"{error}; nothing done is lost, the same command does the rest", file=sys.stderr, flush=True)
         return 1, True
-    return _show(plan, rows, args.output, share), False
+    code = _show(plan, rows, args.output, share)
+    for verdict in verdicts:
+        print(verdict.text(rule))
+    return code, False
+
+
+def _rule(args, share, plan):
+    """The `sequential.Rule` of the options, None without --until."""
+    from fecolumn.schema import InputError
+    from fecolumn.study.sequential import Rule, stages
+
+    given = {name: value for name in ("margin", "error", "most") if (value := getattr(args, name)) is not None}
+    if args.until is None:
+        for name, value in given.items():
+            raise InputError("fecolumn study", f"--{name}", value, "goes with --until decided")
+        return None
+    if share:
+        raise InputError("fecolumn study", "--until", args.until, "is for one driver that sees all results, not for a share of a job array")
+    rule = Rule(**given)
+    rule.check("fecolumn study")
+    stages(plan, rule)
+    return rule
+
+
+def _until_decided(plan, rule, work):
+    """Work off stage by stage; the verdicts and the ledger's rows."""
+    from fecolumn.study import sequential
+
+    verdicts, looks, rows = [], sequential.stages(plan, rule), []
+    for motions in looks:
+        rows = work(sequential.stage_analyses(plan, motions, verdicts))
+        verdicts = sequential.judge(plan, rows, rule, len(looks), verdicts)
+        still = sum(verdict.word == sequential.OPEN for verdict in verdicts)
+        print(f"{motions} motions: {len(verdicts) - still} of {len(verdicts)} pairs of settings decided", file=sys.stderr, flush=True)
+        if verdicts and not still:
+            break
+    return verdicts, rows
 
 
 def _show(plan, rows: list[dict], folder, share) -> int:
     """Tables and figure, or for a share only its count; 1 when some failed."""
+    from fecolumn.ending import cut_short
     from fecolumn.study.store import DONE, FAILED
 
     done = f"{sum(row['state'] == DONE for row in rows)} of {len(rows)} analyses done"
@@ -103,8 +162,9 @@ def _show(plan, rows: list[dict], folder, share) -> int:
         write_tables(plan, rows, folder)
         files = write_figure(plan, rows, folder)
         print(f"{plan.title}: {done}\n{table_text(plan, rows)}")
-        if said := conclusion(plan, rows):
-            print(textwrap.fill(said, 110))
+        for said in (cut_short(row["summary"] for row in rows if row["state"] == DONE), conclusion(plan, rows)):
+            if said:
+                print(textwrap.fill(said, 110))
         print("\n".join(f"wrote {file}" for file in [os.path.join(folder, "table.csv"), *files]))
     failed = [row for row in rows if row["state"] == FAILED]
     for row in failed:

@@ -15,7 +15,7 @@ def add_arguments(parser) -> None:
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for comparison.csv, pairs.csv and the figure")
     parser.add_argument("--unpaired", action="store_true", help="do not match runs by motion")
     parser.add_argument("--cap-mm", type=float, default=None, metavar="MM",
-                        help="displacement of an overturned run in R, such as 250 of Katsamakas and Vassiliou (default: the largest peak of those that stood)")
+                        help="displacement of a run in R that overturned or slid off, such as 250 of Katsamakas and Vassiliou (default: the largest peak of those that stood)")
     parser.add_argument("--seed", type=int, default=0, help="of the permutations (default: %(default)s)")
 
 
@@ -37,8 +37,8 @@ def main(args) -> int:
         raise InputError("fecolumn compare", "--seed", args.seed, "must be at least 0")
     a, b = read_sample(args.a), read_sample(args.b)
     a, b, paired, notes = matched(a, b, args.unpaired)
-    cap_mm = args.cap_mm or 1e3 * largest_peak((a.u_max, a.overturned), (b.u_max, b.overturned))
-    result = compare(a.u_max, a.overturned, b.u_max, b.overturned, paired=paired, cap_m=1e-3 * cap_mm, seed=args.seed)
+    cap_mm = args.cap_mm or 1e3 * largest_peak((a.u_max, a.lost), (b.u_max, b.lost))
+    result = compare(a.u_max, a.lost, b.u_max, b.lost, paired=paired, cap_m=1e-3 * cap_mm, seed=args.seed)
     names = _names(a, b)
     print(f"A  {a.source}: {names[0]}\nB  {b.source}: {names[1]}  (reference)")
     print("\n".join(notes) + "\n")
@@ -54,6 +54,7 @@ def main(args) -> int:
 def matched(a, b, unpaired: bool):
     """Both samples motion by motion where they have motions in common: (a, b, paired, notes for the reader)."""
     notes = [f"{name}: {sample.missing} analyses of this choice are not done" for name, sample in (("A", a), ("B", b)) if sample.missing]
+    notes += [f"{name}: {sample.cut}" for name, sample in (("A", a), ("B", b)) if sample.cut]
     in_b = set(b.motions)
     common = [motion for motion in a.motions if motion in in_b]
     unique = all(len(set(sample.motions)) == len(sample.motions) for sample in (a, b))
@@ -66,24 +67,27 @@ def matched(a, b, unpaired: bool):
 
 def comparison_text(result, a, b, cap_mm: float) -> str:
     """The comparison for a reader, with units, intervals and evidence in words."""
+    from fecolumn.ending import P_LOST, P_OVERTURN
     from fecolumn.statistics.compare import evidence
     from fecolumn.statistics.flips import contingency
 
     def tested(name, value, p):
         return [name, value, _p(p), evidence(p)]
 
+    slides = _slides(a, b)
     of_each = [["", "A", "B"],
                ["runs", str(result.n_a), str(result.n_b)],
-               ["P(overturn) [95 % Wilson]", _share(a.overturned), _share(b.overturned)],
-               ["median u_max [mm]", _millimetres(result.median_a_m), _millimetres(result.median_b_m)]]
+               [f"{P_OVERTURN} [95 % Wilson]", _share(a.lost & ~a.slid_off), _share(b.lost & ~b.slid_off)],
+               *([[f"{P_LOST} [95 % Wilson]", _share(a.lost), _share(b.lost)]] if slides else []),
+               ["median u_max [mm]", _millimetres(result.median_a_m, slides), _millimetres(result.median_b_m, slides)]]
     of_both = [["A against B", "value", "p", "evidence of a difference"],
                ["Kolmogorov-Smirnov, D", f"{result.ks:.3f}", _p(result.ks_p), result.ks_evidence],
                tested("Anderson-Darling, A2", f"{result.ad:.3f}", result.ad_p),
                tested("Cramer-von Mises, T", f"{result.cvm:.3f}", result.cvm_p)]
     if result.paired_p is not None:
-        table = contingency(a.overturned, b.overturned)
+        table = contingency(a.lost, b.lost)
         of_both += [tested("same motions: D, settings swapped", f"{result.ks:.3f}", result.paired_p),
-                    tested("overturns in A alone / B alone", f"{table[1, 0]} / {table[0, 1]}", result.mcnemar_p),
+                    tested(f"{'lost' if slides else 'overturns'} in A alone / B alone", f"{table[1, 0]} / {table[0, 1]}", result.mcnemar_p),
                     [f"correlation R, cap {cap_mm:.4g} mm", _defined(result.correlation), "", ""]]
     of_both.append(["median error e50 = |A - B| / B", _defined(result.e50), "", ""])
     text = f"{_columns(of_each)}\n\n{_columns(of_both)}"
@@ -99,14 +103,25 @@ def _write(folder: Path, result, a, b, paired: bool) -> list[Path]:
 
     files = [folder / "comparison.csv"]
     values = [[key, "" if value is None else value] for key, value in dataclasses.asdict(result).items()]
+    values += [[f"p_overturn_{name}", float((sample.lost & ~sample.slid_off).mean())] for name, sample in (("a", a), ("b", b))]
     write_csv(files[0], [["quantity", "value"], *values])
     if paired:
         files.append(folder / "pairs.csv")
-        u = [["" if fallen else f"{value:.6e}" for value, fallen in zip(sample.u_max, sample.overturned)] for sample in (a, b)]
-        write_csv(files[1], [["motion", "u_max_a_m", "overturned_a", "u_max_b_m", "overturned_b"],
-                             *zip(a.motions, u[0], a.overturned.astype(int), u[1], b.overturned.astype(int))])
-    return files + compare_figure((a.u_max, a.overturned), (b.u_max, b.overturned), _labels(a, b), paired=paired,
-                                  correlation=result.correlation, path=folder / "comparison")
+        u = [["" if fallen else f"{value:.6e}" for value, fallen in zip(sample.u_max, sample.lost)] for sample in (a, b)]
+        write_csv(files[1], [["motion", "u_max_a_m", "overturned_a", "slid_off_a", "u_max_b_m", "overturned_b", "slid_off_b"],
+                             *zip(a.motions, u[0], *_ends(a), u[1], *_ends(b))])
+    return files + compare_figure((a.u_max, a.lost), (b.u_max, b.lost), _labels(a, b), paired=paired, correlation=result.correlation,
+                                  path=folder / "comparison", slides=_slides(a, b))
+
+
+def _slides(a, b) -> bool:
+    """Whether a column of either sample slid off its base."""
+    return bool(a.slid_off.any() or b.slid_off.any())
+
+
+def _ends(sample) -> tuple:
+    """Whether each run overturned, and whether it slid off, as 0 and 1."""
+    return (sample.lost & ~sample.slid_off).astype(int), sample.slid_off.astype(int)
 
 
 def _names(a, b) -> tuple[str, str]:
@@ -124,10 +139,10 @@ def _labels(a, b) -> tuple[str, str]:
     return (a.title, b.title) if a.title != b.title else (f"A, {a.title}", f"B, {b.title}")
 
 
-def _share(overturned) -> str:
+def _share(lost) -> str:
     from fecolumn.statistics.ecdf import proportion_interval
 
-    k, n = int(overturned.sum()), overturned.size
+    k, n = int(lost.sum()), lost.size
     low, high = proportion_interval(k, n)
     return f"{100 * k / n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
 
@@ -147,5 +162,5 @@ def _defined(value: float) -> str:
     return f"{value:.3f}" if math.isfinite(value) else "undefined"
 
 
-def _millimetres(u_m: float) -> str:
-    return f"{1e3 * u_m:.2f}" if math.isfinite(u_m) else "overturn"
+def _millimetres(u_m: float, slides: bool) -> str:
+    return f"{1e3 * u_m:.2f}" if math.isfinite(u_m) else "lost" if slides else "overturn"

@@ -1,4 +1,4 @@
-"""What a study says, in two sentences below its table: how often the column overturns, and whether its settings differ."""
+"""What a study says, in a few sentences below its table: how often the column overturns, whether its settings differ, and how sure that is."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ import numpy as np
 
 from fecolumn.ending import lost
 from fecolumn.statistics.ecdf import censored, proportion_interval
-from fecolumn.statistics.equivalence import distance_bound
+from fecolumn.statistics.equivalence import difference_shortfall, distance_bound, equality_shortfall
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
+from fecolumn.study.alpha import ALPHA, alpha_note
 from fecolumn.study.plan import ENSEMBLE_AXES, Plan
 from fecolumn.study.store import DONE
 
@@ -21,33 +22,41 @@ _LEVEL = 0.05  # of significance, the usual one
 
 
 @dataclass(frozen=True, slots=True)
-class _Pair:
-    """Two settings that differ in one axis: its key, their names, the distance of their CDFs, its bound at 95 % and its paired p."""
+class Pair:
+    """Two settings that differ in one axis: its key, their axis values and names, motions in both, distance of their CDFs, its upper bound and its paired p."""
 
     axis: str
+    settings: tuple[dict, dict]
     names: tuple[str, str]
+    n: int
     distance: float
     bound: float
     p: float
 
 
 def conclusion(plan: Plan, rows: list[dict]) -> str:
-    """Two sentences on a study as far as it is done; "" where fewer than five motions are.
+    """A few sentences on a study as far as it is done; "" where fewer than five motions are.
 
-    p-values are of the largest distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
+    How often the column overturns; whether the settings differ; where the motions are few for what is said, how many it needs; what of an effect
+    of alpha, or its lack, is built into the scheme. p-values are of the largest distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
 
     Args:
         plan: the study.
         rows: its ledger, as `run_study` returns it.
     """
-    settings = _settings(plan, rows)
+    settings = settings_of(plan, rows)
     if not settings or max(len(runs) for _, runs in settings) < _LEAST_MOTIONS:
         return ""
-    pairs = _pairs(settings)
-    return _overturns(settings) + (" " + _differences(pairs, settings) if pairs else "")
+    pairs = pairs_of(settings)
+    parts = [_overturns(settings)]
+    if pairs:
+        parts += [_differences(pairs, settings), _shortfall(pairs)]
+        if any(pair.axis == ALPHA for pair in pairs):
+            parts.append(alpha_note(plan.case, plan.axes))
+    return " ".join(part for part in parts if part)
 
 
-def _settings(plan: Plan, rows) -> list[tuple[dict, dict]]:
+def settings_of(plan: Plan, rows) -> list[tuple[dict, dict]]:
     """Axis values and, by motion, the summary of what is done, of each setting with anything done."""
     states = {row["id"]: row for row in rows}
     groups: dict[tuple, tuple[dict, dict]] = {}
@@ -80,8 +89,8 @@ def _overturns(settings) -> str:
     return f"P(overturn) lies between {said(ranked[0])} and {said(ranked[-1])}; in brackets the 95 % interval."
 
 
-def _pairs(settings) -> list[_Pair]:
-    """Settings that differ in one axis alone, over the motions done in both."""
+def pairs_of(settings, confidence: float = 0.95) -> list[Pair]:
+    """Settings that differ in one axis alone, over the motions done in both; confidence: of the bound of their distance."""
     lines: dict[tuple, list] = {}
     for values, runs in settings:
         for axis in values:
@@ -99,7 +108,7 @@ def _pairs(settings) -> list[_Pair]:
                                         for runs in (runs_a, runs_b))
         names = tuple(_name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second))
         p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
-        found.append(_Pair(axis, names, *distance_bound(u_a, over_a, u_b, over_b), p))
+        found.append(Pair(axis, (first, second), names, len(common), *distance_bound(u_a, over_a, u_b, over_b, confidence), p))
     return found
 
 
@@ -107,7 +116,7 @@ def _peak(summary: dict) -> float:
     return summary["u_max_m"]
 
 
-def _differences(pairs: list[_Pair], settings) -> str:
+def _differences(pairs: list[Pair], settings) -> str:
     """Whether the distributions of the peak displacement differ, and by what."""
     corrected = holm([pair.p for pair in pairs])
     widest = max(range(len(pairs)), key=lambda place: (corrected[place] < _LEVEL, pairs[place].distance))
@@ -123,6 +132,17 @@ def _differences(pairs: list[_Pair], settings) -> str:
     counts = {axis: [corrected[place] < _LEVEL for place, other in enumerate(pairs) if other.axis == axis] for axis in dict.fromkeys(p.axis for p in pairs)}
     told = ", ".join(f"{sum(differ)} of {len(differ)} by {axis}" for axis, differ in counts.items())
     return f"The CDFs of u_max part by more than chance explains in {told}; most {apart} ({judged}, corrected for {len(pairs)} pairs)."
+
+
+def _shortfall(pairs: list[Pair]) -> str:
+    """Warnings where motions are too few for what is said: of the weakest difference that is claimed, and of the equality of the rest."""
+    corrected = holm([pair.p for pair in pairs])
+    clear = [pair for pair, p in zip(pairs, corrected) if p < _LEVEL]
+    same = [pair for pair, p in zip(pairs, corrected) if p >= _LEVEL]
+    told = [difference_shortfall(weakest.n, weakest.distance, len(pairs)) for weakest in sorted(clear, key=lambda pair: pair.distance)[:1]]
+    if same:
+        told.append(equality_shortfall(min(pair.n for pair in same), bound=max(pair.bound for pair in same)))
+    return " ".join(one for one in told if one)
 
 
 def _name(values: dict) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -51,3 +52,18 @@ def finished(case_id: str, folder: Path, **more) -> Outcome | None:
         return None
     return Outcome(case_id, DONE, summary=json.dumps(summary), version=str(summary.get("version", "")),
                    overturned=summary["overturned"], slid_off=bool(summary.get("slid_off")), **{"wall_s": float(summary["wall_s"]), **more})
+
+
+def outcomes_of_dead(tasks: Iterable[Task], reason: str, ready: bool = True) -> Iterator[Outcome]:
+    """Outcomes of what a dead worker had in hand, in its order: done where the result says so; the next in turn has killed it.
+
+    Args:
+        tasks: in hand. reason: how it died. ready: whether it had begun; else none is to blame.
+    """
+    blamed = not ready
+    for task in tasks:
+        if done := finished(task.id, task.folder):
+            yield done
+        else:
+            yield Outcome(task.id, RETURNED if blamed else FAILED, reason)
+            blamed = True

@@ -7,13 +7,14 @@ import multiprocessing
 import os
 import queue
 import signal
+import sys
 import threading
 import time
 from collections import deque
 from multiprocessing import resource_tracker
 from multiprocessing.connection import wait
 
-from fecolumn.study.outcome import DONE, FAILED, RETURNED, Outcome, Task, finished
+from fecolumn.study.outcome import DONE, Outcome, Task, outcomes_of_dead
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, die_with_parent, in_words, work_off
 
@@ -76,21 +77,14 @@ class LocalPool:
         return word
 
     def _bury(self, worker: _Worker) -> list[Outcome]:
-        """Outcomes of what a dead worker had in hand: done where the result says so; the next in turn has killed it."""
+        """Outcomes of what a dead worker had in hand."""
         reason = worker.epitaph()
         worker.connection.close()
         if not worker.ready:
             self._stillborn += 1
             if self._stillborn == _STILLBORN or not reason.startswith("worker killed"):
                 raise StudyError(f"a worker could not start: {reason}")
-        outcomes, blamed = [], not worker.ready
-        for task in worker.tasks.values():
-            if done := finished(task.id, task.folder):
-                outcomes.append(done)
-            else:
-                outcomes.append(Outcome(task.id, RETURNED if blamed else FAILED, reason))
-                blamed = True
-        return outcomes
+        return list(outcomes_of_dead(worker.tasks.values(), reason, worker.ready))
 
     def stop(self) -> None:
         for worker in self._workers:
@@ -113,7 +107,7 @@ class _Worker:
         self.tasks: dict[str, Task] = {}
         self.batches: deque[int] = deque()
         self.ready = False
-        with _environment(ONE_THREAD), _interrupts_held():
+        with _environment(ONE_THREAD), _interrupts_held(), _without_script():
             self.process.start()
         far_end.close()  # so that the end of the process is the end of the connection
 
@@ -193,6 +187,20 @@ def _environment(values: dict):
     finally:
         for name, value in before.items():
             os.environ.pop(name) if value is None else os.environ.update({name: value})
+
+
+@contextlib.contextmanager
+def _without_script():
+    """Started processes do not run the caller's script anew, as multiprocessing would have them: they need nothing of it."""
+    script, spec = sys.modules["__main__"], getattr(sys.modules["__main__"], "__spec__", None)
+    file = script.__dict__.pop("__file__", None)
+    script.__spec__ = None
+    try:
+        yield
+    finally:
+        script.__spec__ = spec
+        if file is not None:
+            script.__file__ = file
 
 
 @contextlib.contextmanager

@@ -31,7 +31,8 @@ _DISK_FULL = "the disk is full; free room"
 
 
 def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry_failed: bool = False,
-              stream=sys.stderr, share: tuple[int, int] | None = None, team: Team | None = None) -> list[dict]:
+              stream=sys.stderr, share: tuple[int, int] | None = None, team: Team | None = None,
+              only: set[str] | None = None) -> list[dict]:
     """Do what is missing of a study, and return the ledger.
 
     An analysis that fails, or takes its worker down with it, is recorded with its reason and the rest goes on. Stopping
@@ -47,6 +48,7 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
         stream: where the progress line goes.
         share: (index, size) of a task of a job array; it does every size-th analysis only. Tasks may work in one folder at once.
         team: who does the work, instead of processes on this machine.
+        only: ids of the analyses to do; the others stay planned.
 
     Returns:
         One dict an analysis in the order of the study file, see `store.Study.rows`; with `share` only its own.
@@ -62,7 +64,7 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
                 store.ledger.plan_again(state=FAILED)
             if entry == ENTRY and (told := other_code(store.rows())):
                 print(told, file=stream, flush=True)
-            drive(store, team or LocalPool(workers, entry, plan.file), stream)
+            drive(store, team or LocalPool(workers, entry, plan.file), stream, only)
             return store.rows()
     except sqlite3.DatabaseError as error:
         full = "full" in str(error) or "disk I/O" in str(error)
@@ -73,9 +75,9 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
         raise
 
 
-def drive(store: Store, team: Team, stream) -> Progress:
-    """Have a team do what is missing in a study's folder; the counts, of which `stream` is told."""
-    queue = collections.deque(store.missing())
+def drive(store: Store, team: Team, stream, only: set[str] | None = None) -> Progress:
+    """Have a team do what is missing in a study's folder, or of the ids `only`; the counts, of which `stream` is told."""
+    queue = collections.deque(analysis for analysis in store.missing() if only is None or analysis.id in only)
     progress = Progress(store.ledger.counts(), sum(a.effort for a in queue), min(team.size, len(queue)), stream)
     try:
         _work_off(store, queue, team, progress)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.ending import lost
+from fecolumn.ending import cut_short, lost
 from fecolumn.schema import InputError
 from fecolumn.statistics.experiment import read_maxima
 from fecolumn.statistics.sample import Sample
@@ -31,7 +31,7 @@ def read_sample(text: str) -> Sample:
     if choice:
         raise InputError(place, "", None, "no such folder; @axis=value chooses settings of a study")
     maxima = read_maxima(place)
-    return Sample(place, Path(place).stem, {}, maxima.motions, maxima.u_max, maxima.overturned)
+    return Sample(place, Path(place).stem, {}, maxima.motions, maxima.u_max, maxima.overturned, np.zeros(len(maxima.motions), bool))
 
 
 def _chosen(text: str, part: str) -> tuple[str, object]:
@@ -63,10 +63,10 @@ def _of_study(folder: str, choice: dict) -> Sample:
     if not done:
         raise InputError(folder, "", None, f"none of the {len(rows)} analyses chosen is done")
     motions = tuple(_motion_name(row["axes"]) for row in done)
-    u_max, overturned = [row["summary"]["u_max_m"] for row in done], [lost(row["summary"]) for row in done]
-    shown = {key: rows[0]["axes"][key] for key in choice}
-    u_max = np.where(overturned, np.nan, np.array(u_max, float))
-    return Sample(folder, study.title, shown, motions, u_max, np.array(overturned, bool), len(rows) - len(done))
+    summaries, shown = [row["summary"] for row in done], {key: rows[0]["axes"][key] for key in choice}
+    beyond, off = (np.array([bool(value) for value in values]) for values in zip(*((lost(one), one.get("slid_off")) for one in summaries)))
+    u_max = np.where(beyond, np.nan, np.array([one["u_max_m"] for one in summaries], float))
+    return Sample(folder, study.title, shown, motions, u_max, beyond, off, len(rows) - len(done), cut_short(summaries))
 
 
 def _motion_name(axes: dict) -> str:

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 from fecolumn.atomic import write_csv
-from fecolumn.ending import lost
+from fecolumn.ending import P_LOST, P_OVERTURN, lost
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.cdf_figure import Panel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
@@ -107,7 +107,8 @@ def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
             panels.setdefault(title, []).append((label, ecdf([s["u_max_m"] for s in done], [lost(s) for s in done])))
     if not panels:
         return []
-    return cdf_figure([Panel(title or plan.title, tuple(lines)) for title, lines in panels.items()], Path(folder) / "cdf")
+    off = any(summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done)
+    return cdf_figure([Panel(title or plan.title, tuple(lines), P_LOST if off else P_OVERTURN) for title, lines in panels.items()], Path(folder) / "cdf")
 
 
 def varied(plan: Plan) -> dict[str, int]:

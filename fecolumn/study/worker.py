@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import errno
 import faulthandler
@@ -96,6 +97,18 @@ def _speak_into(log) -> None:
         _try(stream.flush)
         os.dup2(log.fileno(), number)
     faulthandler.enable()
+
+
+@contextlib.contextmanager
+def streams_kept():
+    """Give a process that goes on to live its standard output and error back, which `work_off` lends to the logs of analyses."""
+    kept = [(number, os.dup(number)) for number in (1, 2)]
+    try:
+        yield
+    finally:
+        for number, copy in kept:
+            os.dup2(copy, number)
+            os.close(copy)
 
 
 def die_with_parent() -> None:

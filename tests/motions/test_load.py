@@ -111,6 +111,24 @@ def test_coarse_step_is_warned_of(tmp_path):
         load_motion(Motion(alternating), 0.02, "")
 
 
+def test_input_of_a_coarse_step_is_kept_at_a_fine_one_on_straight_lines(tmp_path):
+    """Every twentieth sample is that of an analysis at 0.02 s, filtered as there; between them the mean of the two beside."""
+    source, _ = smooth_csv(tmp_path)
+    coarse, fine = load_motion(Motion(source), 0.02, ""), load_motion(Motion(source, resample_s=0.02), 1e-3, "")
+    assert fine.dt == 1e-3 and len(fine.acceleration) == 20 * (len(coarse.acceleration) - 1) + 1
+    np.testing.assert_allclose(fine.acceleration[::20], coarse.acceleration, atol=1e-12)
+    np.testing.assert_allclose(fine.acceleration[10::20], (coarse.acceleration[1:] + coarse.acceleration[:-1]) / 2, atol=1e-12)
+    assert motion_hash(load_motion(Motion(source, resample_s=0.02), 0.02, "")) == motion_hash(coarse)
+
+
+def test_input_coarser_than_its_samples_is_refused(tmp_path):
+    source, _ = smooth_csv(tmp_path)
+    error = refused(Motion(source, resample_s=0.01), dt=0.02)
+    assert error.key == "integration.dt_s" and "at most motion.resample_s = 0.01 s" in str(error)
+    error = refused(Motion(at2(tmp_path), resample_s=0.1))
+    assert error.key == "motion.resample_s" and "0.07 s" in str(error)
+
+
 def test_step_beyond_the_motion_is_refused(tmp_path):
     error = refused(Motion(at2(tmp_path)), dt=0.1)
     assert (error.key, error.value) == ("integration.dt_s", 0.1) and "0.07 s" in str(error)

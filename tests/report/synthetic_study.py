@@ -18,7 +18,7 @@ LIMIT_M = 0.25
 
 
 def write_synthetic(folder: Path, axes: dict, motions: int, *, effect=lambda values: 1.0, scatter=0.5, fails=(), unfinished=(), cost=None,
-                    title="Synthetic study", sources=None) -> Path:
+                    title="Synthetic study", sources=None, also=lambda values, summary: {}, case=SPECIMEN) -> Path:
     """A study folder.
 
     Args:
@@ -30,11 +30,13 @@ def write_synthetic(folder: Path, axes: dict, motions: int, *, effect=lambda val
         fails, unfinished: places of analyses that failed, that were not run.
         sources: of the motions, files with their numbers; without them the motions are names of nothing.
         cost: wall time of a step [s] at the values of a setting; default 2e-4.
+        also: what else a summary has, from the values of all axes and the summary itself.
+        case: file of the case that all analyses share.
     """
     folder.mkdir(parents=True, exist_ok=True)
     lines = [f'"{key}" = {list(values)}' for key, values in axes.items()]
     named = ", ".join(f'"{source}"' for source in sources or [f"pulse:{number}" for number in range(motions)])
-    (folder / "study.toml").write_text(f'title = "{title}"\ncase = "{SPECIMEN}"\n[axes]\n' + "\n".join(lines) + f'\n"motion.source" = [{named}]\n')
+    (folder / "study.toml").write_text(f'title = "{title}"\ncase = "{case}"\n[axes]\n' + "\n".join(lines) + f'\n"motion.source" = [{named}]\n')
     plan = read_plan(folder / "study.toml")
     with Store(folder / "out", plan, "synthetic:run") as store:
         for place, analysis in enumerate(plan.analyses):
@@ -46,7 +48,8 @@ def write_synthetic(folder: Path, axes: dict, motions: int, *, effect=lambda val
             result = store.result_folder(analysis.id)
             result.mkdir(parents=True, exist_ok=True)
             (result / "case.json").write_text(json.dumps({"case": dataclasses.asdict(analysis.case)}))
-            (result / "summary.json").write_text(json.dumps(_summary(analysis, effect, scatter, cost)))
+            summary = _summary(analysis, effect, scatter, cost)
+            (result / "summary.json").write_text(json.dumps(summary | also(analysis.values, summary)))
             store.end(finished(analysis.id, result))
     return folder / "out"
 

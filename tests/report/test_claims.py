@@ -1,9 +1,12 @@
 """The paper's findings put to studies in which they are made to hold, or not."""
 
+import math
+
 import pytest
-from synthetic_study import ALPHA, DT, write_synthetic
+from synthetic_study import ALPHA, DT, SPECIMEN, write_synthetic
 
 from fecolumn.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED
+from fecolumn.report.families import families, shortfalls
 from fecolumn.report.page import claims_of
 from fecolumn.report.pair import read_pairs
 from fecolumn.report.sweep import read_sweep
@@ -65,3 +68,28 @@ def test_more_damping_that_costs_more_contradicts_the_paper_with_the_reason(tmp_
 def test_one_small_step_alone_cannot_tell_whether_steps_matter(tmp_path):
     found = claims(tmp_path, motions=20, axes={DT: [0.02, 1e-3], ALPHA: [0, -0.2]})
     assert found["b2"].verdict == UNDECIDED and "Not to be judged" in found["b2"].ours
+
+
+def test_claims_on_alpha_say_what_the_scheme_builds_in(chaotic, tmp_path):
+    assert all(("alpha is kept from contact" in claim.ours) == (key in ("a2, α", "c")) for key, claim in chaotic.items())
+    literal = tmp_path / "literal.toml"
+    literal.write_text(f'extends = "{SPECIMEN}"\n[contact]\nimpact = "none"\n[integration]\nengine = "full"\n')
+    assert all("alpha is kept" not in claim.ours for claim in claims(tmp_path / "study", motions=12, case=literal).values())
+
+
+def test_claims_say_how_many_motions_they_need(chaotic, tmp_path):
+    """The paper's margin is what its 115 motions show: 115 are enough, 40 are not."""
+    found = claims(tmp_path, motions=40, scatter=0.6)
+    assert "With 40 motions a KS distance below 0.30 cannot be told from 0: the claim of no difference beyond 0.18 needs about N = 115." in found["c"].ours
+    assert "needs about N" not in chaotic["c"].ours
+
+
+def test_the_report_warns_of_every_question_for_which_its_motions_are_few(tmp_path):
+    """Of the least difference claimed among four pairs, and of none beyond 0.10: told from 0 at sqrt(ln(2 x 4 / 0.05) / 30) = 0.41 and sqrt(ln 40 / 30) = 0.35."""
+    axes = {DT: [0.02, 1e-3, 1e-4], "contact.friction_coefficient": [0.3, 0.5]}
+    pairs = read_pairs(read_sweep(write_synthetic(tmp_path, axes, 30, scatter=0.1, effect=lambda v: 1.6 if v[DT] > 0.01 else 1.0)))
+    told = [paragraph.text for paragraph in shortfalls(pairs) if paragraph.warning]
+    assert any("Δt (with a time step above 1 ms)" in text and "among 4 comparisons" in text for text in told)
+    assert any("μ: with 30 motions a KS distance below 0.35 cannot be told from 0" in text and "needs about N = 369" in text for text in told)
+    rows = {(row[0], row[1]): row for row in families(pairs).rows}
+    assert rows["contact.friction_coefficient", "all"][-2:] == (pytest.approx(math.sqrt(math.log(40 * 3) / 30)), 369)

@@ -200,7 +200,7 @@ def test_sampled_parameters_have_a_ranking(tmp_path):
     with open(out / "report" / "tables" / "ranking.csv") as file:
         ranks = list(csv.DictReader(file))
     assert [row["axis"] for row in ranks] == [FRICTION, "material.youngs_modulus_pa"]
-    assert float(ranks[0]["distance"]) > float(ranks[0]["chance"]) and float(ranks[0]["change_p_overturn"]) > 0.2
+    assert float(ranks[0]["distance"]) > float(ranks[0]["chance"]) and float(ranks[0]["change_p_lost"]) > 0.2
 
 
 def test_nothing_done_and_no_study_are_refused(tmp_path):

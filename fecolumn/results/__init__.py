@@ -1,0 +1,1 @@
+"""Results read back into Python: an analysis or a study, its arrays, tables and figures."""

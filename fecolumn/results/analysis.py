@@ -1,0 +1,159 @@
+"""One analysis: its history as arrays with units, its summary, its figures."""
+
+from __future__ import annotations
+
+import functools
+import html
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.dynamics.energy import TERMS
+from fecolumn.dynamics.history import MEANING, UNITS, read_history
+from fecolumn.files import is_file
+from fecolumn.results.frames import installed
+from fecolumn.results.picture import Picture
+from fecolumn.schema import InputError
+
+# what a notebook shows of a summary: key, words, factor, unit
+_SHOWN = (("outcome", "outcome", None, ""), ("u_max_m", "largest displacement of the top", 1e3, "mm"), ("u_critical_m", "critical displacement", 1e3, "mm"),
+          ("residual_slide_m", "slide at the end", 1e3, "mm"), ("time_s", "analysed", 1.0, "s"), ("steps", "steps", None, ""),
+          ("energy_closure_rel", "energy not accounted for, of what was moved", 1.0, ""))
+
+
+class AnalysisResult:
+    """What is in the folder of `fecolumn.run`.
+
+    `result["u_top"]` is an array of the history, its first axis time; `result.units["u_top"]` its unit. Units are SI.
+
+    Attributes:
+        folder: Path.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+
+    @functools.cached_property
+    def history(self) -> dict[str, np.ndarray]:
+        """Arrays by name: time, u_top, tilt, ..., "energy/kinetic", ...
+
+        Raises:
+            InputError: the analysis has written none yet.
+        """
+        file = self.folder / "history.h5"
+        try:
+            return read_history(file)
+        except OSError as error:
+            raise InputError(file, "", None, "not written yet" if not is_file(file) else f"cannot be read ({error})") from None
+
+    @functools.cached_property
+    def summary(self) -> dict:
+        """What summary.json says; empty while the analysis has not ended."""
+        from fecolumn.files import read_json
+
+        file = self.folder / "summary.json"
+        return read_json(file) if is_file(file) else {}
+
+    @functools.cached_property
+    def case(self):
+        """The Case that was analysed."""
+        from fecolumn.simulation import read_folder_case
+
+        return read_folder_case(self.folder)[0]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        try:
+            return self.history[name]
+        except KeyError:
+            raise KeyError(f"{name!r} is not in the history; it has {', '.join(self.history)}") from None
+
+    @property
+    def time(self) -> np.ndarray:
+        """(n,) [s]"""
+        return self["time"]
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each array."""
+        return {name: UNITS.get(name, "J") for name in self.history}
+
+    @property
+    def energy(self) -> dict[str, np.ndarray]:
+        """Terms of the energy ledger (n,) [J] by name, as of `dynamics.energy.TERMS`."""
+        return {term: self[f"energy/{term}"] for term in TERMS}
+
+    @property
+    def finished(self) -> bool:
+        """Whether the analysis has ended."""
+        return bool(self.summary)
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """One array (n,) a component, named with its unit: "time [s]", "u_top_x [m]", ..."""
+        named = {}
+        for name, values in self.history.items():
+            parts = [""] if values.ndim == 1 else [f"_{axis}" for axis in "xyz"[:values.shape[1]]]
+            for part, column in zip(parts, values.reshape(len(values), -1).T):
+                named[f"{name}{part} [{self.units[name]}]"] = column
+        return named
+
+    def to_pandas(self):
+        """DataFrame of `columns`, time its index."""
+        frame = installed("pandas", "to_pandas").DataFrame(self.columns())
+        return frame.set_index("time [s]")
+
+    def to_xarray(self):
+        """Dataset with time as coordinate; unit and meaning are attributes, as xarray's plots show them."""
+        xarray = installed("xarray", "to_xarray")
+        arrays = {}
+        for name, values in self.history.items():
+            axes = ("time",) if values.ndim == 1 else ("time", "axis" if values.shape[1] == 3 else "horizontal")
+            arrays[name.replace("/", "_")] = (axes, values, {"units": self.units[name], "long_name": MEANING.get(name, name.replace("/", " "))})
+        coordinates = {"time": arrays.pop("time"), "axis": list("xyz"), "horizontal": list("xy")}
+        return xarray.Dataset(arrays, coordinates, {"case": self.case.title, "case_id": self.case.id})
+
+    @property
+    def plot(self) -> AnalysisPlots:
+        """Figures: `plot.top()`, `plot.path()`, `plot.energy()`."""
+        return AnalysisPlots(self.folder)
+
+    def __repr__(self) -> str:
+        return f"AnalysisResult({str(self.folder)!r}: {self.summary.get('outcome', 'not finished')})"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><th style='text-align:left'>{words}</th><td>{_cell(self.summary[key], factor, unit)}</td></tr>"
+                       for key, words, factor, unit in _SHOWN if self.summary.get(key) is not None)
+        title = html.escape(self.case.title or str(self.folder))
+        return f"<table><caption>{title}</caption>{rows or '<tr><td>not finished</td></tr>'}</table>"
+
+
+class AnalysisPlots:
+    """Figures of an analysis, each a Picture."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+
+    def top(self) -> Picture:
+        """Displacement of the top against time, below the ground motion."""
+        from fecolumn.post.history_figures import History, read_ending
+        from fecolumn.post.top_figure import top_figure
+
+        return Picture(lambda path: top_figure(History.read(self.folder / "history.h5"), read_ending(self.folder), path))
+
+    def path(self) -> Picture:
+        """Path of the top in plan."""
+        from fecolumn.post.history_figures import History, read_ending
+        from fecolumn.post.path_figure import path_figure
+
+        return Picture(lambda path: path_figure(History.read(self.folder / "history.h5"), read_ending(self.folder), path))
+
+    def energy(self) -> Picture:
+        """The energy ledger against time."""
+        from fecolumn.post.energy_figure import energy_figure
+        from fecolumn.post.history_figures import History
+
+        return Picture(lambda path: energy_figure(History.read(self.folder / "history.h5"), path))
+
+
+def _cell(value, factor, unit: str) -> str:
+    text = f"{factor * value:.4g} {unit}" if factor is not None else str(value)
+    return html.escape(text.strip())

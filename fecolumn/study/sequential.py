@@ -1,0 +1,104 @@
+"""A study that goes on until its question is decided: more motions of its ensemble until each pair of settings is told apart, or told alike.
+
+A look at the results after each stage of motions may end it. Each look is one more chance to be wrong, so that the error allowed is divided by the number of
+looks that are planned (Bonferroni): whatever the course of the study, a false statement on a pair is as rare as that error. For "differ" the
+p-values are corrected (Holm 1979) for all pairs besides.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+from fecolumn.schema import InputError
+from fecolumn.statistics.equivalence import SMALL
+from fecolumn.statistics.holm import holm
+from fecolumn.study.conclusion import Pair, pairs_of, settings_of
+from fecolumn.study.plan import ENSEMBLE_AXES, Plan
+
+DIFFER, ALIKE, OPEN = "differ", "alike", "open"
+#: Motions of the first stage; each stage has twice as many as the one before.
+FIRST = 40
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """When a study is decided: two settings are alike where the data exclude a distance of their CDFs beyond `margin`; `error`: allowed for each
+    statement; `most`: motions in each setting at most."""
+
+    margin: float = SMALL
+    error: float = 0.05
+    most: int = 1000
+
+    def check(self, file) -> None:
+        """Refuse a rule that cannot be followed.
+
+        Raises:
+            InputError: names the option and its range.
+        """
+        for option, value, low, high in (("--margin", self.margin, 0.01, 0.5), ("--error", self.error, 0.001, 0.2)):
+            if not low <= value <= high:
+                raise InputError(file, option, value, f"must lie in [{low:g}, {high:g}]")
+        if self.most < FIRST:
+            raise InputError(file, "--most", self.most, f"must be at least {FIRST} motions, the first stage")
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What is said of a pair of settings."""
+
+    pair: Pair
+    word: str
+
+    def text(self, rule: Rule) -> str:
+        """One line for a reader."""
+        pair = self.pair
+        judged = {DIFFER: "differ", ALIKE: f"alike within {rule.margin:g}", OPEN: "not decided"}[self.word]
+        return f"{pair.names[0]} and {pair.names[1]}: {judged}; distance {pair.distance:.3f}, at most {pair.bound:.3f}, p = {pair.p:.4f}, N = {pair.n}"
+
+
+def motion_of(analysis) -> tuple:
+    """What tells the members of an ensemble apart."""
+    return tuple(repr(value) for key, value in analysis.values.items() if key in ENSEMBLE_AXES)
+
+
+def stages(plan: Plan, rule: Rule) -> list[int]:
+    """Numbers of motions after which the results are looked at.
+
+    Raises:
+        InputError: the study has nothing to compare, or fewer motions than the first stage.
+    """
+    motions = len({motion_of(analysis) for analysis in plan.analyses})
+    if len({repr(analysis.combination) for analysis in plan.analyses}) < 2:
+        raise InputError(plan.file, "axes", None, "has one setting alone: there is nothing to decide between")
+    if motions < FIRST:
+        raise InputError(plan.file, "axes", None, f"has {motions} motions; deciding begins with {FIRST}")
+    last, found = min(motions, rule.most), [FIRST]
+    while found[-1] < last:
+        found.append(min(2 * found[-1], last))
+    return found
+
+
+def stage_analyses(plan: Plan, motions: int, verdicts: list[Verdict]) -> set[str]:
+    """Ids of the analyses of the first so many motions, of the settings that are not decided yet; of all before the first look."""
+    taken = dict.fromkeys(map(motion_of, plan.analyses))
+    chosen = set(itertools.islice(taken, motions))
+    open_settings = {repr(values) for verdict in verdicts if verdict.word == OPEN for values in verdict.pair.settings}
+    return {analysis.id for analysis in plan.analyses if motion_of(analysis) in chosen and (not verdicts or repr(analysis.combination) in open_settings)}
+
+
+def judge(plan: Plan, rows: list[dict], rule: Rule, looks: int, before: list[Verdict]) -> list[Verdict]:
+    """Verdict on each pair of settings after a stage; those of `before` that are decided stay.
+
+    Args:
+        rows: of the ledger. looks: planned in all.
+    """
+    level = rule.error / looks
+    pairs = pairs_of(settings_of(plan, rows), confidence=1 - level)
+    decided = {verdict.pair.names: verdict for verdict in before if verdict.word != OPEN}
+    corrected = holm([pair.p for pair in pairs])
+    found = []
+    for pair, p in zip(pairs, corrected):
+        word = DIFFER if p < level else ALIKE if pair.bound <= rule.margin else OPEN
+        found.append(decided.get(pair.names) or Verdict(pair, word))
+    return found

@@ -1,0 +1,155 @@
+"""Results as Python objects: what a script or a notebook sees of an analysis and of a study."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import fecolumn
+from fecolumn import InputError
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+from synthetic_study import ALPHA, write_synthetic  # noqa: E402
+
+DRUM = {"title": "Drum", "column": {"shape": "solid", "outer_diameter_m": 0.5, "height_m": 1.6}, "material": {"youngs_modulus_pa": 50e9, "density_kg_m3": 2700.0},
+        "initial": {"tilt_rad": 0.02}, "integration": {"engine": "rigid", "duration_s": 0.1}}
+
+
+@pytest.fixture(scope="module")
+def drum():
+    return fecolumn.case_from_tables(DRUM, "drum")
+
+
+@pytest.fixture(scope="module")
+def analysis(drum, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("results") / "drum"
+    fecolumn.run(drum, folder, quiet=True)
+    return fecolumn.load(folder)
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    return fecolumn.load(write_synthetic(tmp_path_factory.mktemp("study"), {ALPHA: [0.0, -0.2]}, 6, unfinished=(3,)))
+
+
+def test_replaced_case_is_the_one_a_file_would_give(drum):
+    thinner = {**DRUM, "column": {**DRUM["column"], "outer_diameter_m": 0.4}, "contact": {"friction_coefficient": 0.5}}
+    wanted = fecolumn.case_from_tables(thinner, "drum")
+    assert drum.replace({"column.outer_diameter_m": 0.4, "contact.friction_coefficient": 0.5}) == wanted
+    assert drum.replace(column={"outer_diameter_m": 0.4}, contact={"friction_coefficient": 0.5}).mesh == wanted.mesh != drum.mesh
+    assert drum.replace() == drum
+
+
+def test_size_that_a_case_states_stays_in_another_column(drum):
+    own = fecolumn.case_from_tables({**DRUM, "mesh": {"fine_size_m": 0.06}}, "drum")
+    assert own.replace({"column.outer_diameter_m": 0.4}).mesh.fine_size_m == 0.06
+
+
+@pytest.mark.parametrize("change, key", [({"contact.friction_coefficient": -1}, "contact.friction_coefficient"), ({"contact.friction": 1}, "contact.friction")])
+def test_replacing_with_what_no_file_may_say_is_refused(drum, change, key):
+    with pytest.raises(InputError) as caught:
+        drum.replace(change)
+    assert caught.value.key == key
+
+
+def test_history_has_arrays_with_units(analysis):
+    steps = len(analysis.time)
+    assert analysis["u_top"].shape == (steps, 3) and analysis.units["u_top"] == "m" and analysis.units["energy/kinetic"] == "J"
+    assert analysis.time[-1] == pytest.approx(0.1)
+    assert analysis["tilt"][0] == pytest.approx(0.02, rel=1e-2)
+    assert abs(analysis.energy["closure"]).max() < 1e-9
+    with pytest.raises(KeyError, match="'speed' is not in the history; it has"):
+        analysis["speed"]
+
+
+def test_columns_are_named_with_component_and_unit(analysis):
+    columns = analysis.columns()
+    np.testing.assert_array_equal(columns["u_top_z [m]"], analysis["u_top"][:, 2])
+    np.testing.assert_array_equal(columns["slide_y [m]"], analysis["slide"][:, 1])
+    assert all(column.shape == analysis.time.shape for column in columns.values())
+
+
+def test_analysis_knows_its_case_and_how_it_ended(analysis, drum):
+    assert analysis.case.id == drum.id and analysis.finished
+    assert "still rocking" in repr(analysis)
+    page = analysis._repr_html_()
+    assert "<caption>Drum</caption>" in page and "still rocking" in page
+
+
+@pytest.mark.parametrize("name", ["top", "path", "energy"])
+def test_figures_are_pictures_that_can_be_saved(analysis, name, tmp_path):
+    picture = getattr(analysis.plot, name)()
+    assert picture._repr_png_().startswith(b"\x89PNG")
+    files = picture.save(tmp_path / "figures" / "drum.png")
+    assert sorted(file.name for file in files) == ["drum.pdf", "drum.png"]
+    assert (tmp_path / "figures" / "drum.png").read_bytes() == picture.png
+
+
+@pytest.mark.parametrize("name, method", [("pandas", "to_pandas"), ("xarray", "to_xarray")])
+def test_library_that_is_not_installed_is_named(analysis, name, method, monkeypatch):
+    monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(ImportError, match=f"pip install {name}"):
+        getattr(analysis, method)()
+
+
+def test_frames_hold_the_history(analysis):
+    pytest.importorskip("pandas")
+    frame = analysis.to_pandas()
+    np.testing.assert_array_equal(frame["tilt [rad]"], analysis["tilt"])
+    pytest.importorskip("xarray")
+    assert analysis.to_xarray()["u_top"].attrs["units"] == "m"
+
+
+def test_folder_of_nothing_is_refused(tmp_path):
+    with pytest.raises(InputError, match="neither an analysis"):
+        fecolumn.load(tmp_path)
+    with pytest.raises(InputError, match="no such folder"):
+        fecolumn.load(tmp_path / "none")
+
+
+def test_analysis_without_history_says_so(tmp_path):
+    (tmp_path / "case.json").write_text("{}")
+    with pytest.raises(InputError, match="not written yet"):
+        fecolumn.load(tmp_path).time
+
+
+def test_study_gives_rows_distributions_and_figure(study):
+    assert study.done == 11 and len(study.rows) == 12 and study.axes[ALPHA] == [0.0, -0.2]
+    whole, one = study.ecdf(), study.ecdf({ALPHA: -0.2})
+    assert whole.n == 11 and one.n in (5, 6)
+    assert study.plot.cdf().png.startswith(b"\x89PNG")
+    assert "11 of 12 analyses done" in study._repr_html_()
+
+
+def test_peak_of_what_was_lost_is_no_number(study):
+    columns = study.columns()
+    lost = np.array(columns["lost"])
+    assert lost.any() and np.isnan(np.array(columns["u_max_m"])[lost]).all()
+    standing = ~lost & (np.array(columns["state"]) == "done")
+    assert np.isfinite(np.array(columns["u_max_m"])[standing]).all()
+
+
+def test_axis_or_value_that_a_study_does_not_have_is_refused(study):
+    with pytest.raises(InputError, match="is no axis"):
+        study.ecdf({"contact.mu": 1})
+    with pytest.raises(InputError, match="is no value"):
+        study.ecdf({ALPHA: -0.1})
+
+
+def test_array_is_a_motion(drum, tmp_path):
+    time = np.arange(0, 1, 0.01)
+    source = fecolumn.motion_file(tmp_path / "sine.csv", np.column_stack([np.sin(9 * time), np.cos(9 * time)]), 0.01)
+    case = drum.replace({"initial": None, "integration.duration_s": 0.0, "motion.source": source})
+    motion = fecolumn.load_motion(case.motion, 0.01, "case")
+    np.testing.assert_allclose(motion.acceleration[:len(time), :2], np.column_stack([np.sin(9 * time), np.cos(9 * time)]), atol=1e-12)
+
+
+@pytest.mark.parametrize("acceleration", [np.zeros(1), np.zeros((5, 4)), np.array([0.0, np.nan, 1.0])])
+def test_array_that_is_no_motion_is_refused(acceleration, tmp_path):
+    with pytest.raises(InputError, match="acceleration"):
+        fecolumn.motion_file(tmp_path / "a.csv", acceleration, 0.01)
+
+
+def test_names_of_the_package_exist():
+    assert all(hasattr(fecolumn, name) for name in fecolumn.__all__) and set(fecolumn.__all__) <= set(dir(fecolumn))
