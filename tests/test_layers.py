@@ -4,7 +4,7 @@ import pytest
 from imported_modules import ROOT, closure, imports
 
 # From the bottom to the top; simulation is the module that chooses an engine
-ORDER = ("material", "mesh", "fem", "contact", "dynamics", "reduced", "simulation", "study", "report")
+ORDER = ("material", "mesh", "fem", "contact", "dynamics", "reduced", "simulation", "render", "study", "report")
 # What else a package must not import: data are not judged where they are made, and statistics know numbers alone
 APART = {"statistics": {"study", "report", "post", "reduced", "dynamics", "contact", "fem", "mesh"}, "post": {"study", "report"},
          "motions": {"study", "report", "statistics", "mesh", "fem", "contact", "dynamics", "reduced"}}

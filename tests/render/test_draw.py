@@ -79,7 +79,8 @@ def test_what_cannot_be_drawn_is_one_line_with_what_can(block, capsys, options, 
 def test_unknown_view_names_the_views(block, capsys):
     with pytest.raises(SystemExit):
         main(["render", str(block), "--view", "below"])
-    assert all(view in capsys.readouterr().err for view in command.VIEWS)
+    error = capsys.readouterr().err
+    assert all(view in error for view in command.VIEWS)
 
 
 def test_folders_that_hold_no_finished_analysis_say_what_they_are(block, tmp_path):
