@@ -1,4 +1,4 @@
-"""The command line: fecolumn new | mesh | run | resume | study | compare | report | motions | keys | help | verify | prepare | doctor | completion."""
+"""The command line: fecolumn new | mesh | run | resume | study | compare | report | render | motions | keys | help | verify | prepare | doctor | completion."""
 
 from __future__ import annotations
 
@@ -75,6 +75,7 @@ def _parser() -> argparse.ArgumentParser:
     """Of all commands; nothing here may load a library, so that --help is quick."""
     from fecolumn import __version__, completion, keys, manual, templates
     from fecolumn.motions import command as motions
+    from fecolumn.render import command as render
     from fecolumn.report import command as report
     from fecolumn.study import command as study
     from fecolumn.study import compare_command as compare
@@ -108,6 +109,7 @@ def _parser() -> argparse.ArgumentParser:
     add("study", "run a sweep of analyses and compare their CDFs", study)
     add("compare", "compare two ensembles: settings, studies, computation and experiment", compare)
     add("report", "write the report of a study: one HTML page, figures and tables", report)
+    add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)
     add("motions", "make, fit, look at and convert ground motions", motions)
     add("keys", "every key of a case and of a study: meaning, unit, range, default", keys)
     add("help", "the manual, topic by topic", manual)

@@ -1,4 +1,4 @@
-"""The progress line of one analysis."""
+"""Progress lines: of one analysis, and of a count of things."""
 
 from __future__ import annotations
 
@@ -37,6 +37,30 @@ class Progress:
         """Close the line on a terminal."""
         if self._terminal and not self.quiet:
             print(file=sys.stderr)
+
+
+class CountProgress:
+    """Writes how many of a number of things are done and the time left to stderr: in place on a terminal, every ten seconds in a log."""
+
+    def __init__(self, total: int, things: str, quiet: bool = False):
+        """`total` of `things`, such as "pictures"."""
+        self.total, self.things, self.quiet = total, things, quiet
+        self._terminal = sys.stderr.isatty()
+        self._began = self._shown = time.perf_counter()
+
+    def show(self, done: int) -> None:
+        """Show that `done` are done, at most a few times a second."""
+        now = time.perf_counter()
+        if self.quiet or now - self._shown < (0.3 if self._terminal else 10.0):
+            return
+        line = f"{done} of {self.total} {self.things}, {100 * done / self.total:.0f} %, left {_clock((now - self._began) / done * (self.total - done))}"
+        print(("\r" + line + "\x1b[K") if self._terminal else line, end="" if self._terminal else "\n", file=sys.stderr, flush=True)
+        self._shown = now
+
+    def end(self) -> None:
+        """Clear the line on a terminal."""
+        if self._terminal and not self.quiet:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
 def _clock(seconds: float) -> str:

@@ -1,0 +1,1 @@
+"""Pictures and movies of one analysis, and its view in ParaView."""

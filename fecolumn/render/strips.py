@@ -1,0 +1,81 @@
+"""What a history says over time, as strips beside a picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.render.quantity import Quantity
+from fecolumn.render.result import Result
+
+# Points of a line: more are not told apart at the width of a strip
+_MOST_POINTS = 4000
+# Uplift over the foot's width [-] below which a column only slides: elastic deformation alone opens some 1e-5 of it
+_LIFTED = 1e-4
+
+
+@dataclass(frozen=True, slots=True)
+class Strip:
+    """Lines over time.
+
+    Attributes:
+        title, label: above, and of the axis with its unit.
+        time: (n,) [s]. lines: (values (n,) in the label's unit, name) of each.
+    """
+
+    title: str
+    label: str
+    time: np.ndarray
+    lines: tuple[tuple[np.ndarray, str], ...]
+
+
+def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
+    """Acceleration of the base (displacement of the top where it is at rest), tilt, uplift and energy, from the first of `times` [s] to the last.
+
+    Of a column that never lifts off: slide and twist in place of tilt and uplift.
+    """
+    history = result.history
+    rows = np.flatnonzero((history["time"] >= times[0] - 1e-9) & (history["time"] <= times[-1] + 1e-9))
+    rows = rows if len(rows) > 1 else np.arange(len(history["time"]))
+    rows = _told_apart(history["tilt"], rows)
+    time = history["time"][rows]
+
+    def strip(title, symbol, unit, lines):
+        quantity = Quantity.of("", unit, max(np.abs(values[rows]).max() for values, _ in lines))
+        return Strip(title, f"{symbol} [{quantity.unit}]".strip(), time, tuple((values[rows] / quantity.scale, name) for values, name in lines))
+
+    ground, top = history["ground"], history["u_top"]
+    moving = [axis for axis in range(3) if np.abs(ground[:, axis]).max() > 0]
+    if moving:
+        shaken = strip("base", "$a_g$", "m/s2", [(ground[:, axis], f"${'xyz'[axis]}$") for axis in moving])
+    else:
+        shaken = strip("top", "$u$", "m", [(top[:, axis], f"${'xy'[axis]}$") for axis in range(2)])
+    kinetic, potential = history["energy/kinetic"], history["energy/gravity"] + history["energy/strain"]
+    standing = potential[np.argmin(history["tilt"])]
+    lifted = uplift(result)
+    if lifted.max() > _LIFTED * result.solid.foot_width:
+        motion = strip("tilt", r"$\theta$", "rad", [(history["tilt"], "")]), strip("uplift", "$w$", "m", [(lifted, "")])
+    else:
+        motion = (strip("slide", "$s$", "m", [(history["slide"][:, axis], f"${'xy'[axis]}$") for axis in range(2)]),
+                  strip("twist", r"$\psi$", "rad", [(history["twist"], "")]))
+    return [shaken, *motion,
+            strip("energy", "$E$", "J", [(kinetic, "kinetic"), (potential - standing, "potential"), (kinetic + potential - standing, "sum")])]
+
+
+def uplift(result: Result) -> np.ndarray:
+    """Height (n,) [m] of the highest point of the foot above the base, of the rigid column."""
+    solid, poses = result.solid, result.poses
+    corners = solid.mesh.body.points[np.unique(solid.foot_faces)] - poses.origin
+    height = np.full(len(poses.time), -np.inf)
+    for corner in corners:  # one by one: all corners at all times fill gigabytes
+        np.maximum(height, poses.rotation[:, 2] @ corner, out=height)
+    return np.maximum(height + poses.foot[:, 2], 0.0)
+
+
+def _told_apart(values: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Of `rows`, as many as a line needs, the peaks of `values` among them."""
+    if len(rows) <= _MOST_POINTS:
+        return rows
+    groups = np.array_split(rows, _MOST_POINTS // 2)
+    return np.unique(np.concatenate([[group[np.argmax(values[group])], group[np.argmin(values[group])]] for group in groups]))
