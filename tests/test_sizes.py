@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from fecolumn.case import case_from_tables, read_case
+from fecolumn.case import case_from_tables, finished, read_case
 from fecolumn.mesh.bricks import BASE
 from fecolumn.mesh.estimate import estimate
 from fecolumn.mesh.specimen import specimen_mesh
@@ -117,3 +117,9 @@ def test_open_sizes_of_a_study_follow_each_of_its_columns(tmp_path):
     assert second.case.mesh.fine_size_m == pytest.approx(first.case.mesh.fine_size_m * 0.195 / 0.095, rel=1e-3)
     assert second.case.base.length_m == pytest.approx(0.8) and first.case.base.length_m == pytest.approx(0.4)
     assert [one.id for one in (first, second)] == [one.case.id for one in (first, second)]
+
+
+@pytest.mark.parametrize("diameter", [0.1, 0.266843])
+def test_a_finished_solid_cylinder_is_finished_again_without_a_change(diameter):
+    case = made({"shape": "solid", "outer_diameter_m": diameter, "height_m": 1.0})
+    assert finished(case, "own.toml") == case and case.column.wall_m == diameter / 2

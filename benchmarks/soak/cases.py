@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from fecolumn.case import GRAVITY, Case, case_from_tables
 from fecolumn.study.plan import Analysis, Plan
 
 # Analyses of a block: its study is drawn, resumed and reported as one
-BLOCK = 2500
+BLOCK = 250
 FILE = "benchmarks.soak"
 KEYS = ("number", "specimen", "motion.source", "integration.dt_s", "integration.alpha_hht")
 NAMES = ("specimen", "engine", "modes", "law", "penalty", "friction", "restitution", "rolling", "damping", "dt", "alpha", "duration", "family", "member",
@@ -132,5 +133,9 @@ def _motion(draw: Draw, specimen: Specimen, family: str, source: str, dt: float)
 
 def case_of(number: int, folder: Path, seed: int, count: int) -> Case:
     """The case of an analysis by its number; folder, seed and count as of the soak it belongs to."""
-    plan = block(number // BLOCK, number % BLOCK + 1, write_motions(folder / "motions"), seed, specimens(count))
-    return plan.analyses[-1].case
+    return _whole_block(number // BLOCK, folder, seed, count).analyses[number % BLOCK].case
+
+
+@functools.lru_cache(maxsize=8)
+def _whole_block(number: int, folder: Path, seed: int, count: int) -> Plan:
+    return block(number, BLOCK, write_motions(folder / "motions"), seed, specimens(count))

@@ -10,6 +10,7 @@ from benchmarks.soak.cases import block, blocks
 from benchmarks.soak.motions import write_motions
 from benchmarks.soak.specimens import specimens
 from fecolumn.study.run import run_study
+from fecolumn.study.worker import die_with_parent
 
 # How the pool says that a worker was killed under its analysis
 KILLED = "worker killed by SIGKILL"
@@ -27,6 +28,7 @@ def killed(row: dict) -> bool:
 
 def main() -> None:
     """Do what is missing; analyses whose worker was killed are done again."""
+    die_with_parent()
     folder, total, jobs, seed, count = Path(sys.argv[1]), *map(int, sys.argv[2:])
     columns, sources = specimens(count), write_motions(folder / "motions")
     for number, size in blocks(total):

@@ -55,10 +55,12 @@ def _specimen(draw: Draw) -> Specimen:
     column |= {"length_m": side, "width_m": other} if shape == "block" else {"outer_diameter_m": side}
     if shape == "tube":
         column["wall_m"] = _short(side * draw.even("wall", 0.04, 0.3))
+    column["fine_height_m"] = _short(min(0.1 * side, height))
     density = draw.even("density", 500, 8000)
     tables = {"column": column,
               "material": {"youngs_modulus_pa": draw.log("modulus", 1e9, 2.1e11), "poissons_ratio": draw.even("poisson", 0, 0.45), "density_kg_m3": density},
               "base": {"kind": draw.one_of("base", {"plate": 2, "unbounded": 1, "pad": 1}), "youngs_modulus_pa": draw.log("base_modulus", 1e9, 2.1e11)}}
+    tables["mesh"] = _mesh(column)
     tables["contact"] = {"interior_points": draw.one_of("points", {16: 3, 64: 1})}
     width, whole = min(side, other), height
     if times := draw.rarely("cap", 0.3, lambda one: one.even("cap", 1.05, 2.0)):
@@ -69,6 +71,17 @@ def _specimen(draw: Draw) -> Specimen:
         tables["flange"] = {"outer_diameter_m": width, "thickness_m": _short(0.08 * side)}
         whole += tables["flange"]["thickness_m"]
     return Specimen(tables, width, whole, density)
+
+
+def _mesh(column: dict) -> dict:
+    """Bricks as coarse as a study may have them: a model is to take seconds."""
+    if column["shape"] == "block":
+        side = min(column["length_m"], column["width_m"])
+        fine, coarse = side / 6, side / 3
+    else:
+        around = math.pi * (column["outer_diameter_m"] - column.get("wall_m", 0.0))
+        fine, coarse = (around / 48, around / 10) if column["shape"] == "tube" else (around / 20, around / 10)
+    return {"fine_size_m": _short(0.999 * fine), "coarse_size_m": _short(coarse), "base_size_m": _short(12 * fine)}
 
 
 def _short(length: float) -> float:

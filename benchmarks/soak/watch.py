@@ -22,7 +22,7 @@ def keep_running(folder: Path, numbers: list[int], kill_s: float) -> int:
     """Have all done; exit code of a driver that ends otherwise than killed from here.
 
     Args:
-        folder, numbers: arguments of `benchmarks.soak.drive`; the folder is that of all blocks, and `driver.csv` there gets the driver's memory and what was killed.
+        folder, numbers: arguments of `benchmarks.soak.drive`; `driver.csv` in the folder gets the driver's memory and what was killed.
         kill_s: mean time between kills [s], 0 for none.
     """
     draw = random.Random()
@@ -34,7 +34,7 @@ def keep_running(folder: Path, numbers: list[int], kill_s: float) -> int:
             try:
                 slain = _attend(driver, kill_s, draw, note)
             except BaseException:
-                driver.send_signal(signal.SIGINT)
+                driver.terminate()
                 driver.wait()
                 raise
             if not slain:

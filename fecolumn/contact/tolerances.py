@@ -84,9 +84,9 @@ ROUND_NODES, ROUND = 12, 1e-6
 FIRMNESS = 10.0
 #: Displacement of an iteration, over the column's height, below which the column is at rest: ten thousand times the rounding of a position.
 REST = 1e-11
-#: Iterations to equilibrium within which the displacement of one must fall to this share, else there is no equilibrium to be found: a column on a
-#: pad whose stiffness against tilting is seven times its weight times the height of its centre contracts to 1e-3.
-REST_ITERATIONS, REST_PROGRESS = 50, 0.1
+#: Iterations to equilibrium within which the displacement of one must fall to this share, else none is found: a slender column needs a pad
+#: whose stiffness against tilting is 1.6 times its weight times the height of its centre.
+REST_ITERATIONS, REST_PROGRESS = 50, 0.5
 
 # --- Geometry and overturning -----------------------------------------------------------------------------------------------------------------
 #: Nodes are at the same place up to this share of the foot's width or the body's size: rounding of a mesh file.

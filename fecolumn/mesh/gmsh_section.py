@@ -25,7 +25,9 @@ def gmsh_model():
     # Gmsh 4.8 takes Ctrl-C away from Python on import; a study must stay interruptible.
     in_main_thread = threading.current_thread() is threading.main_thread()
     handler = signal.getsignal(signal.SIGINT)
-    import gmsh
+    guard = contextlib.nullcontext if in_main_thread else _signals_left_alone
+    with guard():
+        import gmsh
 
     running = _is_running(gmsh)
     if not running:
@@ -45,9 +47,20 @@ def gmsh_model():
                 gmsh.option.setNumber(key, value)
             gmsh.model.setCurrent(callers_model)
         else:
-            gmsh.finalize()
+            with guard():
+                gmsh.finalize()
         if in_main_thread and handler is not None:
             signal.signal(signal.SIGINT, handler)
+
+
+@contextlib.contextmanager
+def _signals_left_alone():
+    """Keep Gmsh from setting signal handlers: in another thread than the main one, such as a dask worker's, Python refuses to."""
+    setter, signal.signal = signal.signal, lambda number, handler: signal.getsignal(number)
+    try:
+        yield
+    finally:
+        signal.signal = setter
 
 
 def _is_running(gmsh) -> bool:

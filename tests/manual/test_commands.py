@@ -19,7 +19,7 @@ RUNNING = [page for page in PAGES if any(block.language in ("sh", "python") and 
 # What stands for a number in a job array
 VARIABLES = {"$SLURM_ARRAY_TASK_ID": "7"}
 # Programs outside of this package whose commands are read by the shell alone
-FOREIGN = ("alias", "docker", "apptainer", "pytest")
+FOREIGN = ("alias", "dask", "docker", "apptainer", "pytest")
 
 
 def words(command: str) -> list[str]:

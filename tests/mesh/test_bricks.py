@@ -1,4 +1,6 @@
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import gmsh
@@ -218,3 +220,11 @@ def test_meshing_leaves_ctrl_c_to_the_program():
         assert signal.getsignal(signal.SIGINT) is stop_gently
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def test_meshes_are_made_in_any_thread_of_a_process_that_has_not_met_gmsh():
+    program = ("import threading; from fecolumn.mesh.gmsh_section import extruded; from fecolumn.mesh.section import Annulus; made = []\n"
+               "thread = threading.Thread(target=lambda: made.append(extruded(Annulus(0.5, 1.0, 8, 2), 0.0, 1.0, 1, 0)))\n"
+               "thread.start(); thread.join(); assert made[0].cells.shape == (16, 8)")
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr

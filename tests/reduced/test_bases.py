@@ -42,6 +42,14 @@ def on_pad():
     return system_of(pad(damping_ratio=0.05), integration={"dt_s": 5e-4})
 
 
+@pytest.mark.parametrize("times", [3.0, 300.0])
+def test_column_stands_on_any_pad_that_holds_it_upright(on_pad, times):
+    upright = on_pad.weight * on_pad.column.center[2] / (on_pad.areas @ on_pad.interface.reference[:, 0] ** 2)
+    soft = system_of(pad(stiffness_n_m3=times * upright))
+    state = standing(soft)
+    assert state.contact["indentation"][:, 2] == pytest.approx(soft.weight / (times * upright * soft.areas.sum()), rel=1e-4)
+
+
 def rocking_of(system):
     """Stiffness I k [N m] of the whole foot, angular frequency [rad/s] and inertia about the foot's middle [kg m2] of a column that rocks on a pad."""
     interface, column = system.interface, system.column

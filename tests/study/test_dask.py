@@ -123,6 +123,25 @@ def test_what_kills_its_worker_is_made_again_elsewhere(tmp_path, cluster):
     assert sorted(map(len, _calls(out).values())) == [1, 1, 2]
 
 
+BLOCK = """
+[case]
+column = {shape = "block", length_m = 0.4, width_m = 0.4, height_m = 1.2}
+mesh = {fine_size_m = 0.1, coarse_size_m = 0.2}
+initial = {tilt_rad = 0.1}
+integration = {duration_s = 0.05}
+[axes]
+"contact.friction_coefficient" = [0.3, 0.8]
+"""
+
+
+def test_finite_elements_work_in_the_threads_of_a_dask_worker(tmp_path, cluster):
+    (study := tmp_path / "study.toml").write_text(BLOCK)
+    one = cluster(workers=1)
+    driver = _start("fecolumn.cli", "study", study, "-o", tmp_path / "out", "--scheduler", one.address)
+    said, _ = driver.communicate(timeout=400)
+    assert driver.returncode == 0 and "2 of 2 analyses done" in said, said
+
+
 def test_what_kills_as_many_workers_as_the_scheduler_allows_has_failed_alone(tmp_path, cluster):
     study, out = write_study(tmp_path, dt=[1e-3], alpha=[0], pulses=[1, "killed", 2, 3]), tmp_path / "out"
     strict = cluster(scheduler={"DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "0"})

@@ -1,0 +1,93 @@
+"""What an impact takes when everything is converged: loss of one impact over Housner's by time step, engine, modes, tilt, slenderness, bricks, damping.
+
+    ./containers/run python -m benchmarks.impact [SERIES ...] [-o DIR]
+
+Each impact is one line of DIR/impact.csv (results/impact unless given); those there are not made again. Ends with the table, and DIR/impact.png.
+All of it takes an hour and more on one core; SERIES are names of `SERIES`, all unless named.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.impact.figure import draw
+from benchmarks.impact.loss import first_impact
+
+STEPS = (1e-3, 2.5e-4, 1e-4, 2.5e-5, 1e-5, 4e-6, 2e-6)
+# an impact falls anywhere in a step: releases a little apart show how much that matters
+BESIDE = tuple(1 + 0.0025 * k for k in range(8))
+# of what is compared with the main series
+FEW, FEW_STEPS = BESIDE[:4], (1e-3, 1e-4, 1e-5, 4e-6)
+
+
+def _series(kind: str, beside=BESIDE, steps=STEPS, share: float = 0.3, **settings):
+    return [dict(kind=kind, share=round(share * more, 6), dt=dt, **settings) for dt in steps for more in beside]
+
+
+SERIES = {
+    "reduced": _series("reduced"),
+    "rigid": _series("rigid", modes=0),
+    "full": _series("full", (1.0,), STEPS[:5], away=1e-3),
+    **{f"share-{share:g}": _series("reduced", FEW, FEW_STEPS, share) for share in (0.05, 0.1, 0.6)},
+    "modes-30": _series("reduced", FEW, FEW_STEPS, modes=30),
+    "alpha-0.2": _series("reduced", FEW, FEW_STEPS, alpha=-0.2),
+    "damping-0.02": _series("reduced", FEW, FEW_STEPS, damping=0.02),
+    **{f"height-{height:g}": _series("reduced", FEW, FEW_STEPS, height=height) for height in (0.5, 3.0)},
+    "bricks-10": _series("full", (1.0,), STEPS[:5], size=0.01, away=1e-3),
+}
+FIELDS = ("series", "kind", "share", "dt", "modes", "alpha", "damping", "height", "size", "away", "contact", "rocking", "restitution", "housner", "seconds")
+
+
+def main(argv) -> int:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.impact", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("series", nargs="*", metavar="SERIES", help=", ".join(SERIES))
+    parser.add_argument("-o", "--out", type=Path, default=Path("results/impact"))
+    options = parser.parse_args(argv)
+    if unknown := set(options.series) - set(SERIES):
+        parser.error(f"{', '.join(sorted(unknown))}: must be of {', '.join(SERIES)}")
+    table = options.out / "impact.csv"
+    options.out.mkdir(parents=True, exist_ok=True)
+    if not table.exists():
+        table.write_text(",".join(FIELDS) + "\n")
+    made = {tuple(row[name] for name in FIELDS[:10]) for row in read(table)}
+    for name in options.series or SERIES:
+        for settings in SERIES[name]:
+            key = tuple(str(settings.get(field, "")) if field != "series" else name for field in FIELDS[:10])
+            if key in made:
+                continue
+            loss = asdict(first_impact(**settings))
+            with table.open("a", newline="") as file:
+                csv.writer(file).writerow([*key, *(f"{loss[field]:.6g}" for field in FIELDS[10:])])
+            print(f"{name}, share {settings['share']:g}, dt {settings['dt']:g} s: rocking {loss['rocking']:.3f}, contact {loss['contact']:.3f} of Housner's",
+                  file=sys.stderr, flush=True)
+    rows = read(table)
+    print_table(rows)
+    draw(rows, options.out / "impact")
+    return 0
+
+
+def read(table: Path) -> list[dict]:
+    """Rows of the table as text."""
+    with table.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def print_table(rows) -> None:
+    """Markdown: what rocking loses over Housner's, and in parentheses what contact has taken of it; means over the releases."""
+    print("| series | " + " | ".join(f"{dt:g} s" for dt in STEPS) + " |\n|---" + "|---:" * len(STEPS) + "|")
+    for name in SERIES:
+        cells = []
+        for dt in STEPS:
+            found = [(float(row["rocking"]), float(row["contact"])) for row in rows if row["series"] == name and float(row["dt"]) == dt]
+            cells.append("{:.2f} ({:.2f})".format(*np.mean(found, axis=0)) if found else "")
+        print(f"| {name} | " + " | ".join(cells) + " |")
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
