@@ -116,6 +116,16 @@ class AnalysisResult:
         """Figures: `plot.top()`, `plot.path()`, `plot.energy()`."""
         return AnalysisPlots(self.folder)
 
+    def render(self, **wishes) -> list[Path]:
+        """Movie, stills and sequence as of `fecolumn render`; the files.
+
+        Args:
+            wishes: by the names of `render.draw.Wish`, such as view="front", only="pictures", instants=(0.5, 1.0) [s].
+        """
+        from fecolumn.render.draw import Wish, render
+
+        return render(self.folder, Wish(**wishes), quiet=True)
+
     def __repr__(self) -> str:
         return f"AnalysisResult({str(self.folder)!r}: {self.summary.get('outcome', 'not finished')})"
 

@@ -15,9 +15,9 @@ from fecolumn.study.outcome import Outcome, Task, outcomes_of_dead
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, in_words, streams_kept, work_off
 
-# For an answer of the scheduler, and for its first worker
+# For an answer of the scheduler
 _REACH_S = 10.0
-# Without any worker in the midst of a study: a nanny starts another within seconds
+# Without any worker, at the start or in the midst of a study: on a busy machine one takes half a minute to start
 _ALONE_S = 60.0
 # Between looks at how many workers there are
 _LOOK_S = 1.0
@@ -43,7 +43,7 @@ def connected(address: str):
         raise _refused(address, f"no scheduler is found there ({reason}); one is started by: dask scheduler") from None
     with client:
         try:
-            client.wait_for_workers(1, timeout=_REACH_S)
+            client.wait_for_workers(1, timeout=_ALONE_S)
         except TimeoutError:
             raise _refused(address, f"the scheduler has no workers; some are started by: dask worker {address} --nworkers N --nthreads 1") from None
         for worker, answer in client.run(_problem, code(), on_error="return").items():

@@ -101,6 +101,11 @@ def test_frames_hold_the_history(analysis):
     assert analysis.to_xarray()["u_top"].attrs["units"] == "m"
 
 
+def test_analysis_can_be_rendered(analysis):
+    files = analysis.render(only="pictures", instants=(0.05,))
+    assert {"sequence.png", "sequence.pdf"} <= {file.name for file in files} and all(file.stat().st_size > 1000 for file in files)
+
+
 def test_folder_of_nothing_is_refused(tmp_path):
     with pytest.raises(InputError, match="neither an analysis"):
         fecolumn.load(tmp_path)

@@ -191,7 +191,8 @@ def test_a_worker_that_cannot_do_analyses_is_refused_in_one_line(tmp_path, clust
 
 
 def test_a_scheduler_out_of_reach_or_without_workers_is_refused_in_one_line(monkeypatch, cluster):
-    monkeypatch.setattr(dask, "_REACH_S", 0.5)
+    monkeypatch.setattr(dask, "_ALONE_S", 0.5)
+    monkeypatch.setattr(dask, "_REACH_S", 2.0)
     for address, words in [("tcp://127.0.0.1:9", "no scheduler is found there"), ("nonsense://x", "no scheduler is found there"),
                            (cluster(workers=0).address, "the scheduler has no workers; some are started by: dask worker")]:
         with pytest.raises(InputError, match=f"--scheduler = '{address}': {words}"), dask.connected(address):
@@ -199,10 +200,10 @@ def test_a_scheduler_out_of_reach_or_without_workers_is_refused_in_one_line(monk
 
 
 def test_workers_that_all_leave_stop_the_study(tmp_path, cluster, monkeypatch):
-    monkeypatch.setattr(dask, "_ALONE_S", 2.0)
     one = cluster(workers=1, ROCKING_BLOCK_SLEEP_S="5")
     plan = read_plan(write_study(tmp_path))
     with dask.connected(one.address) as client:
+        monkeypatch.setattr(dask, "_ALONE_S", 2.0)
         team = dask.DaskTeam(client, ENTRY, tmp_path / "out", None, plan.file)
         one.workers[0].kill()
         with pytest.raises(StudyError, match="has had no workers for 2 s"):
