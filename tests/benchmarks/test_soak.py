@@ -73,6 +73,7 @@ def test_every_value_is_counted_in_a_histogram():
     assert [line.split()[3] for line in histogram([0, 1e-13, 5e-13, 2], (0, 1e-14, 1e-12, float("inf"))).splitlines()] == ["1", "2", "1"]
 
 
+@pytest.mark.slow
 def test_analyses_whose_driver_and_workers_are_killed_are_all_done(tmp_path, monkeypatch, capsys):
     kills = iter([3.0, 8.0])
     monkeypatch.setattr(watch, "_interval", lambda *_: next(kills, float("inf")))
