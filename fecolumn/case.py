@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.files import is_file
-from fecolumn.schema import InputError, Section, build, merge, parameter, read_toml
+from fecolumn.schema import InputError, Section, build, merge, parameter, read_toml, stated
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
@@ -213,7 +213,7 @@ class Case(Section):
         """
         from fecolumn import sizes
 
-        tables = _stated(dataclasses.asdict(sizes.opened(self)))
+        tables = stated(dataclasses.asdict(sizes.opened(self)))
         for key, value in {**(changes or {}), **sections}.items():
             own = {key.rpartition(".")[2]: value}
             for part in reversed(key.split(".")[:-1]):
@@ -243,11 +243,6 @@ class Case(Section):
     def top_m(self) -> float:
         """Height of the top of column and cap."""
         return self.seat_m + self.column.height_m + (self.cap.thickness_m if self.cap else 0.0)
-
-
-def _stated(tables: dict) -> dict:
-    """Tables without the keys that are left open."""
-    return {key: _stated(value) if isinstance(value, dict) else value for key, value in tables.items() if value is not None}
 
 
 # what tells one case from another: all but title and output

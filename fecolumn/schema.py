@@ -290,6 +290,11 @@ def _depth(tables) -> int:
     return depth
 
 
+def stated(tables: dict) -> dict:
+    """Tables without the keys that are left open."""
+    return {key: stated(value) if isinstance(value, dict) else value for key, value in tables.items() if value is not None}
+
+
 def merge(base: dict, over: dict) -> dict:
     """Tables of `base` overridden by those of `over`, key by key."""
     merged = dict(base)

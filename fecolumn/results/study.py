@@ -15,7 +15,8 @@ from fecolumn.results.frames import installed
 from fecolumn.results.picture import Picture
 from fecolumn.schema import InputError
 from fecolumn.statistics.ecdf import Ecdf, ecdf
-from fecolumn.study.plan import ENSEMBLE_AXES
+from fecolumn.study.plan import setting_of
+from fecolumn.study.sample import same_value
 from fecolumn.study.store import DONE, read_study
 
 
@@ -79,9 +80,9 @@ class StudyResult:
         for key, value in (choice or {}).items():
             if key not in self.axes:
                 raise InputError(self.folder, key, value, f"is no axis of this study; its axes: {', '.join(self.axes)}")
-            if not any(_same(one, value) for one in self.axes[key]):
+            if not any(same_value(one, value) for one in self.axes[key]):
                 raise InputError(self.folder, key, value, f"is no value of this axis; it has {', '.join(map(str, self.axes[key][:8]))}")
-            rows = [row for row in rows if _same(row["axes"][key], value)]
+            rows = [row for row in rows if same_value(row["axes"][key], value)]
         return rows
 
     def ecdf(self, choice: dict | None = None) -> Ecdf:
@@ -137,7 +138,7 @@ class StudyResult:
         return f"<p>{html.escape(self.title)}: {self.done} of {len(self.rows)} analyses done</p><pre>{html.escape(text)}</pre>"
 
     def _members(self) -> Members:
-        return Members(self.title, tuple(Member(row["id"], {key: value for key, value in row["axes"].items() if key not in ENSEMBLE_AXES}) for row in self.rows))
+        return Members(self.title, tuple(Member(row["id"], setting_of(row["axes"])) for row in self.rows))
 
 
 class StudyPlots:
@@ -153,9 +154,3 @@ class StudyPlots:
         if not self.result.done:
             raise InputError(self.result.folder, "", None, "none of its analyses is done; nothing to draw yet")
         return Picture(lambda path: write_figure(self.result._members(), self.result.rows, path.parent))
-
-
-def _same(found, wanted) -> bool:
-    if isinstance(found, (int, float)) and isinstance(wanted, (int, float)):
-        return bool(np.isclose(found, wanted, rtol=1e-9, atol=0.0))
-    return found == wanted

@@ -13,7 +13,7 @@ from fecolumn.statistics.equivalence import difference_shortfall, distance_bound
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.alpha import ALPHA, alpha_note
-from fecolumn.study.plan import ENSEMBLE_AXES, Plan
+from fecolumn.study.plan import Plan, member_of
 from fecolumn.study.store import DONE
 
 _LEAST_MOTIONS = 5  # of fewer no p-value can fall below 0.05: there are 2^n ways to swap two settings within n motions, two of them extreme
@@ -63,7 +63,7 @@ def settings_of(plan: Plan, rows) -> list[tuple[dict, dict]]:
     for analysis in plan.analyses:
         row = states.get(analysis.id)
         if row and row["state"] == DONE:
-            motion = tuple(repr(value) for key, value in analysis.values.items() if key in ENSEMBLE_AXES)
+            motion = member_of(analysis.values)
             _, runs = groups.setdefault(tuple(map(repr, analysis.combination.values())), (analysis.combination, {}))
             runs[motion] = row["summary"]
     return list(groups.values())

@@ -42,6 +42,16 @@ _KINDS = {name: inner for name, kind in typing.get_type_hints(Case).items() for 
           if dataclasses.is_dataclass(inner)}
 
 
+def setting_of(values: dict) -> dict:
+    """Of an analysis' values by axis, those that name the ensemble it belongs to."""
+    return {key: value for key, value in values.items() if key not in ENSEMBLE_AXES}
+
+
+def member_of(values: dict) -> tuple[str, ...]:
+    """Of an analysis' values by axis, those that tell the members of its ensemble apart, as text."""
+    return tuple(repr(value) for key, value in values.items() if key in ENSEMBLE_AXES)
+
+
 class Analysis:
     """One analysis of the study.
 
@@ -66,7 +76,7 @@ class Analysis:
     @property
     def combination(self) -> dict:
         """The values that name the ensemble this analysis belongs to."""
-        return {key: value for key, value in zip(self.keys, self.levels) if key not in ENSEMBLE_AXES}
+        return setting_of(self.values)
 
     @property
     def effort(self) -> float:

@@ -53,7 +53,7 @@ def _of_study(folder: str, choice: dict) -> Sample:
     for key, value in choice.items():
         if key not in study.axes:
             raise InputError(folder, key, value, f"is no axis of this study; its axes: {', '.join(study.axes)}")
-        rows = [row for row in rows if _same(row["axes"][key], value)]
+        rows = [row for row in rows if same_value(row["axes"][key], value)]
         if not rows:
             raise InputError(folder, key, value, f"not run with the other settings chosen; the axis has {_listed(study.axes[key])}")
     for key, values in study.axes.items():
@@ -76,7 +76,8 @@ def _motion_name(axes: dict) -> str:
     return " ".join(text if ":" in text else text.replace("\\", "/").rpartition("/")[2] for text in texts)
 
 
-def _same(found, wanted) -> bool:
+def same_value(found, wanted) -> bool:
+    """Whether a value of an axis is the one asked for; numbers up to rounding."""
     numbers = all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in (found, wanted))
     return math.isclose(found, wanted, rel_tol=1e-9) if numbers else found == wanted
 

@@ -14,7 +14,7 @@ from fecolumn.schema import InputError
 from fecolumn.statistics.equivalence import SMALL
 from fecolumn.statistics.holm import holm
 from fecolumn.study.conclusion import Pair, pairs_of, settings_of
-from fecolumn.study.plan import ENSEMBLE_AXES, Plan
+from fecolumn.study.plan import Plan, member_of
 
 DIFFER, ALIKE, OPEN = "differ", "alike", "open"
 #: Motions of the first stage; each stage has twice as many as the one before.
@@ -57,18 +57,13 @@ class Verdict:
         return f"{pair.names[0]} and {pair.names[1]}: {judged}; distance {pair.distance:.3f}, at most {pair.bound:.3f}, p = {pair.p:.4f}, N = {pair.n}"
 
 
-def motion_of(analysis) -> tuple:
-    """What tells the members of an ensemble apart."""
-    return tuple(repr(value) for key, value in analysis.values.items() if key in ENSEMBLE_AXES)
-
-
 def stages(plan: Plan, rule: Rule) -> list[int]:
     """Numbers of motions after which the results are looked at.
 
     Raises:
         InputError: the study has nothing to compare, or fewer motions than the first stage.
     """
-    motions = len({motion_of(analysis) for analysis in plan.analyses})
+    motions = len({member_of(analysis.values) for analysis in plan.analyses})
     if len({repr(analysis.combination) for analysis in plan.analyses}) < 2:
         raise InputError(plan.file, "axes", None, "has one setting alone: there is nothing to decide between")
     if motions < FIRST:
@@ -81,10 +76,10 @@ def stages(plan: Plan, rule: Rule) -> list[int]:
 
 def stage_analyses(plan: Plan, motions: int, verdicts: list[Verdict]) -> set[str]:
     """Ids of the analyses of the first so many motions, of the settings that are not decided yet; of all before the first look."""
-    taken = dict.fromkeys(map(motion_of, plan.analyses))
+    taken = dict.fromkeys(member_of(analysis.values) for analysis in plan.analyses)
     chosen = set(itertools.islice(taken, motions))
     open_settings = {repr(values) for verdict in verdicts if verdict.word == OPEN for values in verdict.pair.settings}
-    return {analysis.id for analysis in plan.analyses if motion_of(analysis) in chosen and (not verdicts or repr(analysis.combination) in open_settings)}
+    return {analysis.id for analysis in plan.analyses if member_of(analysis.values) in chosen and (not verdicts or repr(analysis.combination) in open_settings)}
 
 
 def judge(plan: Plan, rows: list[dict], rule: Rule, looks: int, before: list[Verdict]) -> list[Verdict]:
