@@ -14,18 +14,25 @@ BODY = record(("mass", "f8"), ("inverse_mass", "f8"), ("inertia", "f8", (3, 3)),
                  ("first", "i8"), ("count", "i8"))
 
 
+#: A triangle of a body's surface on which others stand: nodes (3,), rows of all bodies; neighbours (3,): across the side opposite to each, -1 at an
+#: outline; corners: (3, 2) [m] in the frame of the surface.
+FACET = record(("nodes", "i8", 3), ("neighbours", "i8", 3), ("corners", "f8", (3, 2)))
+
+
 class Bodies(NamedTuple):
     """Bodies that move, and their surface nodes, N in all, n at most on one body.
 
     body: (nb,) of BODY. arms: (N, 3) [m] of the nodes from the body's centre of mass, in its frame.
     static: (3 N, 3 n) [m/N] displacement that follows forces at once, mobility: (3 N, 3 n) [1/kg] velocity per impulse beside that of rigid motion:
         rows by node, columns by node of the same body, in its frame.
+    facets: of FACET, of the surfaces on which others stand.
     """
 
     body: np.ndarray
     arms: np.ndarray
     static: np.ndarray
     mobility: np.ndarray
+    facets: np.ndarray = np.zeros(0, FACET)
 
 
 def one_body(arms, static, mobility, mass: float = np.inf, inertia=None) -> Bodies:

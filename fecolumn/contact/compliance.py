@@ -5,22 +5,25 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
+from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import MASTER, SLAVE
 
 
 @njit
-def assemble(bodies, base, points, arms, active, rotations, rigid, nodal, factor, own, W):
-    """W (3 k, 3 k): displacement of the active points, slave relative to master, per force [m/N], or velocity per impulse.
+def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, own, W):
+    """W (3 k, 3 k): displacement of the active points, slave relative to master, per force [m/N], or velocity per impulse,
+    each in the frame of its interface.
 
-    W_pq = sum over the bodies that p and q share of s_p s_q R [rigid (1/m + [a_p] J^-1 [a_q]^T) + nodal_pq] R^T, s = 1 on the slave, -1 on the master;
+    W_pq = sum over the bodies that p and q share of s_p s_q T_p [rigid (1/m + [a_p] J^-1 [a_q]^T) + nodal_pq] T_q^T, s = 1 on the slave, -1 on the master;
     then `factor` times the compliance of the base and `uneven` + `own` on the diagonal.
 
     Args:
-        arms: (n, 3) of the points on their slaves. active: (k,). rotations: (nb, 3, 3) of the bodies. rigid: factor of rigid motion's mobility.
+        arms: (n, 3) of the points on their slaves. active: (k,). poses: (ni,) of POSE, which has the turns T. rigid: factor of rigid motion's mobility.
         nodal: (3 N, 3 n) as of Bodies. own: (n, 3) of the points alone.
     """
     k, m = len(active), 2 * len(active)
-    rows, signs, nodes, shares, sides = np.empty(m, np.int64), np.empty(m), np.empty((m, 4), np.int64), np.empty((m, 4)), np.empty((m, 3))
+    rows, signs, nodes, shares, sides, turns = np.empty(m, np.int64), np.empty(m), np.empty((m, 4), np.int64), np.empty((m, 4)), np.empty((m, 3)), np.empty((m, 3, 3))
     W[:] = 0.0
     for b in range(len(bodies.body)):
         count = 0
@@ -32,17 +35,17 @@ def assemble(bodies, base, points, arms, active, rotations, rigid, nodal, factor
                     nodes[count, q], shares[count, q] = points[i].carriers[q], points[i].weights[q]
                 for a in range(3):
                     sides[count, a] = arms[i, a]
+                put_matrix(poses[points[i].interface].turned[SLAVE], turns[count])
                 count += 1
             if points[i].master == b:
                 rows[count], signs[count] = j, -1.0
                 for q in range(4):
                     nodes[count, q], shares[count, q] = points[i].below[q], points[i].shares[q]
                 for a in range(3):
-                    sides[count, a] = 0.0
-                    for q in range(4):
-                        sides[count, a] += shares[count, q] * bodies.arms[nodes[count, q], a]
+                    sides[count, a] = points[i].seat[a]
+                put_matrix(poses[points[i].interface].turned[MASTER], turns[count])
                 count += 1
-        _add_body(bodies, b, rows, signs, nodes, shares, sides, count, rotations, rigid, nodal, W)
+        _add_body(bodies, b, rows, signs, nodes, shares, sides, turns, count, rigid, nodal, W)
     if factor != 0.0:
         count = 0
         for j in range(k):
@@ -64,15 +67,16 @@ def assemble(bodies, base, points, arms, active, rotations, rigid, nodal, factor
 
 
 @njit
-def _add_body(bodies, b, rows, signs, nodes, shares, arms, count, rotations, rigid, nodal, W):
-    """Add to the upper blocks of W what one body gives: `count` sides of points on it, for each row in W, sign, nodes, shares and arm."""
+def _add_body(bodies, b, rows, signs, nodes, shares, arms, turns, count, rigid, nodal, W):
+    """Add to the upper blocks of W what one body gives: `count` sides of points on it, for each row in W, sign, nodes, shares, arm
+    and turn (3, 3) from the body to the frame of the interface."""
     if count == 0:
         return
     B, block, half, lever = np.zeros((3 * count, 3 * count)), np.empty((3, 3)), np.empty((3, 3)), np.empty((count, 3, 3))
     _add_interpolated(nodal, bodies.body[b].first, rows, signs, nodes, shares, count, True, 1.0, B)
-    mobile, R = rigid * bodies.body[b].inverse_mass, rotations[b]
-    turns = mobile != 0.0
-    if turns:
+    mobile = rigid * bodies.body[b].inverse_mass
+    floats = mobile != 0.0
+    if floats:
         J = bodies.body[b].inverse_inertia
         for i in range(count):
             x, y, z = arms[i, 0], arms[i, 1], arms[i, 2]
@@ -86,20 +90,20 @@ def _add_body(bodies, b, rows, signs, nodes, shares, arms, count, rotations, rig
         for j in range(i, count):
             for c in range(3):
                 block[0, c], block[1, c], block[2, c] = B[3 * i, 3 * j + c], B[3 * i + 1, 3 * j + c], B[3 * i + 2, 3 * j + c]
-                if turns:
+                if floats:
                     # [arm]^T = -[arm]
                     l0, l1, l2 = lever[j, 0, c], lever[j, 1, c], lever[j, 2, c]
                     block[0, c] += rigid * (z * l1 - y * l2)
                     block[1, c] += rigid * (x * l2 - z * l0)
                     block[2, c] += rigid * (y * l0 - x * l1)
                     block[c, c] += mobile
-            sign = signs[i] * signs[j]
+            sign, R, S = signs[i] * signs[j], turns[i], turns[j]
             for a in range(3):
                 for c in range(3):
                     half[a, c] = R[a, 0] * block[0, c] + R[a, 1] * block[1, c] + R[a, 2] * block[2, c]
             for a in range(3):
                 for c in range(3):
-                    value = sign * (half[a, 0] * R[c, 0] + half[a, 1] * R[c, 1] + half[a, 2] * R[c, 2])
+                    value = sign * (half[a, 0] * S[c, 0] + half[a, 1] * S[c, 1] + half[a, 2] * S[c, 2])
                     W[3 * rows[i] + a, 3 * rows[j] + c] += value
                     if rows[i] == rows[j] and i != j:
                         # both sides of one point on one body
@@ -156,7 +160,7 @@ def place_of(item, items, count):
 
 
 @njit
-def even_out(bodies, base, points, i, rotations):
+def even_out(bodies, base, points, i, poses):
     """Find `uneven` of point i: the compliance by which forces at a point between nodes of slave and base meet less than at a node.
 
     Given back so that the indentation of a rolling rim is even: it would otherwise store and return energy at each node. Zero at a node.
@@ -167,33 +171,47 @@ def even_out(bodies, base, points, i, rotations):
             target[a, c] = 0.0
     if points[i].count == 1:
         return
-    block, half, C = np.empty((3, 3)), np.empty((3, 3)), bodies.static
+    block, C, pose = np.empty((3, 3)), bodies.static, poses[points[i].interface]
     first, second, start = 3 * points[i].carriers[0], 3 * points[i].carriers[1], 3 * bodies.body[b].first
     share = points[i].weights[0] * points[i].weights[1]
     for a in range(3):
         for c in range(3):
             block[a, c] = share * (C[first + a, first - start + c] + C[second + a, second - start + c]
                                    - C[first + a, second - start + c] - C[second + a, first - start + c])
-    for a in range(3):
-        for c in range(3):
-            half[a, c] = rotations[b, a, 0] * block[0, c] + rotations[b, a, 1] * block[1, c] + rotations[b, a, 2] * block[2, c]
-    for a in range(3):
-        for c in range(3):
-            target[a, c] = half[a, 0] * rotations[b, c, 0] + half[a, 1] * rotations[b, c, 1] + half[a, 2] * rotations[b, c, 2]
-    if points[i].master != BASE:
-        return
+    _add_turned(block, pose.turned[SLAVE], target)
+    block[:] = 0.0
     for q in range(4):
         row, u = 3 * points[i].below[q], points[i].shares[q]
         for r in range(4):
             w = (u if q == r else 0.0) - u * points[i].shares[r]
             column = 3 * points[i].below[r]
-            for a in range(3):
-                for c in range(3):
-                    target[a, c] += w * base.compliance[row + a, column + c]
+            if points[i].master == BASE:
+                for a in range(3):
+                    for c in range(3):
+                        target[a, c] += w * base.compliance[row + a, column + c]
+            elif w != 0.0:
+                column -= 3 * bodies.body[points[i].master].first
+                for a in range(3):
+                    for c in range(3):
+                        block[a, c] += w * C[row + a, column + c]
+    if points[i].master != BASE:
+        _add_turned(block, pose.turned[MASTER], target)
 
 
 @njit
-def static_displacement(bodies, base, points, rotations, contact, listed, target):
+def _add_turned(block, turn, target):
+    """Add turn block turn^T, all (3, 3)."""
+    half = np.empty((3, 3))
+    for a in range(3):
+        for c in range(3):
+            half[a, c] = turn[a, 0] * block[0, c] + turn[a, 1] * block[1, c] + turn[a, 2] * block[2, c]
+    for a in range(3):
+        for c in range(3):
+            target[a, c] += half[a, 0] * turn[c, 0] + half[a, 1] * turn[c, 1] + half[a, 2] * turn[c, 2]
+
+
+@njit
+def static_displacement(bodies, base, points, poses, contact, listed, target):
     """target (n, 3): displacement [m] of the listed points (k,), slave relative to master, that follows their forces in `contact` at once; without what
     the points give alone."""
     loaded = 0
@@ -206,7 +224,7 @@ def static_displacement(bodies, base, points, rotations, contact, listed, target
     room, far = 8 * loaded, 8 * len(listed)
     pushed, pushes, reached, moved = np.empty(room, np.int64), np.empty((room, 3)), np.empty(far, np.int64), np.empty((far, 3))
     for b in range(-1, len(bodies.body)):
-        _displace(bodies, base, points, b, rotations, contact, listed, pushed, pushes, reached, moved, target)
+        _displace(bodies, base, points, b, poses, contact, listed, pushed, pushes, reached, moved, target)
     for i in listed:
         if contact[i].force[2] > 0 and points[i].count > 1:
             for a in range(3):
@@ -215,7 +233,7 @@ def static_displacement(bodies, base, points, rotations, contact, listed, target
 
 
 @njit
-def _displace(bodies, base, points, b, rotations, contact, listed, pushed, pushes, reached, moved, target):
+def _displace(bodies, base, points, b, poses, contact, listed, pushed, pushes, reached, moved, target):
     """What `static_displacement` finds of one body, or the base; the four arrays before the last are room to work in."""
     n_pushed, first = 0, 0 if b == BASE else bodies.body[b].first
     compliance = base.compliance if b == BASE else bodies.static
@@ -238,8 +256,9 @@ def _displace(bodies, base, points, b, rotations, contact, listed, pushed, pushe
                     pushes[place, 1] += w * r1
                     pushes[place, 2] += w * r2
                 else:
+                    T = poses[points[i].interface].turned[side]
                     for a in range(3):
-                        pushes[place, a] += w * (rotations[b, 0, a] * r0 + rotations[b, 1, a] * r1 + rotations[b, 2, a] * r2)
+                        pushes[place, a] += w * (T[0, a] * r0 + T[1, a] * r1 + T[2, a] * r2)
     if n_pushed == 0:
         return
     # what they do at the nodes of the near points, each found once
@@ -269,5 +288,6 @@ def _displace(bodies, base, points, b, rotations, contact, listed, pushed, pushe
                 target[i, 1] += u1
                 target[i, 2] += u2
             else:
+                T = poses[points[i].interface].turned[side]
                 for a in range(3):
-                    target[i, a] += rotations[b, a, 0] * u0 + rotations[b, a, 1] * u1 + rotations[b, a, 2] * u2
+                    target[i, a] += T[a, 0] * u0 + T[a, 1] * u1 + T[a, 2] * u2

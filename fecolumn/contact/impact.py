@@ -22,11 +22,12 @@ NOTHING, LANDS, TURNS = range(3)
 
 
 @njit
-def mark_landing(interface, points, listed, before, after, landing):
+def mark_landing(interfaces, points, listed, before, after, landing):
     """Mark in `landing` (n,) those of the listed points (k,) that touch at the end of the step and were open at its start: how many."""
     count = 0
     for i in listed:
-        landing[i] = not points[i].rolls and before[i].force[2] <= 0 and before[i].relative[2] > OPEN * interface.width and after[i].force[2] > 0
+        height = OPEN * interfaces[points[i].interface].width
+        landing[i] = not points[i].rolls and before[i].force[2] <= 0 and before[i].relative[2] > height and after[i].force[2] > 0
         count += landing[i]
     return count
 
@@ -54,31 +55,37 @@ def _slid(points, before, i):
 
 
 @njit
-def what_happens(interface, listed, before, after, dt, early, late, landing, turning):
+def what_happens(interfaces, points, listed, before, after, dt, early, late, landing, turning):
     """Whether the velocities at the end of a step must be taken anew: NOTHING, a point LANDS, or slip TURNS for most of the foot.
 
     Args:
         early, late: (n, 3) velocities [m/s] of the marked points at the start and at the end of the step.
-        listed: (k,) the points that may carry. landing, turning: (n,) marked by the functions above; of `turning` those stay that do turn.
+        listed: (k,) the points that may carry. landing, turning: (n,) marked by the functions above; of `turning` those stay that do turn, of those of all interfaces where any turns for most of its foot.
     """
-    lands, turned, total = False, 0.0, 0.0
+    lands, turned, total = False, np.zeros(len(interfaces)), np.zeros(len(interfaces))
     for i in listed:
         lands |= landing[i]
-        total += after[i].force[2]
+        k = points[i].interface
+        total[k] += after[i].force[2]
         if not turning[i]:
             continue
         turning[i] = False
-        if not dt * np.hypot(early[i, 0], early[i, 1]) > SLIDE * interface.width:
+        if not dt * np.hypot(early[i, 0], early[i, 1]) > SLIDE * interfaces[k].width:
             continue
         s0, s1 = after[i].anchor[0] - before[i].anchor[0], after[i].anchor[1] - before[i].anchor[1]
         slips = s0 != 0.0 or s1 != 0.0
         against = min(early[i, 0] * s0 + early[i, 1] * s1, late[i, 0] * s0 + late[i, 1] * s1) < 0
         turning[i] = not slips or against
-        turned += after[i].force[2] if turning[i] else 0.0
+        turned[k] += after[i].force[2] if turning[i] else 0.0
     if lands:
         return LANDS
     # few points of many turn where a standing foot slips in part: that is elastic, not motion
-    return TURNS if 2 * turned > total > 0 else NOTHING
+    turns = False
+    for i in listed:
+        k = points[i].interface
+        turning[i] = turning[i] and 2 * turned[k] > total[k] > 0
+        turns |= turning[i]
+    return TURNS if turns else NOTHING
 
 
 @njit
@@ -93,7 +100,7 @@ def touched(listed, before, after):
 
 
 @njit
-def find_impact(bodies, base, points, interface, springs, listed, arms, rotations, before, after, early, late, landing, turning, lands, dt, contact_work, counts):
+def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, before, after, early, late, landing, turning, lands, dt, contact_work, counts):
     """Impulses (n, 3) [N s] that come in place of those of the step: a way to end, whether there are any, the impulses.
 
     The points that held the foot before carry it until the moment of impact, all together from then on: two projections, without
@@ -108,10 +115,10 @@ def find_impact(bodies, base, points, interface, springs, listed, arms, rotation
     union = touched(listed, before, after)
     k = len(union)
     for i in union:
-        even_out(bodies, base, points, i, rotations)
+        even_out(bodies, base, points, i, poses)
     mobility, compliance = np.empty((3 * k, 3 * k)), np.empty((3 * k, 3 * k))
-    assemble(bodies, base, points, arms, union, rotations, 0.0, bodies.static, 1.0, springs.own, compliance)
-    assemble(bodies, base, points, arms, union, rotations, 1.0, bodies.mobility, 0.0, springs.own, mobility)
+    assemble(bodies, base, points, arms, union, poses, 0.0, bodies.static, 1.0, springs.own, compliance)
+    assemble(bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, mobility)
     share = IMPACT_COMPLIANCE * 2 / dt**2
     for i in range(3 * k):
         for j in range(3 * k):
@@ -170,7 +177,8 @@ def find_impact(bodies, base, points, interface, springs, listed, arms, rotation
             break
     if taken > 0 and not lands:
         return OK, False, impulses
-    if lands and interface.restitution > 0.0 and taken < 0.0:
+    restitution = _restitution(interfaces, points, union, landing)
+    if lands and restitution > 0.0 and taken < 0.0:
         _between(start, free, share, velocity)
         jump = mobility @ carried
         for j in range(3 * k):
@@ -183,13 +191,23 @@ def find_impact(bodies, base, points, interface, springs, listed, arms, rotation
         for j in range(3 * k):
             arrived += blow[j] * (end[j] + jump[j])
             square += blow[j] * returned[j]
-        given_back = returned_share(interface.restitution, taken, arrived, square)
+        given_back = returned_share(restitution, taken, arrived, square)
         for j in range(3 * k):
             changed[j] += given_back * blow[j]
     for j in range(k):
         for a in range(3):
             impulses[union[j], a] = changed[3 * j + a]
     return OK, True, impulses
+
+
+@njit
+def _restitution(interfaces, points, union, landing):
+    """That of the points (mask) which land, the least where they differ: the impulses of all bodies are given back by the same share."""
+    least = np.inf
+    for i in union:
+        if landing[i]:
+            least = min(least, interfaces[points[i].interface].restitution)
+    return least if least < np.inf else 0.0
 
 
 @njit

@@ -9,18 +9,22 @@ from fecolumn.contact.record import record
 #: An interface: slave and master as of POINT; width of the foot [m], to which tolerances of length are related; restitution, see
 #: `contact.restitution`; rolling: coefficient of the rim's resistance, see `contact.rolling`; on_pad: whether a pad lies between, relaxation of it [s];
 #: rim_first, rim_count: places of its rim among those of all interfaces, none where it is not round; rim_angle of the rim's first
-#: point, sector between two [rad], radius [m].
+#: point, sector between two [rad], radius [m]. Of the master's surface in its own frame: origin (3,) from its centre of mass [m], axes (3, 3), whose columns are
+#: two tangents and the outward normal; facet_first, facet_count: its triangles. foot: (3,) middle of the slave's nodes from its centre of mass [m];
+#: reach: how far modes of the energy 1/2 J move a node of the master's surface at most [m/sqrt(J)].
 INTERFACE = record(("slave", "i8"), ("master", "i8"), ("width", "f8"), ("restitution", "f8"), ("rolling", "f8"), ("on_pad", "?"), ("relaxation", "f8"),
-                      ("rim_first", "i8"), ("rim_count", "i8"), ("rim_angle", "f8"), ("sector", "f8"), ("radius", "f8"))
+                      ("rim_first", "i8"), ("rim_count", "i8"), ("rim_angle", "f8"), ("sector", "f8"), ("radius", "f8"),
+                      ("origin", "f8", 3), ("axes", "f8", (3, 3)), ("facet_first", "i8"), ("facet_count", "i8"), ("foot", "f8", 3), ("reach", "f8"))
 
 #: What a rolling rim carries from step to step: angle of its lowest contact point [rad], nan while the foot touches with its nodes only; lift:
 #: height of it and its neighbours above the rim [m].
 RIM = record(("angle", "f8"), ("lift", "f8", 5))
 
 
-def interface_of(reference: np.ndarray, rim=None, restitution: float = 0.0, rolling: float = 0.0, pad=None, master: int = -1) -> np.ndarray:
+def interface_of(reference: np.ndarray, rim=None, restitution: float = 0.0, rolling: float = 0.0, pad=None, slave: int = 0, master: int = -1) -> np.ndarray:
     """One interface (1,) of INTERFACE below a foot with nodes at (n, 3) [m]; rim: Rim or None, pad: Pad or None."""
     interface = np.zeros(1, INTERFACE)
+    interface["slave"], interface["axes"], interface["foot"] = slave, np.eye(3), reference.mean(axis=0)
     interface["master"], interface["width"], interface["restitution"], interface["sector"] = master, np.ptp(reference[:, 0]), restitution, 1.0
     if pad is not None:
         interface["on_pad"], interface["relaxation"] = True, pad.relaxation

@@ -11,24 +11,25 @@ from fecolumn.contact.record import record
 #: somewhere above; indentation of a pad below it [m].
 CONTACT = record(("force", "f8", 3), ("anchor", "f8", 2), ("relative", "f8", 3), ("indentation", "f8", 3), ("located", "?"))
 
-#: A point in a step. slave, master: bodies, -1 for the base. node: row of the slave's node in whose place it is; friction: coefficient;
+#: A point in a step. slave, master: bodies, -1 for the base; interface: to which it belongs. node: row of the slave's node in whose place it is; friction: coefficient;
 #: law: compliance of the contact law [m/N], springs: stiffness of a pad [N/m], each in x, y, z.
 #: carriers, weights: the slave's nodes that carry it, `count` of them; arm: from the slave's centre of mass in its frame [m]; lift: height given
-#: to it [m], rolls: whether it belongs to a contact that rolls on in this step, see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's compliance. uneven: compliance [m/N] that a point
+#: to it [m], rolls: whether it belongs to a contact that rolls on in this step, see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's compliance; facet: where on a moving master it was found last; beyond: whether it is not over the master's surface in this step; seat: its place there, from
+#: the master's centre of mass in its frame [m]. uneven: compliance [m/N] that a point
 #: between nodes lacks, see `compliance.even_out`.
-POINT = record(("slave", "i8"), ("master", "i8"), ("node", "i8"), ("friction", "f8"), ("law", "f8", 3), ("springs", "f8", 3), ("count", "i8"),
+POINT = record(("slave", "i8"), ("master", "i8"), ("interface", "i8"), ("node", "i8"), ("friction", "f8"), ("law", "f8", 3), ("springs", "f8", 3), ("count", "i8"),
                   ("carriers", "i8", 4), ("weights", "f8", 4), ("arm", "f8", 3), ("lift", "f8"), ("rolls", "?"), ("below", "i8", 4), ("shares", "f8", 4),
-                  ("uneven", "f8", (3, 3)))
+                  ("facet", "i8"), ("beyond", "?"), ("seat", "f8", 3), ("uneven", "f8", (3, 3)))
 
 #: The master of a point that stands on the base.
 BASE = -1
 
 
 def node_points(arms: np.ndarray, friction: float, law: np.ndarray | None = None, springs: np.ndarray | None = None, slave: int = 0,
-                master: int = BASE, first: int = 0) -> np.ndarray:
+                master: int = BASE, first: int = 0, interface: int = 0) -> np.ndarray:
     """Points (n,) of POINT on the slave's nodes with arms (n, 3) [m], in rows from `first` on; law, springs: (n, 3)."""
     points = np.zeros(len(arms), POINT)
-    points["slave"], points["master"], points["friction"], points["arm"] = slave, master, friction, arms
+    points["slave"], points["master"], points["interface"], points["friction"], points["arm"] = slave, master, interface, friction, arms
     points["node"] = first + np.arange(len(arms))
     points["count"], points["weights"][:, 0], points["carriers"] = 1, 1.0, points["node"][:, None]
     if law is not None:

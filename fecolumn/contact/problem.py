@@ -67,10 +67,11 @@ def begin_problem(problem, holds_still, worth):
 
 
 @njit
-def mark_close(problem, interface, positions, before, after):
+def mark_close(problem, points, interfaces, positions, before, after):
     """List the points that are low or carry force: those of which more than the place matters."""
-    count, everyone, height = 0, problem.flags[STICKS_STILL], CLOSE * interface.width
+    count, everyone = 0, problem.flags[STICKS_STILL]
     for i in range(len(after)):
+        height = CLOSE * interfaces[points[i].interface].width
         close = everyone or positions[i, 2] < height or after[i].force[2] > 0 or before[i].force[2] > 0
         after[i].located = close
         if close:
@@ -88,15 +89,14 @@ def near_points(problem):
 
 
 @njit
-def find_residual(problem, bodies, base, points, interface, springs, dynamic, rigid, stick, rim_angle, center, rotations, positions, first,
-                  before, after, counts):
+def find_residual(problem, bodies, base, points, interfaces, springs, dynamic, rigid, stick, rims, poses, positions, first, before, after, counts):
     """Relative positions in `after`, and how well its forces obey the laws: a way to end, largest violation over what is allowed, solved where it is 1 at most.
 
     Allowed is a length that is short for the foot, and what a small share of the strongest force indents: a stiff contact would meet the length under
     forces that are no answer. A point above the base that carries anything is not solved at all.
 
     Args:
-        dynamic, rigid: compliance of the bodies within a step, as of `compliance.assemble`; center: (3,) of the first body.
+        dynamic, rigid: compliance of the bodies within a step, as of `compliance.assemble`. rims: (ni,) of RIM. poses: (ni,) of POSE.
         positions: (n, 3) of the points under the forces of `after`, without static displacement [m]. first: whether in this step for the first time.
         before: (n,) of CONTACT at the start of the step.
     """
@@ -109,27 +109,27 @@ def find_residual(problem, bodies, base, points, interface, springs, dynamic, ri
         for i in listed:
             # the foot turns too little in an iteration to change it
             if after[i].force[2] > 0 and not problem.evened[i]:
-                even_out(bodies, base, points, i, rotations)
+                even_out(bodies, base, points, i, poses)
                 problem.evened[i] = True
     if problem.flags[WORTH_STICK]:
         if 2 * len(listed) > len(after):
             problem.flags[WORTH_STICK] = False
             if len(listed) == len(after):
                 for i in listed:
-                    even_out(bodies, base, points, i, rotations)
-                find_stick(stick, bodies, base, points, springs, dynamic, rigid, rim_angle, center, rotations)
+                    even_out(bodies, base, points, i, poses)
+                find_stick(stick, bodies, base, points, springs, dynamic, rigid, rims, poses)
                 counts[N_ASSEMBLED] += 1
                 problem.flags[STICKS_STILL] = sticks = True
     if sticks:
         _displace_all(stick, after, problem.displaced)
     else:
-        static_displacement(bodies, base, points, rotations, after, listed, problem.displaced)
+        static_displacement(bodies, base, points, poses, after, listed, problem.displaced)
     changed, active = not problem.flags[ASSEMBLED], 0
     for i in listed:
         for a in range(3):
             after[i].relative[a] = positions[i, a] + problem.displaced[i, a]
-        new = (positions[i, 2] < NEAR * interface.width or after[i].force[2] > 0
-               or after[i].relative[2] < -PENETRATION * interface.width)
+        width = interfaces[points[i].interface].width
+        new = positions[i, 2] < NEAR * width or after[i].force[2] > 0 or after[i].relative[2] < -PENETRATION * width
         changed |= new != problem.active[i]
         problem.active[i] = new
         active += new
@@ -139,19 +139,21 @@ def find_residual(problem, bodies, base, points, interface, springs, dynamic, ri
     if sticks:
         put(stick.rho, problem.rho)
     elif changed:
-        _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rotations)
+        _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, poses)
         counts[N_ASSEMBLED] += 1
-    worst = strongest = 0.0
+    worst, strongest = 0.0, np.zeros(len(interfaces))
     for i in listed:
-        strongest = max(strongest, after[i].force[2])
+        k = points[i].interface
+        strongest[k] = max(strongest[k], after[i].force[2])
     for i in listed:
+        most, width = strongest[points[i].interface], interfaces[points[i].interface].width
         for a in range(3):
             slack = after[i].relative[a] + springs.own[i, a] * after[i].force[a] + springs.kept * before[i].indentation[a]
             problem.slack[i, a] = slack - before[i].anchor[a] if a < 2 else slack
         if problem.active[i]:
-            problem.allowed[i] = SOLVED * interface.width
-            if strongest > 0.0:
-                problem.allowed[i] = min(problem.allowed[i], max(SHARE * strongest / problem.rho[i], EXACT * interface.width))
+            problem.allowed[i] = SOLVED * width
+            if most > 0.0:
+                problem.allowed[i] = min(problem.allowed[i], max(SHARE * most / problem.rho[i], EXACT * width))
             error = law_error(after[i].force[0], after[i].force[1], after[i].force[2], problem.slack[i, 0], problem.slack[i, 1],
                               problem.slack[i, 2], problem.rho[i], points[i].friction)
             worst = max(worst, np.inf if _hangs(problem, after, i) else error / problem.allowed[i])
@@ -187,7 +189,7 @@ def _displace_all(stick, after, target):
 
 
 @njit
-def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rotations):
+def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, poses):
     """Compliance of the active points."""
     n = len(points)
     listed, arms = _active(problem), np.empty((n, 3))
@@ -195,23 +197,23 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, rot
     for j in range(count):
         i = listed[j]
         if not problem.evened[i]:
-            even_out(bodies, base, points, i, rotations)
+            even_out(bodies, base, points, i, poses)
             problem.evened[i] = True
         for a in range(3):
             arms[i, a] = points[i].arm[a]
     W = problem.W[:9 * count * count].reshape(3 * count, 3 * count)
-    assemble(bodies, base, points, arms, listed, rotations, rigid, dynamic, 1.0, springs.own, W)
+    assemble(bodies, base, points, arms, listed, poses, rigid, dynamic, 1.0, springs.own, W)
     for j in range(count):
         problem.rho[listed[j]] = 3 / (W[3 * j, 3 * j] + W[3 * j + 1, 3 * j + 1] + W[3 * j + 2, 3 * j + 2])
     problem.flags[ASSEMBLED] = True
 
 
 @njit
-def find_forces(problem, points, interface, stick, after, counts):
+def find_forces(problem, points, interfaces, stick, after, counts):
     """Forces in `after` that obey the laws as far as the compliance tells: a way to end."""
-    usable, tight, listed, sticks = USABLE * interface.width, SOLVED * interface.width, _active(problem), problem.flags[STICKS_STILL]
+    usable, tight, listed, sticks = np.inf, np.inf, _active(problem), problem.flags[STICKS_STILL]
     for i in listed:
-        tight = min(tight, problem.allowed[i])
+        usable, tight = min(usable, USABLE * interfaces[points[i].interface].width), min(tight, problem.allowed[i])
     tight *= SHARP
     if sticks:
         residual, newtons = solve_sticking(stick, points, problem.slack, problem.active, after, tight, usable)
@@ -254,15 +256,16 @@ def find_forces(problem, points, interface, stick, after, counts):
 
 
 @njit
-def stored_energy(problem, points, interface, springs, before, after):
+def stored_energy(problem, points, interfaces, springs, before, after):
     """Strain energy [J] of base, static rest of the bodies, contact law and pad, whose indentation is found."""
     energy = 0.0
-    if interface.on_pad:
+    on_pad = interfaces[0].on_pad
+    if on_pad:
         indent(springs, before, after)
     for i in near_points(problem):
         for a in range(3):
             energy += after[i].force[a] * (problem.displaced[i, a] + points[i].law[a] * after[i].force[a])
-    if interface.on_pad:
+    if on_pad:
         for i in range(len(after)):
             for a in range(3):
                 energy += points[i].springs[a] * after[i].indentation[a] ** 2
@@ -270,8 +273,7 @@ def stored_energy(problem, points, interface, springs, before, after):
 
 
 @njit
-def solve_linear(problem, bodies, base, points, interface, springs, dynamic, elastic, stick, rim_angle, center, rotations, positions, most, before,
-                 after, counts):
+def solve_linear(problem, bodies, base, points, interfaces, springs, dynamic, elastic, stick, rims, poses, positions, most, before, after, counts):
     """Forces of bodies that answer a change of forces linearly: a way to end, largest violation of the laws as of `find_residual`.
 
     Args:
@@ -279,21 +281,21 @@ def solve_linear(problem, bodies, base, points, interface, springs, dynamic, ela
         positions: (n, 3) [m] of the points under the forces of `after` at first; those of close points change along with them.
         most: times that forces are found; 0 only looks how well they obey the laws.
     """
-    mark_close(problem, interface, positions, before, after)
+    mark_close(problem, points, interfaces, positions, before, after)
     listed = near_points(problem)
     k, arms, old = len(listed), np.zeros((len(after), 3)), np.empty(3 * len(listed))
     response = np.empty((3 * k, 3 * k))
     if most > 0:
-        assemble(bodies, base, points, arms, listed, rotations, 0.0, elastic, 0.0, springs.own, response)
+        assemble(bodies, base, points, arms, listed, poses, 0.0, elastic, 0.0, springs.own, response)
     for attempt in range(most + 1):
-        answer, residual = find_residual(problem, bodies, base, points, interface, springs, dynamic, 0.0, stick, rim_angle, center, rotations,
-                                         positions, attempt == 0, before, after, counts)
+        answer, residual = find_residual(problem, bodies, base, points, interfaces, springs, dynamic, 0.0, stick, rims, poses, positions, attempt == 0,
+                                         before, after, counts)
         if answer != OK or residual <= 1.0 or attempt == most:
             return answer, residual
         for j in range(k):
             for a in range(3):
                 old[3 * j + a] = after[listed[j]].force[a]
-        answer = find_forces(problem, points, interface, stick, after, counts)
+        answer = find_forces(problem, points, interfaces, stick, after, counts)
         if answer != OK:
             return answer, residual
         for j in range(k):

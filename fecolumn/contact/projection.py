@@ -1,4 +1,4 @@
-"""Which nodes of the base lie below a point."""
+"""Which nodes of the base, or of the body on which it stands, lie below a point."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from fecolumn._compiled import interpreted, njit
 from fecolumn.contact.bodies import node_matrix
 from fecolumn.contact.points import BASE, POINT
+from fecolumn.contact.tolerances import EDGE
 
 # Answers of `project`
 ON, OFF, UNKNOWN = range(3)
@@ -59,6 +60,65 @@ def project(base, positions, listed, points):
             if slot < 0:
                 answer = UNKNOWN
     return answer
+
+
+@njit
+def project_on_body(bodies, interface, point, x, y):
+    """Find the three nodes of a moving master's surface around the place x, y [m] in its frame, and their shares: ON or OFF the surface.
+
+    From the facet where the point was found last towards the place; all facets are looked at where an outline or a hole is in the way. Off the surface, of
+    the nearest facet.
+    """
+    first, count, facet, margin = interface.facet_first, interface.facet_count, point.facet, EDGE * interface.width
+    shares, nearest, least = np.empty(3), 0, np.inf
+    for step in range(count):
+        across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
+        if across < 0:
+            _take(bodies.facets[first + facet], facet, shares, point)
+            return ON
+        facet = bodies.facets[first + facet].neighbours[across]
+        if facet < 0:
+            break
+    for facet in range(count):
+        across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
+        if across < 0:
+            _take(bodies.facets[first + facet], facet, shares, point)
+            return ON
+        if -shares[across] < least:
+            nearest, least = facet, -shares[across]
+    _shares_of(bodies.facets[first + nearest], x, y, margin, shares)
+    _take(bodies.facets[first + nearest], nearest, shares, point)
+    return OFF
+
+
+@njit
+def _shares_of(facet, x, y, margin, shares):
+    """shares (3,): of a facet's corners in the place x, y; the side most beyond which it lies, -1 where it lies within, or by `margin` [m] beyond an outline."""
+    corners = facet.corners
+    ax, ay = corners[1, 0] - corners[0, 0], corners[1, 1] - corners[0, 1]
+    bx, by = corners[2, 0] - corners[0, 0], corners[2, 1] - corners[0, 1]
+    px, py, twice = x - corners[0, 0], y - corners[0, 1], ax * by - ay * bx
+    shares[1], shares[2] = (px * by - py * bx) / twice, (ax * py - ay * px) / twice
+    shares[0] = 1 - shares[1] - shares[2]
+    worst, across = 0.0, -1
+    for q in range(3):
+        # height of the triangle over the side opposite to the corner
+        x0, y0 = corners[(q + 1) % 3, 0], corners[(q + 1) % 3, 1]
+        x1, y1 = corners[(q + 2) % 3, 0], corners[(q + 2) % 3, 1]
+        beyond = -shares[q] * abs(twice) / np.hypot(x1 - x0, y1 - y0)
+        allowed = margin if facet.neighbours[q] < 0 else 1e-3 * margin
+        if beyond > allowed and beyond > worst:
+            worst, across = beyond, q
+    return across
+
+
+@njit
+def _take(facet, number, shares, point):
+    """Let a point stand on a facet."""
+    point.facet = number
+    for q in range(3):
+        point.below[q], point.shares[q] = facet.nodes[q], shares[q]
+    point.below[3], point.shares[3] = facet.nodes[0], 0.0
 
 
 @njit

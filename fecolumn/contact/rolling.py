@@ -76,7 +76,7 @@ def plan_roll(interface, rim, rim_state, contact, rotation, halfway, allowed):
 
     Args:
         interface: of INTERFACE. rim: (n,) its points. rim_state: of RIM at the start. contact: (P,) of CONTACT at the start.
-        rotation, halfway: (3, 3) of the slave at the start and in the middle of the step. allowed: False: they stay in any case.
+        rotation, halfway: (3, 3) of the slave to the frame of the interface at the start and in the middle of the step. allowed: False: they stay in any case.
     """
     n, first, sector, before = len(rim), interface.rim_angle, interface.sector, rim_state.angle
     offsets, weights, index, phase = np.empty((3, 4), np.int64), np.empty((3, 4)), np.empty(3, np.int64), np.empty(3)
@@ -128,7 +128,7 @@ def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
     of the lowest one get heights at which steady rolling works without loss.
 
     Args:
-        rim_state: of RIM, changed. arms: (N, 3) of the nodes from their centre of mass. places: (N, 3) their positions at the start [m], where
+        rim_state: of RIM, changed. arms: (N, 3) of the nodes from their centre of mass. places: (N, 3) their positions at the start in the frame of the interface [m], where
             `mark_rolling` wants them.
     """
     n, index = len(rim), roll.index[NEW]
@@ -243,7 +243,7 @@ def rolling_moment(rotation, spin, load, radius, coefficient, inverse, dt):
     coefficient radius / s ahead of the lowest point, at most the radius. It does not turn the rolling round within the step.
 
     Args:
-        rotation: (3, 3) column to table. spin: (3,) in the column's frame [rad/s]. load: normal contact force [N]. radius: of the rim [m].
+        rotation: (3, 3) column to the frame of the interface. spin: (3,) relative to the master, in the column's frame [rad/s]. load: normal contact force [N]. radius: of the rim [m].
         inverse: (3, 3) of the inertia about the centre of mass [1/(kg m2)].
     """
     moment, x, y, z = np.zeros(3), -rotation[2, 0], -rotation[2, 1], -rotation[2, 2]

@@ -15,58 +15,60 @@ from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.friction import law_error, solve_in_place, stiffness_together
+from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.tolerances import PAD_TURN, STICK_TURN, STICK_WAY
 
 
 class Stick(NamedTuple):
     """Compliance W of all points and its inverse, the static part without what the points give alone, all (3 n, 3 n); rho, rho_all: (n,) stiffness of a
-    point alone and with all others [N/m]; center: (3,) and rotation: (3, 3) of the slave for which they hold; key: (3,) angle of
-    the rim, length of the step, and 1 once they are found."""
+    point alone and with all others [N/m]; poses: (ni,) of POSE and angles: (ni,) of the rims for which they hold; key: (2,) length of the step, and 1 once they
+    are found."""
 
     W: np.ndarray
     inverse: np.ndarray
     static: np.ndarray
     rho: np.ndarray
     rho_all: np.ndarray
-    center: np.ndarray
-    rotation: np.ndarray
+    poses: np.ndarray
+    angles: np.ndarray
     key: np.ndarray
 
 
-def no_stick(n: int) -> Stick:
+def no_stick(n: int, interfaces: int = 1) -> Stick:
     """Of n points, not found yet."""
-    return Stick(*(np.zeros((3 * n, 3 * n)) for _ in range(3)), np.zeros(n), np.zeros(n), np.zeros(3), np.eye(3), np.zeros(3))
+    return Stick(*(np.zeros((3 * n, 3 * n)) for _ in range(3)), np.zeros(n), np.zeros(n), np.zeros(interfaces, POSE), np.zeros(interfaces), np.zeros(2))
 
 
 @njit
-def holds(stick, interface, rim_angle, rigid, depth, center, rotation):
-    """Whether the foot is where the operator was found; depth: height [m] of the foot over the slave's centre of mass, below 0."""
-    if stick.key[2] == 0.0 or stick.key[1] != rigid:
+def holds(stick, interfaces, rims, rigid, poses):
+    """Whether all feet are where the operator was found."""
+    if stick.key[1] == 0.0 or stick.key[0] != rigid:
         return False
-    if not (stick.key[0] == rim_angle or np.isnan(stick.key[0]) and np.isnan(rim_angle)):
-        return False
-    for a in range(0 if interface.on_pad else 2):
-        moved = center[a] - stick.center[a] + (rotation[a, 2] - stick.rotation[a, 2]) * depth
-        if abs(moved) > STICK_WAY * interface.width:
+    for k in range(len(interfaces)):
+        on_pad, then, now = interfaces[k].on_pad, stick.poses[k], poses[k]
+        if not (stick.angles[k] == rims[k].angle or np.isnan(stick.angles[k]) and np.isnan(rims[k].angle)):
             return False
-    for a in range(3):
-        for b in range(3):
-            if abs(rotation[a, b] - stick.rotation[a, b]) > (PAD_TURN if interface.on_pad else STICK_TURN):
+        for a in range(0 if on_pad else 2):
+            if abs(now.foot[a] - then.foot[a]) > STICK_WAY * interfaces[k].width:
                 return False
+        for a in range(3):
+            for b in range(3):
+                if abs(now.turned[SLAVE, a, b] - then.turned[SLAVE, a, b]) > (PAD_TURN if on_pad else STICK_TURN):
+                    return False
     return True
 
 
 @njit
-def find_stick(stick, bodies, base, points, springs, dynamic, rigid, rim_angle, center, rotations):
-    """Find the operator of a foot of which all points stand on a known base; further arguments as of `compliance.assemble`."""
+def find_stick(stick, bodies, base, points, springs, dynamic, rigid, rims, poses):
+    """Find the operator of feet of which all points stand; further arguments as of `compliance.assemble`."""
     n = len(stick.rho)
     everyone, arms = np.empty(n, np.int64), np.empty((n, 3))
     for i in range(n):
         everyone[i] = i
         for a in range(3):
             arms[i, a] = points[i].arm[a]
-    assemble(bodies, base, points, arms, everyone, rotations, 0.0, bodies.static, 1.0, springs.own, stick.static)
-    assemble(bodies, base, points, arms, everyone, rotations, rigid, dynamic, 1.0, springs.own, stick.W)
+    assemble(bodies, base, points, arms, everyone, poses, 0.0, bodies.static, 1.0, springs.own, stick.static)
+    assemble(bodies, base, points, arms, everyone, poses, rigid, dynamic, 1.0, springs.own, stick.W)
     inverse = np.linalg.inv(stick.W)
     for i in range(n):
         stick.rho[i] = 3 / (stick.W[3 * i, 3 * i] + stick.W[3 * i + 1, 3 * i + 1] + stick.W[3 * i + 2, 3 * i + 2])
@@ -76,11 +78,9 @@ def find_stick(stick, bodies, base, points, springs, dynamic, rigid, rim_angle, 
     for i in range(3 * n):
         for j in range(i + 1):
             stick.inverse[i, j] = stick.inverse[j, i] = (inverse[i, j] + inverse[j, i]) / 2
-    for a in range(3):
-        stick.center[a] = center[a]
-        for b in range(3):
-            stick.rotation[a, b] = rotations[0, a, b]
-    stick.key[0], stick.key[1], stick.key[2] = rim_angle, rigid, 1.0
+    for k in range(len(poses)):
+        stick.poses[k], stick.angles[k] = poses[k], rims[k].angle
+    stick.key[0], stick.key[1] = rigid, 1.0
 
 
 @njit

@@ -88,6 +88,11 @@ REST = 1e-11
 #: whose stiffness against tilting is 1.6 times its weight times the height of its centre.
 REST_ITERATIONS, REST_PROGRESS = 50, 0.5
 
+# --- Bodies that stand on moving ones -----------------------------------------------------------------------------------------------------------
+#: Way beyond the outline of a surface, over the width of the foot on it, within which a point still stands on it: feet as wide as what they stand on
+#: would else lose their outline to the first slip.
+EDGE = 2e-3
+
 # --- Geometry and overturning -----------------------------------------------------------------------------------------------------------------
 #: Nodes are at the same place up to this share of the foot's width or the body's size: rounding of a mesh file.
 SAME_PLACE = 1e-9

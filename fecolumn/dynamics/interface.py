@@ -11,10 +11,11 @@ from fecolumn.contact.projection import base_for_steps, project
 from fecolumn.contact.bodies import node_matrix, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact
-from fecolumn.contact.interface import interface_of
+from fecolumn.contact.interface import interface_of, rims_at_rest
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, begin_problem, near_points, room, solve_linear, stored_energy
+from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
 from fecolumn.contact.stick import no_stick
@@ -54,8 +55,9 @@ class Interface:
         #: As of `reduced.model.structure_of`.
         self.laws = dict(friction=friction, law=law, rim=rim, restitution=restitution, rolling=rolling, pad=pad)
         self.size = len(reference)
-        #: Of INTERFACE, and points (n,) of POINT.
-        self.record = interface_of(reference, rim, restitution, rolling, pad)[0]
+        #: (1,) of INTERFACE, and it alone; points (n,) of POINT.
+        self.interfaces = interface_of(reference, rim, restitution, rolling, pad)
+        self.record = self.interfaces[0]
         self.points = node_points(reference, friction, law, pad.stiffness if pad else None)
         self.width = float(self.record["width"])
         mobility = node_matrix(foot.mobility) if foot.filtered else np.zeros((3 * self.size, 3 * self.size))
@@ -70,9 +72,9 @@ class Interface:
             say("compiling the contact of the full-order engine, once on this machine: a minute")
         before, values, mask = np.zeros(self.size, CONTACT), np.zeros((self.size, 3)), np.zeros(self.size, bool)
         static, springs = self.bodies.static, springs_of(self.points, self.record, 1.0)
-        compile_for(solve_linear, (self._problem, self.bodies, self.surface, self.points, self.record, springs, static, static, self._stick, np.nan, values[0],
-                                   np.eye(3)[None], values, ITERATIONS, before, before, self.counts))
-        compile_for(find_impact, (self.bodies, self.surface, self.points, self.record, springs, self.near, values, np.eye(3)[None], before, before, values, values,
+        compile_for(solve_linear, (self._problem, self.bodies, self.surface, self.points, self.interfaces, springs, static, static, self._stick, rims_at_rest(),
+                                   poses_on_base(np.eye(3)[None]), values, ITERATIONS, before, before, self.counts))
+        compile_for(find_impact, (self.bodies, self.surface, self.points, self.interfaces, springs, self.near, values, poses_on_base(np.eye(3)[None]), before, before, values, values,
                                   mask, mask, True, 1.0, 1.0, self.counts))
 
     def at_points(self, values: np.ndarray) -> np.ndarray:
@@ -143,7 +145,7 @@ class Interface:
         everyone, own, W = np.arange(self.size), np.zeros((self.size, 3)), np.empty((3 * len(listed), 3 * len(listed)))
         self._extend_base(self.reference)
         interpreted(project)(self.surface, self.reference, everyone, self.points)
-        interpreted(assemble)(self.bodies, self.surface, self.points, self.reference, listed, np.eye(3)[None], 0.0, self.bodies.static, 1.0, own, W)
+        interpreted(assemble)(self.bodies, self.surface, self.points, self.reference, listed, poses_on_base(np.eye(3)[None]), 0.0, self.bodies.static, 1.0, own, W)
         return W
 
     def solve(self, nodal: Nodal, rotation, positions, dt: float, before, after, times: int = ITERATIONS) -> tuple[Stop, float]:
@@ -156,8 +158,8 @@ class Interface:
         # the column's compliance has changed with its place
         begin_problem(self._problem, False, False)
         while True:
-            answer, residual = solve_linear(self._problem, self.bodies, self.surface, self.points, self.record, springs, nodal.dynamic, nodal.elastic,
-                                            self._stick, np.nan, positions[0], rotation[None], positions, times, before, after, self.counts)
+            answer, residual = solve_linear(self._problem, self.bodies, self.surface, self.points, self.interfaces, springs, nodal.dynamic, nodal.elastic,
+                                            self._stick, rims_at_rest(), poses_on_base(rotation[None]), positions, times, before, after, self.counts)
             if answer != FAR_BASE:
                 return _STOPS.get(answer, Stop.CONVERGED), residual
             self._extend_base(positions[self.near])
@@ -169,7 +171,7 @@ class Interface:
 
     def stored(self, dt: float, before, after) -> float:
         """Strain energy [J] of base, foot's static rest, contact law and pad, whose indentation is found, after `solve`."""
-        return stored_energy(self._problem, self.points, self.record, springs_of(self.points, self.record, dt), before, after)
+        return stored_energy(self._problem, self.points, self.interfaces, springs_of(self.points, self.record, dt), before, after)
 
     @property
     def near(self) -> np.ndarray:

@@ -7,6 +7,7 @@ import numpy as np
 from fecolumn._compiled import interpreted
 from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, what_happens
 from fecolumn.contact.pad import springs_of
+from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import OK
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
@@ -109,7 +110,7 @@ class Stepper:
             raise StepFailed(outcome.stop, f"{outcome.stop.value}: {detail}")
 
         R, springs = outcome.halfway, springs_of(interface.points, interface.record, dt)
-        move_anchors(interface.record, springs, interface.near, before, outcome.contact)
+        move_anchors(interface.points, interface.interfaces, springs, interface.near, before, outcome.contact)
         after = State(time=start.time + dt, x=outcome.x, v=start.v, a=start.a, contact_a=start.contact_a, internal=outcome.internal, strain=outcome.strain,
                       rotation=outcome.rotation, contact=outcome.contact, static=outcome.static, ground=np.array(ground, float), rims=rims)
         push = interface.load(after.forces, R)
@@ -154,7 +155,7 @@ class Stepper:
         damping = -column.dot(step, damped) / 2 if self.system.damping else 0.0
         rolling = column.dot(step, resisted) if self.system.resistance else 0.0
         contact = column.dot(step, worked) - rolling + after.static - start.static
-        friction, landed, dashpots = losses(interface.points, interface.record, springs, interface.near, before, after.contact)
+        friction, landed, dashpots = losses(interface.points, interface.interfaces, springs, interface.near, before, after.contact)
         self.ledger.add(base_work=-np.dot((start.ground + after.ground) / 2, carried), algorithmic=algorithmic - damping,
                         friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots, rolling=rolling)
         return contact
@@ -167,16 +168,16 @@ class Stepper:
         """
         system, interface, column, R = self.system, self.system.interface, self.system.column, after.rotation
         landing, turning = np.zeros(interface.size, bool), np.zeros(interface.size, bool)
-        lands = mark_landing(interface.record, interface.points, interface.near, before, after.contact, landing)
+        lands = mark_landing(interface.interfaces, interface.points, interface.near, before, after.contact, landing)
         if not mark_turning(interface.points, interface.near, before, after.contact, turning) and not lands:
             return
         # each in the frame of its own time: turned by another one a rotation looks like a strain, which the foot's filter takes away
         early, late = interface.velocities(start.v, start.rotation), interface.velocities(after.v, R)
-        happens = what_happens(interface.record, interface.near, before, after.contact, hht.dt, early, late, landing, turning)
+        happens = what_happens(interface.interfaces, interface.points, interface.near, before, after.contact, hht.dt, early, late, landing, turning)
         if happens == NOTHING:
             return
         answer, pushed, impulses = find_impact(
-            interface.bodies, interface.surface, interface.points, interface.record, springs, interface.near, interface.points["arm"].copy(), R[None], before,
+            interface.bodies, interface.surface, interface.points, interface.interfaces, springs, interface.near, interface.points["arm"].copy(), poses_on_base(R[None]), before,
             after.contact, early, late, landing, turning, happens == LANDS, hht.dt, contact_work, interface.counts)
         self.record.contact_iterations += interface.spent()
         if answer != OK:

@@ -23,7 +23,7 @@ from fecolumn.progress import Progress
 from fecolumn.reduced import start
 from fecolumn.reduced.cache import load_model
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import Engine, advance
+from fecolumn.reduced.run import Engine, advance, column_engine
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
 CHUNK = 500
@@ -38,7 +38,7 @@ def engine_of(case, model, base, upright: bool = False) -> Engine:
         return start.standing(engine) if upright else start.begin(engine, case.initial)
 
     eye = view(model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m)
-    return Engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), begin, [0.0, 0.0, -GRAVITY], plan.max_cuts, case.material.damping_ratio,
+    return column_engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), begin, [0.0, 0.0, -GRAVITY], plan.max_cuts, case.material.damping_ratio,
                   friction=case.contact.friction_coefficient, law=law, rim=None if pad else Rim.find(model.reference), restitution=case.contact.restitution,
                   rolling=case.contact.rolling_resistance, pad=pad)
 

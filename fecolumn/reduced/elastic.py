@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn._compiled import njit
+from fecolumn.contact.points import BASE
+from fecolumn.contact.projection import ON, project_on_body
 
 # Rows of Motion.modal: coordinate, rate, and the acceleration that HHT remembers, without contact
 COORDINATE, RATE, ACCELERATION = range(3)
@@ -14,19 +16,21 @@ COORDINATE, RATE, ACCELERATION = range(3)
 
 class Elastic(NamedTuple):
     """Elastic displacement at the START and at the END of a step, found where it is wanted. node: (2, N, 3) [m] of nodes, stamp: (2, N) with which they are
-    up to date, now: (2,) the present stamps; point: (2, P, 3) of points, in their slaves' frames."""
+    up to date, now: (2,) the present stamps; point: (2, P, 3) of points, in their slaves' frames; seat: (2, P, 3) [m] places of points on moving masters, from
+    their centres of mass in their frames."""
 
     node: np.ndarray
     stamp: np.ndarray
     now: np.ndarray
     point: np.ndarray
+    seat: np.ndarray
 
 
 START, END = range(2)
 
 
 def no_elastic(nodes: int, points: int) -> Elastic:
-    return Elastic(np.zeros((2, nodes, 3)), np.zeros((2, nodes), np.int64), np.zeros(2, np.int64), np.zeros((2, points, 3)))
+    return Elastic(np.zeros((2, nodes, 3)), np.zeros((2, nodes), np.int64), np.zeros(2, np.int64), np.zeros((2, points, 3)), np.zeros((2, points, 3)))
 
 
 @njit(fastmath={"reassoc", "contract"})
@@ -53,15 +57,21 @@ def find_all_elastic(structure, b, motion, elastic, when):
 
 
 @njit
+def _find_node(structure, node, b, motion, elastic, when):
+    """Find the elastic displacement of a node of body b unless it is known."""
+    if elastic.stamp[when, node] != elastic.now[when]:
+        elastic.stamp[when, node] = elastic.now[when]
+        _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node])
+
+
+@njit
 def find_elastic(structure, points, i, motion, elastic, when):
     """Find the elastic displacement of point i in a motion at START or END of a step."""
     b = points[i].slave
     x = y = z = 0.0
     for q in range(points[i].count):
         node, w = points[i].carriers[q], points[i].weights[q]
-        if elastic.stamp[when, node] != elastic.now[when]:
-            elastic.stamp[when, node] = elastic.now[when]
-            _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node])
+        _find_node(structure, node, b, motion, elastic, when)
         x += w * elastic.node[when, node, 0]
         y += w * elastic.node[when, node, 1]
         z += w * elastic.node[when, node, 2]
@@ -69,38 +79,77 @@ def find_elastic(structure, points, i, motion, elastic, when):
 
 
 @njit
-def find_places(structure, points, motion, elastic, wanted, places):
-    """places (N, 3): positions at the START of the wanted nodes (mask) of the points, without their static part."""
+def find_places(structure, points, motion, pose, elastic, wanted, places):
+    """places (N, 3): positions at the START of the wanted nodes (mask) of the points of one interface in its frame, without their static part."""
+    x = np.empty(3)
     for i in range(len(points)):
         node, b = points[i].node, points[i].slave
         if not wanted[node]:
             continue
-        if elastic.stamp[START, node] != elastic.now[START]:
-            elastic.stamp[START, node] = elastic.now[START]
-            _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[START, node])
+        _find_node(structure, node, b, motion, elastic, START)
         arms, moved = structure.bodies.arms, elastic.node[START]
-        x, y, z = arms[node, 0] + moved[node, 0], arms[node, 1] + moved[node, 1], arms[node, 2] + moved[node, 2]
         for a in range(3):
-            places[node, a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
+            x[a] = arms[node, a] + moved[node, a]
+        _into_table(motion, b, x[0], x[1], x[2], places[node])
+        if points[i].master != BASE:
+            _into_frame(pose, places[node])
 
 
 @njit
-def find_position(points, i, motion, elastic, when, target):
-    """target (3,): position of point i without its static part, its elastic displacement being known."""
-    b, u = points[i].slave, elastic.point[when, i]
-    x, y, z = points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2]
+def _into_table(motion, b, x, y, z, target):
+    """target (3,): position of the place x, y, z of body b in its frame."""
     for a in range(3):
         target[a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
+
+
+@njit
+def _into_frame(pose, place):
+    """A position (3,) in the table frame as one in that of an interface, in place."""
+    x, y, z, Q = place[0] - pose.origin[0], place[1] - pose.origin[1], place[2] - pose.origin[2], pose.frame
+    for a in range(3):
+        place[a] = Q[0, a] * x + Q[1, a] * y + Q[2, a] * z
+
+
+@njit
+def find_position(structure, points, i, motion, poses, elastic, when, target):
+    """target (3,): place of point i relative to its master's surface, in the frame of its interface, without static part, its elastic displacement being known.
+
+    A point that is beyond the surface at the START of a step is put high above it: within a step none comes or goes over an outline.
+    """
+    b, u = points[i].slave, elastic.point[when, i]
+    _into_table(motion, b, points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2], target)
+    b = points[i].master
+    if b != BASE:
+        interface, seat = structure.interfaces[points[i].interface], elastic.seat[when, i]
+        axes = interface.axes
+        _into_frame(poses[points[i].interface], target)
+        for a in range(3):
+            seat[a] = interface.origin[a] + axes[a, 0] * target[0] + axes[a, 1] * target[1] + axes[a, 2] * target[2]
+            points[i].seat[a] = seat[a]
+        on = project_on_body(structure.bodies, interface, points[i], target[0], target[1]) == ON
+        if when == START:
+            points[i].beyond = not on
+        if points[i].beyond:
+            target[2] = interface.width
+        elif motion.modal.shape[2] > 0:
+            for q in range(3):
+                node, w = points[i].below[q], points[i].shares[q]
+                _find_node(structure, node, b, motion, elastic, when)
+                moved = elastic.node[when, node]
+                for a in range(3):
+                    target[a] -= w * (axes[0, a] * moved[0] + axes[1, a] * moved[1] + axes[2, a] * moved[2])
     target[2] += points[i].lift
 
 
 @njit
-def locate_start(structure, points, i, start, elastic, before, place):
+def locate_start(structure, points, i, start, poses, elastic, before, place):
     """Elastic displacement at the START of a step of point i, which was open, and where it was, unless the step before located it; place: (3,) room."""
     find_elastic(structure, points, i, start, elastic, START)
+    if before[i].located and points[i].master == BASE:
+        return
+    find_position(structure, points, i, start, poses, elastic, START, place)
     if before[i].located:
         return
-    find_position(points, i, start, elastic, START, place)
     for a in range(3):
         before[i].relative[a] = place[a]
         if a < 2:
@@ -109,8 +158,8 @@ def locate_start(structure, points, i, start, elastic, before, place):
 
 
 @njit
-def find_velocity(structure, points, i, motion, elastic, when, target):
-    """target (3,): velocity of point i in a motion, its elastic displacement being known."""
+def find_velocity(structure, points, i, motion, poses, elastic, when, target):
+    """target (3,): velocity of point i relative to its master in a motion, in the frame of its interface, its elastic displacement being known."""
     b, u = points[i].slave, elastic.point[when, i]
     R, w, moved = motion.rotation[b], motion.frames[b].spin, np.empty(3)
     v0 = v1 = v2 = 0.0
@@ -123,3 +172,19 @@ def find_velocity(structure, points, i, motion, elastic, when, target):
     v0, v1, v2 = v0 + w[1] * z - w[2] * y, v1 + w[2] * x - w[0] * z, v2 + w[0] * y - w[1] * x
     for a in range(3):
         target[a] = motion.frames[b].velocity[a] + R[a, 0] * v0 + R[a, 1] * v1 + R[a, 2] * v2
+    b = points[i].master
+    if b == BASE:
+        return
+    R, w, seat, Q = motion.rotation[b], motion.frames[b].spin, elastic.seat[when, i], poses[points[i].interface].frame
+    v0 = v1 = v2 = 0.0
+    if motion.modal.shape[2] > 0:
+        for q in range(3):
+            _node_displacement(structure.pushes, motion.modal[b, RATE], points[i].below[q], moved)
+            v0 += points[i].shares[q] * moved[0]
+            v1 += points[i].shares[q] * moved[1]
+            v2 += points[i].shares[q] * moved[2]
+    v0, v1, v2 = v0 + w[1] * seat[2] - w[2] * seat[1], v1 + w[2] * seat[0] - w[0] * seat[2], v2 + w[0] * seat[1] - w[1] * seat[0]
+    for a in range(3):
+        moved[a] = target[a] - motion.frames[b].velocity[a] - R[a, 0] * v0 - R[a, 1] * v1 - R[a, 2] * v2
+    for a in range(3):
+        target[a] = Q[0, a] * moved[0] + Q[1, a] * moved[1] + Q[2, a] * moved[2]

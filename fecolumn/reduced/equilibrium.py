@@ -8,7 +8,8 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put_matrix
-from fecolumn.contact.points import CONTACT
+from fecolumn.contact.points import BASE, CONTACT
+from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.problem import (
     ITERATIONS_SPENT,
     N_ITERATIONS,
@@ -26,12 +27,13 @@ from fecolumn.contact.problem import (
 from fecolumn.contact.stick import Stick, holds, no_stick
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_position, locate_start, no_elastic
-from fecolumn.reduced.motion import Action, follow, no_action
+from fecolumn.reduced.motion import Action, begin_frames, follow, no_action
+from fecolumn.reduced.pose import find_poses
 
 
 class Work(NamedTuple):
     """Room and memory of steps. points: (P,) of POINT in the step; before: (P,) of CONTACT, what the start brings to them; problem, stick: of
-    `contact`; action, elastic: of `reduced.motion`; positions, early, late: (P, 3); places: (N, 3); marked, landing, turning: (P,) or (N,) masks."""
+    `contact`; action, elastic: of `reduced.motion`; poses: (2, ni) of POSE at START and END of a step; positions, early, late: (P, 3); places: (N, 3); marked, landing, turning: (P,) or (N,) masks."""
 
     points: np.ndarray
     before: np.ndarray
@@ -39,6 +41,7 @@ class Work(NamedTuple):
     stick: Stick
     action: Action
     elastic: Elastic
+    poses: np.ndarray
     positions: np.ndarray
     early: np.ndarray
     late: np.ndarray
@@ -52,93 +55,110 @@ def work_of(structure, points) -> Work:
     """For the points (P,) of a Structure."""
     n, nodes = len(points), len(structure.bodies.arms)
     bodies, modes = structure.squares.shape
-    return Work(points.copy(), np.zeros(n, CONTACT), room(n), no_stick(n), no_action(modes, bodies), no_elastic(nodes, n),
+    return Work(points.copy(), np.zeros(n, CONTACT), room(n), no_stick(n, len(structure.interfaces)), no_action(modes, bodies, len(structure.interfaces), len(structure.links)), no_elastic(nodes, n),
+                np.zeros((2, len(structure.interfaces)), POSE),
                 *(np.zeros((n, 3)) for _ in range(3)), np.zeros((nodes, 3)), np.zeros(nodes, bool), np.zeros(n, bool), np.zeros(n, bool))
 
 
 @njit
-def stays(interface, start, free_center, advance):
-    """Whether the foot stays in its place long enough for finding its stick operator to pay."""
-    way, turn = 0.0, 0.0
-    for a in range(3):
-        turn = max(turn, abs(advance[0, a]))
-        if a < 2:
-            way = max(way, abs(free_center[0, a] - start.frames[0].center[a]))
-    if interface.on_pad:
-        return turn < STICK_STAYS * PAD_TURN
-    flat = np.hypot(start.rotation[0, 2, 0], start.rotation[0, 2, 1]) < STICK_TURN
-    return flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interface.width
+def stays(interfaces, poses, start, free_center, advance):
+    """Whether all feet stay in their places long enough for finding their stick operator to pay; poses: at the start."""
+    for k in range(len(interfaces)):
+        way, turn, b, turned = 0.0, 0.0, interfaces[k].slave, poses[k].turned
+        for a in range(3):
+            turn = max(turn, abs(advance[b, a]))
+            if a < 2:
+                way = max(way, abs(free_center[b, a] - start.frames[b].center[a]))
+        if interfaces[k].on_pad:
+            if not turn < STICK_STAYS * PAD_TURN:
+                return False
+            continue
+        flat = np.hypot(turned[SLAVE, 2, 0], turned[SLAVE, 2, 1]) < STICK_TURN
+        if not (flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interfaces[k].width):
+            return False
+    return True
 
 
 @njit
 def find_positions(structure, work, start, end):
     """Positions of the points at the END of the step; those of points too high to matter without their elastic displacement."""
-    interface, points, elastic, positions = structure.interfaces[0], work.points, work.elastic, work.positions
-    all_of_them = work.problem.flags[STICKS_STILL]
+    interfaces, points, elastic, positions, poses = structure.interfaces, work.points, work.elastic, work.positions, work.poses[END]
+    all_of_them, reach = work.problem.flags[STICKS_STILL], np.zeros(len(end.frames))
+    find_poses(interfaces, end.frames, end.rotation, poses)
     for b in range(len(end.frames)):
-        stored = 0.0
         for k in range(end.modal.shape[2]):
-            stored += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
+            reach[b] += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
         # no node moves farther than the modes' energy allows
-        reach = np.sqrt(stored)
+        reach[b] = np.sqrt(reach[b])
         if all_of_them and end.modal.shape[2] > 0:
             find_all_elastic(structure, b, end, elastic, END)
-        for i in range(len(points)):
-            if points[i].slave != b:
-                continue
-            arm, R = points[i].arm, end.rotation
+    for i in range(len(points)):
+        k, b, m, arm = points[i].interface, points[i].slave, points[i].master, points[i].arm
+        # a point of the rim moves with nodes near to its own, which may reach farther, but not twice as far
+        low = CLOSE * interfaces[k].width + 2 * reach[b] * structure.reach[points[i].node]
+        if m == BASE:
+            R = end.rotation
             for a in range(3):
                 positions[i, a] = end.frames[b].center[a] + R[b, a, 0] * arm[0] + R[b, a, 1] * arm[1] + R[b, a, 2] * arm[2]
-            positions[i, 2] += points[i].lift
-            # a point of the rim moves with nodes near to its own, which may reach farther, but not twice as far
-            high = positions[i, 2] > CLOSE * interface.width + 2 * reach * structure.reach[points[i].node]
-            if high and not all_of_them and not (work.before[i].force[2] > 0 or end.contact[i].force[2] > 0):
-                continue
-            if work.before[i].force[2] <= 0:
-                locate_start(structure, points, i, start, elastic, work.before, work.places[0])
-            find_elastic(structure, points, i, end, elastic, END)
-            find_position(points, i, end, elastic, END, positions[i])
+        else:
+            T, frame, offset = poses[k].turned, poses[k].frame, poses[k].origin
+            for a in range(3):
+                positions[i, a] = T[SLAVE, a, 0] * arm[0] + T[SLAVE, a, 1] * arm[1] + T[SLAVE, a, 2] * arm[2]
+                for c in range(3):
+                    positions[i, a] += frame[c, a] * (end.frames[b].center[c] - offset[c])
+            low += reach[m] * interfaces[k].reach
+        positions[i, 2] += points[i].lift
+        if positions[i, 2] > low and not all_of_them and not (work.before[i].force[2] > 0 or end.contact[i].force[2] > 0):
+            continue
+        if work.before[i].force[2] <= 0:
+            locate_start(structure, points, i, start, work.poses[START], elastic, work.before, work.places[0])
+        find_elastic(structure, points, i, end, elastic, END)
+        find_position(structure, points, i, end, poses, elastic, END, positions[i])
 
 
 @njit
-def equilibrate(structure, base, scheme, work, start, free_center, free_modal, advance, rim_angle, end, counts):
+def equilibrate(structure, base, scheme, work, start, free_center, free_modal, advance, rims, end, counts):
     """Find forces and motion at the end of a step; the motion is exact for the forces at every iteration of `contact.problem`.
 
     Args:
         start: Motion at the start; work.points and work.before bring the first guess of the forces, and the anchors.
-        free_center, free_modal, advance: see `motion.follow`. rim_angle: of the first interface.
+        free_center, free_modal, advance: see `motion.follow`. rims: (ni,) of RIM at the end.
         end: gets center, rotation, modal coordinates, contact, static energy.
     Returns: a way to end.
     """
-    interface, points, before, problem, elastic = structure.interfaces[0], work.points, work.before, work.problem, work.elastic
+    interfaces, points, before, problem, elastic, poses = structure.interfaces, work.points, work.before, work.problem, work.elastic, work.poses
     carrying = 0
+    find_poses(interfaces, start.frames, start.rotation, poses[START])
     for i in range(len(points)):
         end.contact[i] = before[i]
         if before[i].force[2] > 0:
             problem.near[carrying] = i
             carrying += 1
     problem.count[0] = carrying
-    still = holds(work.stick, interface, rim_angle, scheme.half, points[0].arm[2], start.frames[0].center, start.rotation[0])
+    still = holds(work.stick, interfaces, rims, scheme.half, poses[START])
     put_matrix(advance, work.action.turn)
     for i in near_points(problem):
         find_elastic(structure, points, i, start, elastic, START)
+        if points[i].master != BASE:
+            find_position(structure, points, i, start, poses[START], elastic, START, work.places[0])
         for a in range(3):
-            elastic.point[END, i, a] = elastic.point[START, i, a]
-    begin_problem(problem, still, not still and stays(interface, start, free_center, advance))
+            elastic.point[END, i, a], elastic.seat[END, i, a] = elastic.point[START, i, a], elastic.seat[START, i, a]
+    begin_problem(problem, still, not still and stays(interfaces, poses[START], start, free_center, advance))
+    begin_frames(structure, start, free_center, advance, end, work.action)
     for iteration in range(ITERATIONS):
         counts[N_ITERATIONS] += 1
         follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action)
         find_positions(structure, work, start, end)
         if iteration == 0 or not problem.flags[STICKS_STILL]:
-            mark_close(problem, interface, work.positions, before, end.contact)
-        answer, residual = find_residual(problem, structure.bodies, base, points, interface, scheme.springs, scheme.dynamic, scheme.half, work.stick,
-                                         rim_angle, end.frames[0].center, end.rotation, work.positions, iteration == 0, before, end.contact, counts)
+            mark_close(problem, points, interfaces, work.positions, before, end.contact)
+        answer, residual = find_residual(problem, structure.bodies, base, points, interfaces, scheme.springs, scheme.dynamic, scheme.half, work.stick,
+                                         rims, poses[END], work.positions, iteration == 0, before, end.contact, counts)
         if answer != OK:
             return answer
         if residual <= 1.0:
-            end.whole[0].static = stored_energy(problem, points, interface, scheme.springs, before, end.contact)
+            end.whole[0].static = stored_energy(problem, points, interfaces, scheme.springs, before, end.contact)
             return OK
-        answer = find_forces(problem, points, interface, work.stick, end.contact, counts)
+        answer = find_forces(problem, points, interfaces, work.stick, end.contact, counts)
         if answer != OK:
             return answer
     return ITERATIONS_SPENT

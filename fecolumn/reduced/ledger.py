@@ -5,6 +5,7 @@ from __future__ import annotations
 from fecolumn._compiled import njit
 from fecolumn.contact.problem import near_points
 from fecolumn.contact.work import losses
+from fecolumn.reduced.links import end_links
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
 
 # Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS [J]
@@ -70,13 +71,15 @@ def book(structure, scheme, work, start, end, ledger):
             # with the rate that the damping meets, see dynamics.stepper
             rate = end.modal[b, RATE, k] - dt * al**2 / (4 * scheme.beta) * push
             damping -= (q1 - q0) * structure.damping[b, k] * (start.modal[b, RATE, k] + rate) / 2
-    contact = done - rolling + end.whole[0].static - start.whole[0].static
-    friction, landed, dashpots = losses(work.points, structure.interfaces[0], scheme.springs, near_points(work.problem), work.before, end.contact)
+    dashed, tied, lost = end_links(structure.links, end.frames, end.rotation, start.ties, end.ties, dt)
+    contact = done - rolling + end.whole[0].static + tied + lost - start.whole[0].static + dashed
+    end.whole[0].static += tied
+    friction, landed, dashpots = losses(work.points, structure.interfaces, scheme.springs, near_points(work.problem), work.before, end.contact)
     ledger[BASE] += moved_base
     ledger[FRICTION] += friction
     ledger[HIT] += landed
     ledger[CONTACT_WORK] += contact - friction - landed + dashpots
     ledger[ALGORITHMIC] += algorithmic - damping
-    ledger[DAMPING] += damping - dashpots
+    ledger[DAMPING] += damping - dashpots - dashed - lost
     ledger[ROLLING] += rolling
     return contact

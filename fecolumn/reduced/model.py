@@ -11,6 +11,7 @@ from fecolumn.contact.bodies import Bodies, node_matrix, one_body
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.pad import Springs, springs_of
 from fecolumn.contact.points import node_points
+from fecolumn.reduced.links import LINK
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class Structure(NamedTuple):
     pushes: (N, 3, m) F phi, by which contact forces drive modes and modes move the nodes. squares: (nb, m) w^2 [1/s2]; damping: (nb, m) [1/s]
     damping force on a mode over its rate, 2 zeta w.
     reach: (N,) [m/sqrt(J)] largest displacement of a node by modes that store the energy 1/2 J.
-    interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; points: (P,) of POINT at rest; gravity: (3,) [m/s2].
+    interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; links: (nl,) of LINK; gravity: (3,) [m/s2].
     """
 
     bodies: Bodies
@@ -67,6 +68,7 @@ class Structure(NamedTuple):
     reach: np.ndarray
     interfaces: np.ndarray
     rim: np.ndarray
+    links: np.ndarray
     gravity: np.ndarray
 
 
@@ -95,13 +97,13 @@ def structure_of(model: ColumnModel, hht, gravity, friction: float, law: np.ndar
     squares = model.frequencies**2
     shrink = 1 / (1 + squares * hht.stiffness_factor / hht.mass_factor)
     pushes = model.shapes * (2 * shrink - shrink**2)
-    static = node_matrix(model.flexibility) - _modal(pushes, 1 / squares)
-    bodies = one_body(model.arms, static, _modal(pushes, np.ones_like(squares)), float(model.mass), model.inertia)
+    static = node_matrix(model.flexibility) - modal_sum(pushes, 1 / squares)
+    bodies = one_body(model.arms, static, modal_sum(pushes, np.ones_like(squares)), float(model.mass), model.inertia)
     points = node_points(model.arms, friction, law, pad.stiffness if pad else None)
     reach = np.sqrt((pushes**2 / squares).sum(axis=(1, 2)))
     structure = Structure(bodies, pushes, squares[None], 2 * damping_ratio * model.frequencies[None], reach,
                           interface_of(model.arms, rim, restitution, rolling, pad),
-                          np.asarray(rim.nodes, np.int64) if rim else np.zeros(0, np.int64), np.array(gravity, float))
+                          np.asarray(rim.nodes, np.int64) if rim else np.zeros(0, np.int64), np.zeros(0, LINK), np.array(gravity, float))
     return structure, points
 
 
@@ -122,11 +124,11 @@ def _scheme(structure, points, dt, half, alpha, beta, gamma, stiffness) -> Schem
     dynamic = structure.bodies.static.copy()
     for body, factors in zip(structure.bodies.body, shrink):
         nodes = slice(body["first"], body["first"] + body["count"])
-        dynamic[3 * nodes.start:3 * nodes.stop, :3 * body["count"]] += half * _modal(structure.pushes[nodes], factors)
+        dynamic[3 * nodes.start:3 * nodes.stop, :3 * body["count"]] += half * modal_sum(structure.pushes[nodes], factors)
     return Scheme(dt, half, alpha, beta, gamma, shrink, dynamic, springs_of(points, structure.interfaces[0], dt))
 
 
-def _modal(shapes: np.ndarray, factors: np.ndarray) -> np.ndarray:
+def modal_sum(shapes: np.ndarray, factors: np.ndarray) -> np.ndarray:
     """Sum of factor phi phi^T over the modes, (3 n, 3 n)."""
     flat = shapes.reshape(3 * len(shapes), -1)
     return (flat * factors) @ flat.T

@@ -9,8 +9,9 @@ import numpy as np
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.interface import rims_at_rest
-from fecolumn.contact.points import CONTACT
+from fecolumn.contact.points import BASE, CONTACT
 from fecolumn.contact.record import record
+from fecolumn.reduced.links import TIE, pull, span
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
 from fecolumn.reduced.rotation import turn_by, turning
 
@@ -20,11 +21,15 @@ FRAME = record(("center", "f8", 3), ("velocity", "f8", 3), ("acceleration", "f8"
 #: What belongs to no body: time [s]; static: strain energy of base, static rest of the bodies, penalty springs and pad [J]; ground: acceleration [m/s2].
 WHOLE = record(("time", "f8"), ("static", "f8"), ("ground", "f8", 3))
 
+# Times that the motion under present forces is found anew, at most, and the change, over a turn of 1 or the largest force of a link, at which it is found
+SWEEPS, SETTLED = 30, 1e-14
+
+
 class Motion(NamedTuple):
     """State of a structure in the table frame; arrays, so that compiled code may change them.
 
     frames: (nb,) of FRAME; rotation: (nb, 3, 3) body to table; modal: (nb, 3, m) of unit modal mass; contact: (P,) of CONTACT; rims: (ni,) of RIM;
-    whole: (1,) of WHOLE.
+    ties: (nl,) of TIE; whole: (1,) of WHOLE.
     """
 
     frames: np.ndarray
@@ -32,6 +37,7 @@ class Motion(NamedTuple):
     modal: np.ndarray
     contact: np.ndarray
     rims: np.ndarray
+    ties: np.ndarray
     whole: np.ndarray
 
     @property
@@ -41,20 +47,20 @@ class Motion(NamedTuple):
 
     @property
     def forces(self) -> np.ndarray:
-        """Contact forces (P, 3) on the bodies [N]."""
+        """Contact forces (P, 3) on the slaves [N], in the frames of their interfaces."""
         return self.contact["force"]
 
 
-def at_rest(points: int, modes: int, bodies: int = 1, interfaces: int = 1) -> Motion:
+def at_rest(points: int, modes: int, bodies: int = 1, interfaces: int = 1, links: int = 0) -> Motion:
     """Zeros everywhere but for upright rotations."""
     return Motion(np.zeros(bodies, FRAME), np.tile(np.eye(3), (bodies, 1, 1)), np.zeros((bodies, 3, modes)), np.zeros(points, CONTACT),
-                  rims_at_rest(interfaces), np.zeros(1, WHOLE))
+                  rims_at_rest(interfaces), np.zeros(links, TIE), np.zeros(1, WHOLE))
 
 
 class Action(NamedTuple):
-    """What contact does to the bodies in a step, for the ledger: turn: (nb, 3) [rad] in a body's frame, moment: (nb, 3) [N m] there, conjugate to
+    """What contact and links do to the bodies in a step, for the ledger: turn: (nb, 3) [rad] in a body's frame, moment: (nb, 3) [N m] there, conjugate to
     the turn; push: (nb, 3) force [N]; modal: (nb, m) forces on the modes; halfway: (nb, 3, 3) rotation in the middle of the step; resistance: (nb, 3) part of
-    the moment by which a rim resists to roll."""
+    the moment by which a rim resists to roll; frames: (ni, 3, 3) of the interfaces in the middle of the step; pulls: (nl, 3) forces of the links on their ends a [N]."""
 
     turn: np.ndarray
     moment: np.ndarray
@@ -62,10 +68,13 @@ class Action(NamedTuple):
     modal: np.ndarray
     halfway: np.ndarray
     resistance: np.ndarray
+    frames: np.ndarray
+    pulls: np.ndarray
 
 
-def no_action(modes: int, bodies: int = 1) -> Action:
-    return Action(*(np.zeros((bodies, 3)) for _ in range(3)), np.zeros((bodies, modes)), np.zeros((bodies, 3, 3)), np.zeros((bodies, 3)))
+def no_action(modes: int, bodies: int = 1, interfaces: int = 1, links: int = 0) -> Action:
+    return Action(*(np.zeros((bodies, 3)) for _ in range(3)), np.zeros((bodies, modes)), np.zeros((bodies, 3, 3)), np.zeros((bodies, 3)),
+                  np.tile(np.eye(3), (interfaces, 1, 1)), np.zeros((links, 3)))
 
 
 @njit
@@ -77,6 +86,8 @@ def copy(source, target):
         target.contact[i] = source.contact[i]
     for k in range(len(source.rims)):
         target.rims[k] = source.rims[k]
+    for n in range(len(source.ties)):
+        target.ties[n] = source.ties[n]
     target.whole[0] = source.whole[0]
     for b in range(len(source.frames)):
         put_matrix(source.rotation[b], target.rotation[b])
@@ -84,8 +95,57 @@ def copy(source, target):
 
 
 @njit
+def begin_frames(structure, start, free_center, advance, end, action):
+    """First guess of what `follow` finds of frames that move and of links: bodies that are free."""
+    moving, part = len(structure.links) > 0, np.empty(3)
+    for k in range(len(structure.interfaces)):
+        moving |= structure.interfaces[k].master != BASE
+    if not moving:
+        return
+    for b in range(len(start.frames)):
+        for a in range(3):
+            part[a], end.frames[b].center[a] = advance[b, a] / 2, free_center[b, a]
+        turn_by(start.rotation[b], part, action.halfway[b])
+        turn_by(start.rotation[b], advance[b], end.rotation[b])
+
+
+@njit
+def _turn_frames(structure, action):
+    """Find the frames of the interfaces in the middle of the step; the largest change."""
+    change = 0.0
+    for k in range(len(structure.interfaces)):
+        b, axes = structure.interfaces[k].master, structure.interfaces[k].axes
+        if b == BASE:
+            continue
+        R = action.halfway[b]
+        for a in range(3):
+            for c in range(3):
+                value = R[a, 0] * axes[0, c] + R[a, 1] * axes[1, c] + R[a, 2] * axes[2, c]
+                change = max(change, abs(value - action.frames[k, a, c]))
+                action.frames[k, a, c] = value
+    return change
+
+
+@njit
+def _pull_links(structure, dt, start, end, action):
+    """Find the forces of the links; the largest change over the largest force."""
+    begin, way, force, change, largest = np.empty(3), np.empty(3), np.empty(3), 0.0, 0.0
+    for n in range(len(structure.links)):
+        link = structure.links[n]
+        span(link, start.frames, start.rotation, begin)
+        length = span(link, end.frames, end.rotation, way)
+        pull(link, start.ties[n], begin, way, length, dt, force)
+        for a in range(3):
+            change, largest = max(change, abs(force[a] - action.pulls[n, a])), max(largest, abs(force[a]))
+            action.pulls[n, a] = force[a]
+    return change / largest if largest > 0.0 else 0.0
+
+
+@njit
 def follow(structure, scheme, points, listed, start, free_center, free_modal, advance, elastic, end, action):
-    """Carry the bodies to the end of the step under the forces of `end` at the listed points (k,), which has all that carry.
+    """Carry the bodies to the end of the step under the forces of `end` at the listed points (k,), which has all that carry, and of the links.
+
+    Forces act along the frames that the interfaces have in the middle of the step, and links along their mean direction, which are found along with the motion.
 
     The elastic displacement of points that carry is the last one known at the END, a guess; end gets center, rotation and modal
     coordinates, action the conjugates.
@@ -93,84 +153,150 @@ def follow(structure, scheme, points, listed, start, free_center, free_modal, ad
     Args:
         free_center: (nb, 3), free_modal: (nb, m): the end of the step without contact. advance: (nb, 3) dt times the spins at the start.
     """
-    bodies = structure.bodies.body
-    for b in range(len(bodies)):
-        spread, arm = np.zeros((3, 3)), np.empty(3)
-        for a in range(3):
-            action.push[b, a] = 0.0
-        for i in listed:
-            if points[i].slave != b or end.contact[i].force[2] <= 0.0:
-                continue
-            for a in range(3):
-                arm[a] = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
-            for a in range(3):
-                for c in range(3):
-                    spread[a, c] += arm[a] * end.contact[i].force[c]
-                action.push[b, a] += end.contact[i].force[a]
-        for a in range(3):
-            end.frames[b].center[a] = free_center[b, a] + scheme.half * action.push[b, a] / bodies[b].mass
-        turning(bodies[b], advance[b], start.rotation[b], scheme.half, spread, action.resistance[b], action.turn[b], action.moment[b], action.halfway[b])
-        turn_by(start.rotation[b], action.turn[b], end.rotation[b])
-        modal_forces(structure, points, listed, b, action.halfway[b], end.contact, action.modal[b])
+    for sweep in range(SWEEPS):
+        change = max(_turn_frames(structure, action), _pull_links(structure, scheme.dt, start, end, action))
+        if sweep > 0 and change <= SETTLED:
+            break
+        _carry_bodies(structure, scheme, points, listed, start, free_center, advance, elastic, end, action)
+    for b in range(len(start.frames)):
+        modal_forces(structure, points, listed, b, action.halfway[b], action.frames, end.contact, action.modal[b])
         for k in range(free_modal.shape[1]):
             end.modal[b, COORDINATE, k] = scheme.shrink[b, k] * (free_modal[b, k] + scheme.half * action.modal[b, k])
     elastic.now[END] += 1
 
 
 @njit
-def modal_forces(structure, points, listed, b, rotation, contact, target):
-    """target (m,): what the forces of `contact` at the listed points (k,) do on the modes of body b turned by `rotation`."""
+def _carry_bodies(structure, scheme, points, listed, start, free_center, advance, elastic, end, action):
+    """`follow`, with frames and links where they are, without modes."""
+    bodies, force = structure.bodies.body, np.empty(3)
+    for b in range(len(bodies)):
+        spread, arm = np.zeros((3, 3)), np.empty(3)
+        for a in range(3):
+            action.push[b, a] = 0.0
+        for i in listed:
+            on, under = points[i].slave == b, points[i].master == b
+            if not (on or under) or end.contact[i].force[2] <= 0.0:
+                continue
+            _turned(action.frames, points[i], end.contact[i].force, force)
+            for a in range(3):
+                if on:
+                    arm[a] = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
+                else:
+                    arm[a], force[a] = (elastic.seat[START, i, a] + elastic.seat[END, i, a]) / 2, -force[a]
+            for a in range(3):
+                for c in range(3):
+                    spread[a, c] += arm[a] * force[c]
+                action.push[b, a] += force[a]
+        for n in range(len(structure.links)):
+            for side in range(2):
+                if (structure.links[n].b if side else structure.links[n].a) != b:
+                    continue
+                ends = structure.links[n].arm_b if side else structure.links[n].arm_a
+                for c in range(3):
+                    value = -action.pulls[n, c] if side else action.pulls[n, c]
+                    for a in range(3):
+                        spread[a, c] += ends[a] * value
+                    action.push[b, c] += value
+        for a in range(3):
+            end.frames[b].center[a] = free_center[b, a] + scheme.half * action.push[b, a] / bodies[b].mass
+        turning(bodies[b], advance[b], start.rotation[b], scheme.half, spread, action.resistance[b], action.turn[b], action.moment[b], action.halfway[b])
+        turn_by(start.rotation[b], action.turn[b], end.rotation[b])
+
+
+@njit
+def _turned(frames, point, force, target):
+    """target (3,): the force (3,) on the slave of a point, in the table frame."""
+    if point.master == BASE:
+        for a in range(3):
+            target[a] = force[a]
+        return
+    Q = frames[point.interface]
+    for a in range(3):
+        target[a] = Q[a, 0] * force[0] + Q[a, 1] * force[1] + Q[a, 2] * force[2]
+
+
+@njit
+def modal_forces(structure, points, listed, b, rotation, frames, contact, target):
+    """target (m,): what the forces of `contact` at the listed points (k,) do on the modes of body b turned by `rotation`; frames: (ni, 3, 3) of the interfaces."""
     target[:] = 0.0
     if len(target) == 0:
         return
+    force = np.empty(3)
     if 2 * len(listed) <= len(points):
         for i in listed:
-            if points[i].slave == b and contact[i].force[2] > 0.0:
-                _add_modal(structure.pushes, points[i], rotation, contact[i].force[0], contact[i].force[1], contact[i].force[2], target)
+            if contact[i].force[2] <= 0.0:
+                continue
+            if points[i].slave == b:
+                _turned(frames, points[i], contact[i].force, force)
+                _add_modal(structure.pushes, points[i].carriers, points[i].weights, points[i].count, rotation, force[0], force[1], force[2], target)
+            elif points[i].master == b:
+                _turned(frames, points[i], contact[i].force, force)
+                _add_modal(structure.pushes, points[i].below, points[i].shares, 3, rotation, -force[0], -force[1], -force[2], target)
         return
     # of a whole foot: forces on its nodes first, then one product
     first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
     nodal, flat = np.zeros(3 * count), structure.pushes.reshape(3 * len(structure.pushes), len(target))
     for i in listed:
-        r0, r1, r2 = contact[i].force[0], contact[i].force[1], contact[i].force[2]
-        if points[i].slave == b and r2 > 0.0:
-            for a in range(3):
-                along = rotation[0, a] * r0 + rotation[1, a] * r1 + rotation[2, a] * r2
+        on = points[i].slave == b
+        if contact[i].force[2] <= 0.0 or not (on or points[i].master == b):
+            continue
+        _turned(frames, points[i], contact[i].force, force)
+        for a in range(3):
+            along = rotation[0, a] * force[0] + rotation[1, a] * force[1] + rotation[2, a] * force[2]
+            if on:
                 for q in range(points[i].count):
                     nodal[3 * (points[i].carriers[q] - first) + a] += points[i].weights[q] * along
+            else:
+                for q in range(3):
+                    nodal[3 * (points[i].below[q] - first) + a] -= points[i].shares[q] * along
     put(nodal @ flat[3 * first:3 * (first + count)], target)
 
 
 @njit
-def _add_modal(pushes, point, rotation, x, y, z, target):
-    """Add to target (m,) what the force (x, y, z) at a point of POINT does on the modes."""
+def _add_modal(pushes, nodes, shares, count, rotation, x, y, z, target):
+    """Add to target (m,) what the force (x, y, z) does on the modes whose `count` nodes bear their shares of it."""
     for a in range(3):
         along = rotation[0, a] * x + rotation[1, a] * y + rotation[2, a] * z
-        for q in range(point.count):
-            share, push = point.weights[q] * along, pushes[point.carriers[q], a]
+        for q in range(count):
+            share, push = shares[q] * along, pushes[nodes[q], a]
             for k in range(len(target)):
                 target[k] += share * push[k]
 
 
 @njit
-def push_bodies(structure, scheme, points, arms, impulses, motion):
-    """Velocity jump by impulses (P, 3) [N s] at the points with `arms` (P, 3) [m]."""
-    jump = np.empty(motion.modal.shape[2])
+def push_bodies(structure, scheme, points, arms, poses, impulses, motion):
+    """Velocity jump by impulses (P, 3) [N s] on the slaves at the points with `arms` (P, 3) [m], in the frames of their interfaces, and by the opposite on the masters."""
+    jump, arm, pushed = np.empty(motion.modal.shape[2]), np.empty(3), np.empty(3)
     for b in range(len(motion.frames)):
         body, R, moment = structure.bodies.body[b], motion.rotation[b], np.zeros(3)
         jump[:] = 0.0
         for i in range(len(points)):
-            p0, p1, p2 = impulses[i, 0], impulses[i, 1], impulses[i, 2]
-            if points[i].slave != b or p0 == 0.0 and p1 == 0.0 and p2 == 0.0:
+            p0, p1, p2, on = impulses[i, 0], impulses[i, 1], impulses[i, 2], points[i].slave == b
+            if not (on or points[i].master == b) or p0 == 0.0 and p1 == 0.0 and p2 == 0.0:
                 continue
+            if points[i].master != BASE:
+                Q = poses[points[i].interface].frame
+                for a in range(3):
+                    pushed[a] = Q[a, 0] * p0 + Q[a, 1] * p1 + Q[a, 2] * p2
+                p0, p1, p2 = pushed[0], pushed[1], pushed[2]
+            if not on:
+                p0, p1, p2 = -p0, -p1, -p2
+            motion.frames[b].velocity[0] += p0 / body.mass
+            motion.frames[b].velocity[1] += p1 / body.mass
+            motion.frames[b].velocity[2] += p2 / body.mass
             for a in range(3):
-                motion.frames[b].velocity[a] += impulses[i, a] / body.mass
+                arm[a] = arms[i, a] if on else points[i].seat[a]
             b0, b1, b2 = (R[0, 0] * p0 + R[1, 0] * p1 + R[2, 0] * p2, R[0, 1] * p0 + R[1, 1] * p1 + R[2, 1] * p2,
                           R[0, 2] * p0 + R[1, 2] * p1 + R[2, 2] * p2)
-            moment[0] += arms[i, 1] * b2 - arms[i, 2] * b1
-            moment[1] += arms[i, 2] * b0 - arms[i, 0] * b2
-            moment[2] += arms[i, 0] * b1 - arms[i, 1] * b0
-            _add_modal(structure.pushes, points[i], R, p0, p1, p2, jump)
+            moment[0] += arm[1] * b2 - arm[2] * b1
+            moment[1] += arm[2] * b0 - arm[0] * b2
+            moment[2] += arm[0] * b1 - arm[1] * b0
+            if len(jump) == 0:
+                continue
+            if on:
+                _add_modal(structure.pushes, points[i].carriers, points[i].weights, points[i].count, R, p0, p1, p2, jump)
+            else:
+                _add_modal(structure.pushes, points[i].below, points[i].shares, 3, R, p0, p1, p2, jump)
         J = body.inverse_inertia
         for a in range(3):
             motion.frames[b].spin[a] += J[a, 0] * moment[0] + J[a, 1] * moment[1] + J[a, 2] * moment[2]

@@ -7,10 +7,14 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn._compiled import njit
+from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import SLAVE
+from fecolumn.contact.record import record
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.dynamics.overturning import STANDS, Stance, fallen, stance
+from fecolumn.dynamics.overturning import CAPPED, NO_RETURN, STANDS, Stance, fallen, stance
 from fecolumn.reduced.ledger import kinetic, strain, weight_energy
 from fecolumn.reduced.elastic import COORDINATE
+from fecolumn.reduced.pose import find_poses
 
 #: Columns of a row: name in the history file and how many numbers.
 COLUMNS = (("time", 1), ("u_top", 3), ("tilt", 1), ("twist", 1), ("slide", 2), ("contact_force", 3), ("active_nodes", 1), ("penetration", 1),
@@ -20,53 +24,73 @@ WIDTH = sum(count for _, count in COLUMNS)
 ENERGY = WIDTH - len(TERMS)
 
 
+#: A point of a body that is watched: arm: (3,) from its centre of mass in its frame [m].
+MARK = record(("body", "i8"), ("arm", "f8", 3))
+#: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its centre of mass [m] and tilt [rad]; of each interface tilt of
+#: the slave from the master [rad], rise of the middle of its foot and its slide along two tangents [m], normal force [N]; of each mark its displacement [m].
+OF_BODY, OF_INTERFACE, OF_MARK = (("displacement", 3), ("tilt", 1)), (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)), (("displacement", 3),)
+
+
 class View(NamedTuple):
-    """What is watched of the first body: center: (nb, 3) of mass in the reference configuration; top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape
-    (3, m): means over top and foot; stance: when it is lost."""
+    """What is watched: center: (nb, 3) of mass in the reference configuration; body: the one of which top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape
+    (3, m) are means over top and foot; stance: when it is lost, if it stands alone. limits: (nb,) tilts [rad] at which a body of many is lost, none for one
+    alone. feet: (ni, 3) of the interfaces in the reference configuration [m]; marks: (nm,) of MARK, their shapes (nm, 3, m)."""
 
     center: np.ndarray
+    body: int
     top_arm: np.ndarray
     top_shape: np.ndarray
     foot_arm: np.ndarray
     foot_shape: np.ndarray
     stance: Stance
+    limits: np.ndarray
+    feet: np.ndarray
+    marks: np.ndarray
+    shapes: np.ndarray
+
+    @property
+    def width(self) -> int:
+        """Numbers in a row."""
+        return WIDTH if not len(self.limits) else WIDTH + 4 * len(self.center) + 5 * len(self.feet) + 3 * len(self.marks)
 
 
 def view(model, weight: float, friction: float, cap: float = 0.0) -> View:
     """The view of a ColumnModel of a weight [N] on a base of a coefficient of friction; cap as of `overturning.stance`."""
     share = model.areas / model.areas.sum()
-    return View(np.array(model.center, float)[None], model.top_arm, np.ascontiguousarray(model.top_shape), share @ model.arms,
-                np.einsum("i,iam->am", share, model.shapes), stance(model.arms, model.inertia, weight, friction, cap))
+    return View(np.array(model.center, float)[None], 0, model.top_arm, np.ascontiguousarray(model.top_shape), share @ model.arms,
+                np.einsum("i,iam->am", share, model.shapes), stance(model.arms, model.inertia, weight, friction, cap),
+                np.zeros(0), np.zeros((0, 3)), np.zeros(0, MARK), np.zeros((0, 3, 0)))
 
 
 @njit
-def _displace(arm, shape, center, motion, axes, row, place):
-    """Put the displacement along the first `axes` of a point of the first body from `place` on in the row."""
+def _displace(b, arm, shape, center, motion, axes, row, place):
+    """Put the displacement along the first `axes` of a point of body b from `place` on in the row."""
     for axis in range(axes):
-        row[place + axis] = motion.frames[0].center[axis] - center[0, axis] - arm[axis]
+        row[place + axis] = motion.frames[b].center[axis] - center[b, axis] - arm[axis]
     for a in range(3):
         local = arm[a]
-        for k in range(motion.modal.shape[2]):
-            local += shape[a, k] * motion.modal[0, COORDINATE, k]
+        for k in range(shape.shape[1]):
+            local += shape[a, k] * motion.modal[b, COORDINATE, k]
         for axis in range(axes):
-            row[place + axis] += motion.rotation[0, axis, a] * local
+            row[place + axis] += motion.rotation[b, axis, a] * local
 
 
 @njit
-def observe(structure, eye, motion, ledger, iterations, row):
-    """Fill a row (WIDTH,)."""
-    R, contact = motion.rotation[0], motion.contact
+def observe(structure, points, poses, eye, motion, ledger, iterations, row):
+    """Fill a row (eye.width,); points: (P,) of POINT, poses: room for (ni,) of POSE."""
+    R, contact = motion.rotation[eye.body], motion.contact
     row[:] = 0.0
     row[0] = motion.whole[0].time
-    _displace(eye.top_arm, eye.top_shape, eye.center, motion, 3, row, 1)
+    _displace(eye.body, eye.top_arm, eye.top_shape, eye.center, motion, 3, row, 1)
     row[4] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
     row[5] = np.arctan2(R[1, 0] - R[0, 1], R[0, 0] + R[1, 1])
-    _displace(eye.foot_arm, eye.foot_shape, eye.center, motion, 2, row, 6)
+    _displace(eye.body, eye.foot_arm, eye.foot_shape, eye.center, motion, 2, row, 6)
     for i in range(len(contact)):
         if contact[i].force[2] > 0:
             row[11] += 1
-            for a in range(3):
-                row[8 + a] += contact[i].force[a]
+            if structure.interfaces[points[i].interface].master == BASE:
+                for a in range(3):
+                    row[8 + a] += contact[i].force[a]
         if contact[i].located:
             row[12] = max(row[12], -contact[i].relative[2])
     for a in range(3):
@@ -79,12 +103,46 @@ def observe(structure, eye, motion, ledger, iterations, row):
         if k:
             row[19 + k] = ledger[k]
     row[WIDTH - 1] = closure
+    if len(eye.limits):
+        _observe_all(structure, points, poses, eye, motion, row)
+
+
+@njit
+def _observe_all(structure, points, poses, eye, motion, row):
+    """Fill what a row has of bodies, interfaces and marks."""
+    place = WIDTH
+    for b in range(len(motion.frames)):
+        R = motion.rotation[b]
+        for a in range(3):
+            row[place + a] = motion.frames[b].center[a] - eye.center[b, a]
+        row[place + 3] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
+        place += 4
+    find_poses(structure.interfaces, motion.frames, motion.rotation, poses)
+    first = place
+    for k in range(len(structure.interfaces)):
+        T, foot = poses[k].turned, poses[k].foot
+        # of a slave that is drawn upside down the same
+        row[place] = np.arctan2(np.hypot(T[SLAVE, 2, 0], T[SLAVE, 2, 1]), abs(T[SLAVE, 2, 2]))
+        row[place + 1] = foot[2] - eye.feet[k, 2]
+        row[place + 2], row[place + 3] = foot[0] - eye.feet[k, 0], foot[1] - eye.feet[k, 1]
+        place += 5
+    for i in range(len(points)):
+        if motion.contact[i].force[2] > 0:
+            row[first + 5 * points[i].interface + 4] += motion.contact[i].force[2]
+    for n in range(len(eye.marks)):
+        _displace(eye.marks[n].body, eye.marks[n].arm, eye.shapes[n], eye.center, motion, 3, row, place)
+        place += 3
 
 
 @njit
 def lost(eye, motion, row, steepest):
     """As `overturning.fallen`, of a motion and its row."""
     top = np.hypot(row[1], row[2])
+    if len(eye.limits):
+        for b in range(len(eye.limits)):
+            if row[WIDTH + 4 * b + 3] > eye.limits[b]:
+                return NO_RETURN
+        return CAPPED if top >= eye.stance.cap else STANDS
     # what is short of both its cap and its critical tilt stands: most steps, at no cost
     if top < eye.stance.cap and row[4] <= eye.stance.critical:
         return STANDS

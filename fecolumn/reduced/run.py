@@ -6,6 +6,7 @@ import numpy as np
 
 from fecolumn._compiled import compile_for, interpreted, njit
 from fecolumn.contact.arrays import put, put_matrix
+from fecolumn.contact.points import BASE
 from fecolumn.contact.projection import base_for_steps
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
@@ -25,14 +26,16 @@ from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import PARTS
 from fecolumn.dynamics.cuts import Stop, StepFailed, in_halves
 from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.overturning import STANDS, fallen, steepest_to_come
+from fecolumn.dynamics.overturning import STANDS, steepest_to_come
 from fecolumn.dynamics.record import Record
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.equilibrium import equilibrate, work_of
 from fecolumn.reduced.ledger import N_PLACES
+from fecolumn.reduced.links import end_links, span
 from fecolumn.reduced.model import scheme, structure_of
 from fecolumn.reduced.elastic import COORDINATE, END, START
-from fecolumn.reduced.observe import ENERGY, WIDTH, lost, observe
+from fecolumn.reduced.observe import ENERGY, lost, observe
+from fecolumn.reduced.pose import frames_at, poses_of
 from fecolumn.reduced.step import step
 
 # step lengths from a whole step to its smallest part
@@ -54,11 +57,27 @@ def to_make_at_once(structure, motion, dt, done):
     part = PARTS
     for k in range(len(structure.interfaces)):
         if structure.interfaces[k].rim_count > 0:
-            b = structure.interfaces[k].slave
-            R, spin = motion.rotation[b], motion.frames[b].spin
-            u, v = R[2, 2] * spin[1] - R[2, 1] * spin[2], R[2, 0] * spin[2] - R[2, 2] * spin[0]
-            part = min(part, part_of_step(-R[2, 0], -R[2, 1], u, v, dt, done))
+            x, y, u, v = way_down(structure.interfaces[k], motion)
+            part = min(part, part_of_step(x, y, u, v, dt, done))
     return part
+
+
+@njit
+def way_down(interface, motion):
+    """Way down to the master's surface along the slave's axes x and y, and its rate [1/s]."""
+    b, m, axes = interface.slave, interface.master, interface.axes
+    R, spin, normal, rate = motion.rotation[b], motion.frames[b].spin, np.empty(3), np.empty(3)
+    for a in range(3):
+        normal[a], rate[a] = R[2, a], spin[a]
+    if m != BASE:
+        M, other = motion.rotation[m], motion.frames[m].spin
+        for a in range(3):
+            normal[a] = 0.0
+            for c in range(3):
+                up = M[c, 0] * axes[0, 2] + M[c, 1] * axes[1, 2] + M[c, 2] * axes[2, 2]
+                normal[a] += up * R[c, a]
+                rate[a] -= R[c, a] * (M[c, 0] * other[0] + M[c, 1] * other[1] + M[c, 2] * other[2])
+    return -normal[0], -normal[1], normal[2] * rate[1] - normal[1] * rate[2], normal[0] * rate[2] - normal[2] * rate[0]
 
 
 @njit
@@ -74,7 +93,7 @@ def begin_anew(elastic):
 
 @njit
 def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, steepest, rest, rows, ledger, counts):
-    """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, WIDTH) are filled.
+    """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, eye.width) are filled.
 
     schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are still to be made, for which ROLLS_FAST asks. kept: room for
     a Motion. steepest: (k,) as of `overturning.fallen` after each step. rest: mechanical energy [J] at which the column is at rest; -inf not to ask.
@@ -86,14 +105,14 @@ def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, s
     elastic.now[START] += 1
     if len(grounds) == 0:
         if len(rows):
-            observe(structure, eye, motion, ledger, 0, rows[0])
+            observe(structure, work.points, work.poses[END], eye, motion, ledger, 0, rows[0])
             return 0, OK
         fall, still, bent = np.empty((bodies, 3)), np.zeros((bodies, 3)), np.empty((bodies, motion.modal.shape[2]))
         for b in range(bodies):
             put(motion.modal[b, COORDINATE], bent[b])
             for a in range(3):
                 fall[b, a] = motion.frames[b].center[a] + scheme.half * structure.gravity[a]
-        return 0, equilibrate(structure, base, scheme, work, motion, fall, bent, still, np.nan, spare, counts)
+        return 0, settled(structure, base, scheme, work, motion, fall, bent, still, spare, counts)
     booked, now, then, swapped, made, answer, target = ledger.copy(), motion, spare, False, 0, OK, np.empty(3)
     for k in range(len(grounds)):
         before = counts[N_ITERATIONS]
@@ -126,7 +145,7 @@ def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, s
                 elastic.now[START] += 1
             break
         now.whole[0].time = now.whole[0].time if part == PARTS else kept.whole[0].time + scheme.dt
-        observe(structure, eye, now, ledger, counts[N_ITERATIONS] - before, rows[made])
+        observe(structure, work.points, work.poses[END], eye, now, ledger, counts[N_ITERATIONS] - before, rows[made])
         made += 1
         if ended(eye, now, rows[made - 1], steepest[k], rest):
             answer = ENDED
@@ -145,25 +164,43 @@ def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, s
     return made, answer
 
 
+@njit
+def settled(structure, base, scheme, work, motion, fall, bent, still, spare, counts):
+    """A proximal step towards equilibrium: a way to end. The seats of points and the links are brought along, which a step does elsewhere."""
+    answer = equilibrate(structure, base, scheme, work, motion, fall, bent, still, motion.rims, spare, counts)
+    if answer == OK:
+        spare.whole[0].static += end_links(structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt)[1]
+    return answer
+
+
+def column_engine(model, base, eye, hht: HHT, start, gravity, max_cuts: int = 4, damping_ratio: float = 0.0, **laws) -> Engine:
+    """The Engine of a column: model: ColumnModel; gravity, damping_ratio, laws: as of `model.structure_of`."""
+
+    def build(hht):
+        return structure_of(model, hht, gravity, damping_ratio=damping_ratio, **laws)
+
+    return Engine(build, base, eye, hht, start, max_cuts, model)
+
+
 class Engine:
-    """A reduced column on its base, its motion and its ledger.
+    """Reduced bodies on their base, their motion and their ledger.
 
     Args:
-        model: ColumnModel.
+        build: function of an HHT that returns Structure and points, see `model.structure_of` and `structure.structure_of`.
         base: BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
         eye: View.
         hht: HHT.
         start: function of the engine that returns the first Motion; see `reduced.start`.
-        gravity, damping_ratio, laws: as of `model.structure_of`.
+        model: what `start` needs of the bodies.
     """
 
-    def __init__(self, model, base, eye, hht: HHT, start, gravity, max_cuts: int = 4, damping_ratio: float = 0.0, **laws):
+    def __init__(self, build, base, eye, hht: HHT, start, max_cuts: int = 4, model=None):
         self.model, self.base, self.eye, self.hht, self.max_cuts = model, base, eye, hht, max_cuts
-        self.structure, self.points = structure_of(model, hht, gravity, damping_ratio=damping_ratio, **laws)
+        self.structure, self.points = build(hht)
         self.work, self.spare, self.kept = work_of(self.structure, self.points), self.motion_at_rest(), self.motion_at_rest()
         self._schemes = {}
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
-        self.base.need(base.grid.around(model.reference, 0))
+        self.base.need(base.grid.around(self.ground_places(eye.center, np.tile(np.eye(3), (len(eye.center), 1, 1))), 0))
         self.surface = base_for_steps(base)
         compile_for(advance, self._arguments(self._schemes_of(hht), self.spare, self.spare))
         self.motion = start(self)
@@ -171,13 +208,32 @@ class Engine:
 
     def motion_at_rest(self) -> motions.Motion:
         """A Motion with zeros."""
-        return motions.at_rest(len(self.points), self.structure.squares.shape[1])
+        structure = self.structure
+        return motions.at_rest(len(self.points), structure.squares.shape[1], len(structure.squares), len(structure.interfaces), len(structure.links))
+
+    def ground_places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Places (k, 3) [m] of the nodes that may touch the base, of bodies with centres of mass (nb, 3) turned by (nb, 3, 3)."""
+        points = self.points[self.points["master"] == BASE]
+        arms = self.structure.bodies.arms[points["node"]]
+        return centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
+
+    def places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Places (P, 3) [m] of the points' nodes in the frames of their interfaces, of bodies with centres of mass (nb, 3) turned by (nb, 3, 3)."""
+        points, poses = self.points, poses_of(self.structure.interfaces, centers, rotations)[self.points["interface"]]
+        table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], self.structure.bodies.arms[points["node"]])
+        return np.einsum("pba,pb->pa", poses["frame"], table - poses["origin"])
+
+    def link_lengths(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Lengths (nl,) [m] of the links; arguments as of `places`."""
+        frames = frames_at(centers)
+        return np.array([interpreted(span)(link, frames, rotations, np.empty(3)) for link in self.structure.links])
 
     def settle(self, scheme, motion, end) -> int:
         """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way to end."""
         return advance(*self._arguments((scheme,) * LENGTHS, motion, end))[1]
 
-    def _arguments(self, schemes, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=-np.inf, rows=np.empty((0, WIDTH))) -> tuple:
+    def _arguments(self, schemes, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=-np.inf, rows=None) -> tuple:
+        rows = np.empty((0, self.eye.width)) if rows is None else rows
         return (self.structure, self.surface, schemes, self.work, self.eye, motion, spare, self.kept, grounds, steepest, rest, rows, self.ledger, self.counts)
 
     @property
@@ -186,8 +242,8 @@ class Engine:
         return Record(*self.counts[:5].tolist())
 
     def row(self) -> np.ndarray:
-        """The present row (WIDTH,) of the history."""
-        row = np.empty((1, WIDTH))
+        """The present row (eye.width,) of the history."""
+        row = np.empty((1, self.eye.width))
         advance(*self._arguments(self._schemes_of(self.hht), self.motion, self.spare, rows=row))
         return row[0]
 
@@ -197,11 +253,10 @@ class Engine:
 
     def fallen(self, steepest: float) -> int:
         """As `overturning.fallen`, now; steepest: tangent of the steepest inclination of apparent gravity to come."""
-        row, motion = self.row(), self.motion
-        return interpreted(fallen)(self.eye.stance, motion.rotation[0], motion.frames["spin"][0], row[8:11], float(np.hypot(row[1], row[2])), steepest)
+        return interpreted(lost)(self.eye, self.motion, self.row(), steepest)
 
     def advance(self, grounds: np.ndarray, steepest: np.ndarray | None = None, rest: float = -np.inf) -> tuple[np.ndarray, bool]:
-        """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k', WIDTH) and whether the column is lost or at rest.
+        """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k', eye.width) and whether the column is lost or at rest.
 
         Args:
             grounds: (k, 3).
@@ -216,7 +271,7 @@ class Engine:
         if not np.isfinite(grounds).all():
             raise ValueError("a ground acceleration is not a finite number")
         steepest = steepest_to_come(self.structure.gravity, grounds) if steepest is None else np.asarray(steepest, float)
-        rows = np.empty((len(grounds), WIDTH))
+        rows = np.empty((len(grounds), self.eye.width))
         self.made = rows[:0]
         while done < len(grounds):
             made, answer = self._steps(self.hht, grounds[done:], rows[done:], steepest[done:], rest)
@@ -246,7 +301,7 @@ class Engine:
 
     def _cut(self, ground, answer) -> None:
         """The step that failed with `answer`, in two halves and these in halves as far as it needs; nothing has changed where it fails."""
-        saved, booked, row = self.motion_at_rest(), self.ledger.copy(), np.empty((1, WIDTH))
+        saved, booked, row = self.motion_at_rest(), self.ledger.copy(), np.empty((1, self.eye.width))
         motions.copy(self.motion, saved)
 
         def take(_, target, hht):
@@ -276,5 +331,5 @@ class Engine:
 
     def extend_base(self, motion) -> None:
         """Make the base's compliance known under the foot and two rows of its nodes around."""
-        self.base.need(self.base.grid.around(motion.frames["center"][0] + self.model.arms @ motion.rotation[0].T, 2))
+        self.base.need(self.base.grid.around(self.ground_places(motion.frames["center"], motion.rotation), 2))
         self.surface = base_for_steps(self.base)

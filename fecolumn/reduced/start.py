@@ -17,11 +17,15 @@ def standing(engine) -> motions.Motion:
     Raises:
         NoEquilibrium: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
-    structure, model, work = engine.structure, engine.model, engine.work
-    start, end = engine.motion_at_rest(), engine.motion_at_rest()
-    start.frames["center"], start.contact["anchor"] = model.center, model.reference[:, :2]
-    depth = -model.arms[:, 2].mean()
-    resting = resting_scheme(structure, engine.points, pseudo_inertia(engine.eye.stance.weight, depth, model.inertia))
+    structure, work, centers = engine.structure, engine.work, engine.eye.center
+    bodies, start, end = structure.bodies.body, engine.motion_at_rest(), engine.motion_at_rest()
+    start.frames["center"] = centers
+    start.contact["anchor"] = engine.places(centers, start.rotation)[:, :2]
+    start.ties["length"] = engine.link_lengths(centers, start.rotation)
+    weight = bodies["mass"].sum() * np.linalg.norm(structure.gravity)
+    arms = [structure.bodies.arms[body["first"]:body["first"] + body["count"]] for body in bodies]
+    firmness = max(pseudo_inertia(weight, np.abs(arm[:, 2]).max(), body["inertia"]) for body, arm in zip(bodies, arms))
+    resting = resting_scheme(structure, engine.points, firmness)
 
     def proximal_step():
         work.before[:] = start.contact
@@ -29,16 +33,16 @@ def standing(engine) -> motions.Motion:
             engine.extend_base(end)
         if answer != OK:
             raise NoEquilibrium("gravity equilibrium: contact does not converge")
-        moved = max(np.abs(end.frames["center"] - start.frames["center"]).max(), np.abs(work.action.turn).max() * np.abs(model.center).max(),
+        moved = max(np.abs(end.frames["center"] - start.frames["center"]).max(), np.abs(work.action.turn).max() * np.abs(centers).max(),
                     np.abs(work.elastic.point[1] - work.elastic.point[0]).max())
         end.contact["anchor"] = start.contact["anchor"]
         motions.copy(end, start)
         return moved
 
-    iterate_to_rest(proximal_step, 2 * depth)
+    iterate_to_rest(proximal_step, 2 * centers[:, 2].max())
     engine.counts[:] = 0
-    start.frames["acceleration"] = -start.forces.sum(axis=0) / model.mass
-    start.modal[0, ACCELERATION] = -structure.squares[0] * start.modal[0, COORDINATE]
+    start.frames["acceleration"] = -work.action.push / bodies["mass"][:, None]
+    start.modal[:, ACCELERATION] = -structure.squares * start.modal[:, COORDINATE]
     return start
 
 
@@ -47,9 +51,31 @@ def tilted(engine, tilt: float, direction: float) -> motions.Motion:
     structure, model, motion = engine.structure, engine.model, engine.motion_at_rest()
     turn, pivot, lift = leaning(model.reference, structure.interfaces["rim_count"][0] > 0, tilt, direction)
     motion.frames["center"], motion.rotation[:] = turn @ (model.center - pivot) + pivot + [0.0, 0.0, lift], turn
-    motion.frames["acceleration"] = structure.gravity
-    motion.contact["relative"] = motion.frames["center"] + model.arms @ turn.T
+    return unstrained(engine, motion)
+
+
+def unstrained(engine, motion) -> motions.Motion:
+    """A motion of which the places of the bodies are known: they fall freely from there."""
+    motion.frames["acceleration"] = engine.structure.gravity
+    motion.contact["relative"] = engine.places(motion.frames["center"], motion.rotation)
     motion.contact["anchor"], motion.contact["located"] = motion.contact["relative"][:, :2], True
+    motion.ties["length"] = engine.link_lengths(motion.frames["center"], motion.rotation)
+    return motion
+
+
+def of_parts(engine, parts, stands: bool) -> motions.Motion:
+    """The motion that the parts of a StructureModel begin with.
+
+    stands: whether they come from gravity equilibrium; else they are unstrained where the parts say.
+    """
+    if stands:
+        motion = standing(engine)
+    else:
+        motion = engine.motion_at_rest()
+        motion.frames["center"], motion.rotation[:] = [part.center for part in parts], [part.rotation for part in parts]
+        unstrained(engine, motion)
+    motion.frames["velocity"] = [part.velocity for part in parts]
+    motion.frames["spin"] = [rotation.T @ part.spin for rotation, part in zip(motion.rotation, parts)]
     return motion
 
 

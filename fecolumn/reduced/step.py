@@ -6,6 +6,7 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
+from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, touched, what_happens
 from fecolumn.contact.problem import N_IMPACTS, OK, near_points
 from fecolumn.contact.rolling import mark_rolling, plan_roll, roll_points, rolling_moment, stay
@@ -15,6 +16,7 @@ from fecolumn.reduced.equilibrium import equilibrate
 from fecolumn.reduced.ledger import FRICTION, HIT, book, kinetic
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START, find_elastic, find_places, find_velocity
 from fecolumn.reduced.motion import push_bodies
+from fecolumn.reduced.pose import find_poses
 from fecolumn.reduced.rotation import orthonormal, turn_by
 
 
@@ -24,17 +26,19 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
 
     Returns: a way to end, OK or the reason why not; then `start` is unharmed and `ledger` is not to be used.
     """
-    booked, interface = ledger.copy(), structure.interfaces[0]
+    booked, interfaces, weight = ledger.copy(), structure.interfaces, 0.0
     rolled = place_points_of_step(structure, scheme.dt, work, start, end, True)
     answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
-    weight = structure.bodies.body[0].mass * np.sqrt(structure.gravity[0] ** 2 + structure.gravity[1] ** 2 + structure.gravity[2] ** 2)
-    if answer == OK and rolled and contact_work > CREATED * weight * interface.width:
+    for b in range(len(start.frames)):
+        weight += structure.bodies.body[b].mass
+    weight *= np.sqrt(structure.gravity[0] ** 2 + structure.gravity[1] ** 2 + structure.gravity[2] ** 2)
+    if answer == OK and rolled and contact_work > CREATED * weight * interfaces[0].width:
         # several points of the rim carry while it rolls fast: they stay for this step. No recursion: numba cannot load it from its cache
         put(booked, ledger)
         place_points_of_step(structure, scheme.dt, work, start, end, False)
         answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
     # the springs of a pad bring a landing foot to rest in their own time: there is no impact
-    if answer == OK and not interface.on_pad:
+    if answer == OK and not interfaces[0].on_pad:
         answer = _collide(structure, base, scheme, work, start, end, contact_work, ledger, counts)
     return answer
 
@@ -42,7 +46,14 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
 @njit
 def place_points_of_step(structure, dt, work, start, end, allowed):
     """Place the points of a step, and bring what they carry to them; end gets the state of the rims. Returns: whether any rim rolled."""
-    points, rolled, halfway, part = work.points, False, np.empty((3, 3)), np.empty(3)
+    points, rolled, part, halfway, poses = work.points, False, np.empty(3), work.action.halfway, work.poses
+    find_poses(structure.interfaces, start.frames, start.rotation, poses[START])
+    for b in range(len(start.frames)):
+        for a in range(3):
+            part[a] = dt / 2 * start.frames[b].spin[a]
+        turn_by(start.rotation[b], part, halfway[b])
+    # turned alone: where the bodies go does not matter here
+    find_poses(structure.interfaces, start.frames, halfway, poses[END])
     for i in range(len(points)):
         work.before[i] = start.contact[i]
     for k in range(len(structure.interfaces)):
@@ -50,15 +61,12 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
         n, first = structure.interfaces[k].rim_count, structure.interfaces[k].rim_first
         if n == 0:
             continue
-        b, rim = structure.interfaces[k].slave, structure.rim[first:first + n]
-        for a in range(3):
-            part[a] = dt / 2 * start.frames[b].spin[a]
-        turn_by(start.rotation[b], part, halfway)
-        rolls, tilt, roll = plan_roll(structure.interfaces[k], rim, start.rims[k], start.contact, start.rotation[b], halfway, allowed)
+        rim, now, then = structure.rim[first:first + n], poses[START, k].turned, poses[END, k].turned
+        rolls, tilt, roll = plan_roll(structure.interfaces[k], rim, start.rims[k], start.contact, now[SLAVE], then[SLAVE], allowed)
         if rolls:
             work.wanted[:] = False
             mark_rolling(roll, rim, points, start.contact, work.wanted)
-            find_places(structure, points, start, work.elastic, work.wanted, work.places)
+            find_places(structure, points, start, poses[START, k], work.elastic, work.wanted, work.places)
             roll_points(roll, rim, end.rims[k], structure.bodies.arms, work.places, start.contact, points, work.before)
             rolled = True
         else:
@@ -73,7 +81,7 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
     The contact force r acts at the end of the step and is kept out of the accelerations that HHT remembers; the rotation is
     energy-momentum conserving whatever alpha is, since HHT does not damp rigid motion.
     """
-    dt, al, be, gravity, action = scheme.dt, scheme.alpha, scheme.beta, structure.gravity, work.action
+    dt, al, be, gravity, action, points = scheme.dt, scheme.alpha, scheme.beta, structure.gravity, work.action, work.points
     bodies, m = len(start.frames), start.modal.shape[2]
     free_center, free_modal, advance = np.empty((bodies, 3)), np.empty((bodies, m)), np.empty((bodies, 3))
     for b in range(bodies):
@@ -92,13 +100,15 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
                 way, later = _foreseen(scheme, start, b, k)
                 free_modal[b, k] += structure.damping[b, k] * dt * (be * dt * (al * rate - (1 + al) * later) + (1 + al) * scheme.gamma * way)
     for k in range(len(structure.interfaces)):
+        # on a moving master nothing resists, see `model.structure_of`
         if structure.interfaces[k].rolling > 0.0:
             b, load = structure.interfaces[k].slave, 0.0
             for i in range(len(work.before)):
-                load += max(work.before[i].force[2], 0.0)
+                if points[i].interface == k:
+                    load += max(work.before[i].force[2], 0.0)
             put(rolling_moment(start.rotation[b], start.frames[b].spin, load, structure.interfaces[k].radius,
                                structure.interfaces[k].rolling, structure.bodies.body[b].inverse_inertia, dt), action.resistance[b])
-    answer = equilibrate(structure, base, scheme, work, start, free_center, free_modal, advance, end.rims[0].angle, end, counts)
+    answer = equilibrate(structure, base, scheme, work, start, free_center, free_modal, advance, end.rims, end, counts)
     if answer != OK:
         return answer, 0.0
     _finish(structure, scheme, work, start, ground, end)
@@ -142,7 +152,7 @@ def _finish(structure, scheme, work, start, ground, end):
             end.modal[b, ACCELERATION, k] = accelerated
             mean = (1 - ga) * start.modal[b, ACCELERATION, k] + ga * accelerated + action.modal[b, k]
             end.modal[b, RATE, k] = start.modal[b, RATE, k] + dt * mean
-    move_anchors(structure.interfaces[0], scheme.springs, near_points(work.problem), work.before, end.contact)
+    move_anchors(work.points, structure.interfaces, scheme.springs, near_points(work.problem), work.before, end.contact)
     end.whole[0].time = start.whole[0].time + dt
     for a in range(3):
         end.whole[0].ground[a] = ground[a]
@@ -151,15 +161,15 @@ def _finish(structure, scheme, work, start, ground, end):
 @njit
 def _collide(structure, base, scheme, work, start, end, contact_work, ledger, counts):
     """Take the velocities of `end` anew where a point lands or slip ends: a way to end."""
-    interface, points, before, elastic = structure.interfaces[0], work.points, work.before, work.elastic
+    interfaces, points, before, elastic = structure.interfaces, work.points, work.before, work.elastic
     listed = near_points(work.problem)
-    lands = mark_landing(interface, points, listed, before, end.contact, work.landing) > 0
+    lands = mark_landing(interfaces, points, listed, before, end.contact, work.landing) > 0
     if mark_turning(points, listed, before, end.contact, work.turning) == 0 and not lands:
         return OK
     for i in listed:
         if work.turning[i] or lands and (before[i].force[2] > 0 or end.contact[i].force[2] > 0):
             _find_velocities(structure, work, i, start, end)
-    happens = what_happens(interface, listed, before, end.contact, scheme.dt, work.early, work.late, work.landing, work.turning)
+    happens = what_happens(interfaces, points, listed, before, end.contact, scheme.dt, work.early, work.late, work.landing, work.turning)
     if happens == NOTHING:
         return OK
     arms = np.zeros((len(points), 3))
@@ -167,12 +177,12 @@ def _collide(structure, base, scheme, work, start, end, contact_work, ledger, co
         _find_velocities(structure, work, i, start, end)
         for a in range(3):
             arms[i, a] = points[i].arm[a] + elastic.point[END, i, a]
-    answer, pushed, impulses = find_impact(structure.bodies, base, points, interface, scheme.springs, listed, arms, end.rotation, before, end.contact, work.early,
+    answer, pushed, impulses = find_impact(structure.bodies, base, points, interfaces, scheme.springs, listed, arms, work.poses[END], before, end.contact, work.early,
                                            work.late, work.landing, work.turning, happens == LANDS, scheme.dt, contact_work, counts)
     if answer != OK or not pushed:
         return answer
     energy = kinetic(structure, end)
-    push_bodies(structure, scheme, points, arms, impulses, end)
+    push_bodies(structure, scheme, points, arms, work.poses[END], impulses, end)
     ledger[HIT if happens == LANDS else FRICTION] += kinetic(structure, end) - energy
     counts[N_IMPACTS] += happens == LANDS
     return OK
@@ -182,5 +192,5 @@ def _collide(structure, base, scheme, work, start, end, contact_work, ledger, co
 def _find_velocities(structure, work, i, start, end):
     """Velocities of point i at both ends of a step."""
     find_elastic(structure, work.points, i, start, work.elastic, START)
-    find_velocity(structure, work.points, i, start, work.elastic, START, work.early[i])
-    find_velocity(structure, work.points, i, end, work.elastic, END, work.late[i])
+    find_velocity(structure, work.points, i, start, work.poses[START], work.elastic, START, work.early[i])
+    find_velocity(structure, work.points, i, end, work.poses[END], work.elastic, END, work.late[i])

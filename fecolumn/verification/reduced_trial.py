@@ -17,7 +17,7 @@ from fecolumn.reduced.build import column_model
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
 from fecolumn.reduced.motion import copy
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.run import column_engine
 from fecolumn.verification.trial import N_MODES, Trial
 
 # what is known of a body: making it takes seconds, and one body serves many trials
@@ -127,7 +127,7 @@ class ReducedTrial(Trial):
             return starts.standing(engine) if first is None else self.reduction.projected(engine, first, system)
 
         eye = view(self.reduction.model, system.weight, interface.laws["friction"])
-        self.engine = Engine(self.reduction.model, system.base, eye, system.hht, begin, system.gravity,
+        self.engine = column_engine(self.reduction.model, system.base, eye, system.hht, begin, system.gravity,
                              damping_ratio=system.damping.ratio if system.damping else 0.0, **interface.laws)
         self.state = self.start = self._state()
 

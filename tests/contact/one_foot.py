@@ -7,9 +7,10 @@ from fecolumn._compiled import interpreted
 from fecolumn.contact.projection import Base
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble
-from fecolumn.contact.interface import interface_of
+from fecolumn.contact.interface import interface_of, rims_at_rest
 from fecolumn.contact.pad import Springs
 from fecolumn.contact.points import CONTACT, node_points
+from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import N_COUNTS, OK, begin_problem, find_forces, find_residual, mark_close, room, solve_linear
 from fecolumn.contact.stick import no_stick
 from fecolumn.contact.tolerances import ITERATIONS
@@ -39,9 +40,9 @@ class Foot:
         self.rigid, self.n = half if mass else 0.0, n
         self.bodies = one_body(arms, static, elastic, mass, inertia) if mass else one_body(arms, static, elastic)
         self.dynamic, self.base = static + elastic, base or flat()
-        self.points, self.interface = node_points(arms, mu), interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]))[0]
+        self.points, self.interface = node_points(arms, mu), interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]))
         self.springs = Springs(np.full((n, 3), own), np.zeros((n, 3)), 0.0)
-        self.rotations = np.eye(3)[None] if rotation is None else rotation[None].copy()
+        self.poses, self.rims = poses_on_base(np.eye(3)[None] if rotation is None else rotation[None]), rims_at_rest()
         self.problem, self.counts = room(n), np.zeros(N_COUNTS, np.int64)
 
     def solve(self, positions, forces=None, anchors=None, stick=None):
@@ -55,7 +56,7 @@ class Foot:
         begin_problem(self.problem, False, worth)
         if not self.rigid:
             answer, residual = solve_linear(self.problem, self.bodies, self.base, self.points, self.interface, self.springs, self.dynamic,
-                                            self.bodies.mobility, stick, np.nan, np.zeros(3), self.rotations, positions, ITERATIONS, before, after,
+                                            self.bodies.mobility, stick, self.rims, self.poses, positions, ITERATIONS, before, after,
                                             self.counts)
         else:
             answer, residual = self._iterate(positions, before, after, stick)
@@ -65,15 +66,15 @@ class Foot:
     def _iterate(self, positions, before, after, stick):
         """As the reduced engine does: the motion under the forces is found outside."""
         response, everyone = np.empty((3 * self.n, 3 * self.n)), np.arange(self.n)
-        interpreted(assemble)(self.bodies, self.base, self.points, self.points["arm"].copy(), everyone, self.rotations, self.rigid,
+        interpreted(assemble)(self.bodies, self.base, self.points, self.points["arm"].copy(), everyone, self.poses, self.rigid,
                               self.bodies.mobility, 0.0, self.springs.own, response)
         start, began = positions.copy(), after["force"].copy()
         for iteration in range(ITERATIONS):
             positions = start + (response @ (after["force"] - began).ravel()).reshape(-1, 3)
-            interpreted(mark_close)(self.problem, self.interface, positions, before, after)
+            interpreted(mark_close)(self.problem, self.points, self.interface, positions, before, after)
             answer, residual = interpreted(find_residual)(
-                self.problem, self.bodies, self.base, self.points, self.interface, self.springs, self.dynamic, self.rigid, stick, np.nan,
-                np.zeros(3), self.rotations, positions, iteration == 0, before, after, self.counts)
+                self.problem, self.bodies, self.base, self.points, self.interface, self.springs, self.dynamic, self.rigid, stick, self.rims,
+                self.poses, positions, iteration == 0, before, after, self.counts)
             if answer != OK or residual <= 1.0:
                 break
             assert interpreted(find_forces)(self.problem, self.points, self.interface, stick, after, self.counts) == OK

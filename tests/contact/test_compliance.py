@@ -8,12 +8,13 @@ from fecolumn.contact.projection import Base
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble, static_displacement
 from fecolumn.contact.points import CONTACT, node_points
+from fecolumn.contact.pose import poses_on_base
 
 
 def found(blocks, nodal, rigid, active=None, factor=0.0):
     active = np.arange(len(blocks.points)) if active is None else np.asarray(active)
     W = np.empty((3 * len(active), 3 * len(active)))
-    assemble(blocks.bodies, NO_BASE, blocks.points, blocks.points["arm"].copy(), active, blocks.rotations, rigid, nodal, factor, blocks.own, W)
+    assemble(blocks.bodies, NO_BASE, blocks.points, blocks.points["arm"].copy(), active, blocks.poses, rigid, nodal, factor, blocks.own, W)
     return W
 
 
@@ -39,7 +40,7 @@ def test_two_points_on_a_rod_are_coupled_by_its_rotation():
     arms = np.array([[-length / 2, 0, 0], [length / 2, 0, 0]])
     rod = one_body(arms, np.zeros((6, 6)), np.zeros((6, 6)), mass, np.diag([1.0, mass * length**2 / 12, mass * length**2 / 12]))
     W = np.empty((6, 6))
-    assemble(rod, NO_BASE, node_points(arms, 0.5), arms, np.arange(2), np.eye(3)[None], 1.0, rod.mobility, 0.0, np.zeros((2, 3)), W)
+    assemble(rod, NO_BASE, node_points(arms, 0.5), arms, np.arange(2), poses_on_base(np.eye(3)[None]), 1.0, rod.mobility, 0.0, np.zeros((2, 3)), W)
     assert W[2::3, 2::3] == pytest.approx(np.array([[4, -2], [-2, 4]]) / mass)
     assert W[0::3, 0::3] == pytest.approx(np.full((2, 2), 1 / mass))
 
@@ -49,7 +50,7 @@ def test_static_displacement_is_the_compliance_times_the_forces():
     contact, moved = np.zeros(5, CONTACT), np.empty((5, 3))
     contact["force"][[0, 2, 3]] = np.abs(rng.normal(size=(3, 3)))
     listed = np.array([0, 2, 3, 4])
-    static_displacement(blocks.bodies, NO_BASE, blocks.points, blocks.rotations, contact, listed, moved)
+    static_displacement(blocks.bodies, NO_BASE, blocks.points, blocks.poses, contact, listed, moved)
     whole = (blocks.dense(blocks.static, 0.0) @ contact["force"].ravel()).reshape(5, 3)
     np.testing.assert_allclose(moved[listed], whole[listed], rtol=1e-12)
 
@@ -61,6 +62,6 @@ def test_base_gives_way_below_the_points():
     body, points = one_body(arms, np.zeros((6, 6)), np.zeros((6, 6))), node_points(arms, 0.5)
     points["below"], points["shares"] = np.arange(4), rng.dirichlet(np.ones(4), 2)
     base, W = Base(np.zeros(2), np.zeros(2), np.zeros((2, 2), np.int64), np.zeros(4, np.int64), C, 0.0), np.empty((6, 6))
-    assemble(body, base, points, arms, np.arange(2), np.eye(3)[None], 0.0, body.static, 1.0, np.zeros((2, 3)), W)
+    assemble(body, base, points, arms, np.arange(2), poses_on_base(np.eye(3)[None]), 0.0, body.static, 1.0, np.zeros((2, 3)), W)
     H = np.kron(points["shares"], np.eye(3))
     np.testing.assert_allclose(W, H @ C @ H.T, rtol=1e-12)

@@ -9,6 +9,7 @@ from fecolumn.contact.impact import find_impact, mark_landing
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.pad import Springs
 from fecolumn.contact.points import BASE, CONTACT, node_points
+from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import N_COUNTS, OK
 
 DT = 1e-4
@@ -31,14 +32,14 @@ def struck(bodies, points, velocity, mu=0.0, restitution=0.0, contact_work=-1.0)
     """Velocities (n, 3) after an impact of points that arrive with `velocity` (n, 3) in the very moment; and the impulses."""
     n = len(points)
     points["friction"] = mu
-    interface = interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]), restitution=restitution, master=points["master"][0])[0]
+    interface = interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]), restitution=restitution, master=points["master"][0])
     before, after, landing = np.zeros(n, CONTACT), np.zeros(n, CONTACT), np.zeros(n, bool)
     before["relative"][:, 2], after["force"][:, 2] = 1e-6, 1.0
     assert mark_landing(interface, points, np.arange(n), before, after, landing) == n
     # what the step's own impulse, about to be replaced, has done is taken out again
     late = np.array(velocity, float)
     answer, pushed, impulses = find_impact(bodies, NO_BASE, points, interface, Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0), np.arange(n), points["arm"].copy(),
-                                           np.tile(np.eye(3), (len(bodies.body), 1, 1)), before, after, np.array(velocity, float), late, landing,
+                                           poses_on_base(np.eye(3)[None]), before, after, np.array(velocity, float), late, landing,
                                            np.zeros(n, bool), True, DT, contact_work, np.zeros(N_COUNTS, np.int64))
     assert answer == OK and pushed
     return impulses + DT * after["force"]

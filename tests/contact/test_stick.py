@@ -6,7 +6,8 @@ from one_foot import DEEP, answer, many
 
 from fecolumn._compiled import interpreted
 from fecolumn.contact.friction import solve_contact
-from fecolumn.contact.interface import interface_of
+from fecolumn.contact.interface import interface_of, rims_at_rest
+from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.points import CONTACT
 from fecolumn.contact.problem import N_ASSEMBLED
 from fecolumn.contact.stick import find_stick, holds, no_stick, solve_sticking
@@ -23,7 +24,7 @@ def found(seed):
     # shares of the base's nodes are found by `project`
     foot.solve(np.column_stack([places[:, :2], np.full(N, -DEEP)]), anchors=places[:, :2])
     stick = no_stick(N)
-    interpreted(find_stick)(stick, foot.bodies, foot.base, foot.points, foot.springs, foot.dynamic, foot.rigid, 0.3, np.array([1.0, 2.0, 3.0]), foot.rotations)
+    interpreted(find_stick)(stick, foot.bodies, foot.base, foot.points, foot.springs, foot.dynamic, foot.rigid, foot.rims, foot.poses)
     return foot, stick, W
 
 
@@ -36,7 +37,7 @@ def test_operator_is_the_compliance_of_all_points_and_its_inverse():
 
 def _elastic(foot):
     """What of the compliance does not follow forces at once."""
-    turn, half = np.kron(np.eye(N), foot.rotations[0]), foot.rigid
+    turn, half = np.kron(np.eye(N), foot.poses[0]["turned"][0]), foot.rigid
     body, arms = foot.bodies.body[0], foot.bodies.arms
     rows = np.concatenate([np.hstack([np.eye(3), [[0, z, -y], [-z, 0, x], [y, -x, 0]]]) for x, y, z in arms])
     inverse = np.zeros((6, 6))
@@ -95,7 +96,7 @@ def test_a_contact_problem_with_the_operator_ends_with_the_forces_without_it():
     positions = np.column_stack([places[:, :2], np.zeros(N)]) + slack - (W @ exact.ravel()).reshape(N, 3)
     foot.counts[:], stick = 0, no_stick(N)
     forces = foot.solve(positions, anchors=places[:, :2], stick=stick)["force"]
-    assert stick.key[2] == 1.0 and foot.counts[N_ASSEMBLED] == 1
+    assert stick.key[1] == 1.0 and foot.counts[N_ASSEMBLED] == 1
     np.testing.assert_allclose(forces, exact, atol=1e-5 * exact.max())
 
 
@@ -106,10 +107,19 @@ def standing(on_pad=False):
     """An operator found for a foot 0.2 m wide and 0.5 m below the centre of mass."""
     stick, interface = no_stick(1), interface_of(np.array([[0.0, 0, 0], [WIDTH, 0, 0]]))
     interface["on_pad"] = on_pad
-    stick.center[:], stick.rotation[:], stick.key[:] = [1.0, 2.0, 3.0], rotation_matrix(np.array([0, 0, 0.4])), [ANGLE, HALF, 1.0]
+    center, rotation = np.array([1.0, 2.0, 3.0]), rotation_matrix(np.array([0, 0, 0.4]))
+
+    def pose(center, rotation):
+        place = poses_on_base(rotation[None])
+        place["foot"] = center + rotation @ [0, 0, DEPTH]
+        return place
+
+    stick.poses[:], stick.angles[:], stick.key[:] = pose(center, rotation), ANGLE, [HALF, 1.0]
 
     def still(moved=(0.0, 0, 0), turned=(0.0, 0, 0), angle=ANGLE, half=HALF):
-        return interpreted(holds)(stick, interface[0], angle, half, DEPTH, stick.center + moved, rotation_matrix(np.array(turned, float)) @ stick.rotation)
+        rims = rims_at_rest()
+        rims["angle"] = angle
+        return interpreted(holds)(stick, interface, rims, half, pose(center + moved, rotation_matrix(np.array(turned, float)) @ rotation))
 
     return stick, still
 
@@ -123,14 +133,14 @@ def test_operator_holds_while_the_foot_stays_where_it_was_found():
     lean = 0.9 * STICK_TURN
     assert still(moved=[-lean * DEPTH, 0, 0], turned=[0, lean, 0])
     assert not still(moved=[-lean * DEPTH, 0, 0]) and not still(turned=[0, lean, 0])
-    stick.key[2] = 0.0
+    stick.key[1] = 0.0
     assert not still()
 
 
 def test_operator_is_of_one_place_of_the_rims_points_and_one_length_of_step():
     stick, still = standing()
     assert not still(angle=ANGLE + 1e-9) and not still(angle=np.nan) and not still(half=HALF / 4)
-    stick.key[0] = np.nan
+    stick.angles[0] = np.nan
     assert still(angle=np.nan) and not still()
 
 

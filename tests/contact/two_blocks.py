@@ -7,6 +7,7 @@ from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.pad import Springs
 from fecolumn.contact.points import CONTACT, node_points
+from fecolumn.contact.pose import MASTER, poses_on_base
 from fecolumn.fem.rotation import rotation_matrix
 
 NO_BASE = Base(np.zeros(2), np.zeros(2), np.zeros((2, 2), np.int64), np.zeros(4, np.int64), np.zeros((0, 0)), 0.0)
@@ -41,8 +42,12 @@ class Blocks:
         self.points = node_points(self.arms[0], 0.4, slave=0, master=1)
         self.points["below"] = n + np.stack([rng.permutation(n + 3)[:4] for _ in range(n)])
         self.points["shares"] = rng.dirichlet(np.ones(4), n)
+        self.points["seat"] = np.einsum("pq,pqa->pa", self.points["shares"], self.bodies.arms[self.points["below"]])
+        #: The frame of the interface is the table frame.
+        self.poses = poses_on_base(self.rotations[:1])
+        self.poses["turned"][:, MASTER] = self.rotations[1]
         self.own = rng.uniform(1e-10, 1e-9, (n, 3))
-        self.springs, self.interface = Springs(self.own, np.zeros((n, 3)), 0.0), interface_of(self.arms[0], master=1)[0]
+        self.springs, self.interface = Springs(self.own, np.zeros((n, 3)), 0.0), interface_of(self.arms[0], master=1)
         self.before, self.after = np.zeros(n, CONTACT), np.zeros(n, CONTACT)
 
     @staticmethod

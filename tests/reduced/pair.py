@@ -6,7 +6,7 @@ from fecolumn.dynamics import gravity
 from fecolumn.reduced import start
 from fecolumn.reduced.build import column_model
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.run import column_engine
 from fecolumn.verification.models import column_system
 from fecolumn.verification.trial import Trial
 
@@ -24,7 +24,7 @@ def reduced(system, n_modes=30, begin=start.standing, overturn=0.25):
     body, interface = system.column, system.interface
     model, _ = column_model(body, system.foot_nodes, system.areas, *top_nodes(body), n_modes)
     eye = view(model, system.weight, interface.laws["friction"], overturn)
-    return Engine(model, system.base, eye, system.hht, begin, system.gravity, damping_ratio=system.damping.ratio if system.damping else 0.0, **interface.laws)
+    return column_engine(model, system.base, eye, system.hht, begin, system.gravity, damping_ratio=system.damping.ratio if system.damping else 0.0, **interface.laws)
 
 
 def tops(system, grounds, begin=gravity.standing):

@@ -11,7 +11,7 @@ from fecolumn.reduced import motion as motions
 from fecolumn.reduced import start
 from fecolumn.reduced.model import ColumnModel
 from fecolumn.reduced.observe import view
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.run import column_engine
 
 ALPHA, DT, ZETA, GRAVITY = -0.2, 1e-3, 0.05, np.array([0.0, 0.0, -9.81])
 MASS, INERTIA = 10.0, np.diag([0.9, 1.0, 0.1])
@@ -38,7 +38,7 @@ def engine(model):
         motion.frames["spin"][0] = [0.3, -0.9, 0.2]
         return motion
 
-    return Engine(model, rigid_base(model.reference), view(model, MASS * 9.81, 0.7), HHT(DT, ALPHA), begin, GRAVITY, damping_ratio=ZETA, friction=0.7,
+    return column_engine(model, rigid_base(model.reference), view(model, MASS * 9.81, 0.7), HHT(DT, ALPHA), begin, GRAVITY, damping_ratio=ZETA, friction=0.7,
                   law=np.zeros((N, 3)), rim=Rim.find(model.reference))
 
 

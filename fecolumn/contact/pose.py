@@ -1,0 +1,21 @@
+"""Where an interface is and how its bodies are turned towards it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.contact.record import record
+
+#: The frame of an interface, of its master's surface: frame: (3, 3) its axes in the table frame, two tangents and the normal; origin: (3,) in the table
+#: frame [m]; turned: (2, 3, 3) of slave and master to this frame; foot: (3,) middle of the slave's foot in it [m]. That of the base is the table frame.
+POSE = record(("frame", "f8", (3, 3)), ("origin", "f8", 3), ("turned", "f8", (2, 3, 3)), ("foot", "f8", 3))
+
+#: Sides of an interface.
+SLAVE, MASTER = range(2)
+
+
+def poses_on_base(rotations: np.ndarray) -> np.ndarray:
+    """(n,) of POSE of interfaces on the base, whose slaves are turned by (n, 3, 3)."""
+    poses = np.zeros(len(rotations), POSE)
+    poses["frame"], poses["turned"][:, SLAVE], poses["turned"][:, MASTER] = np.eye(3), rotations, np.eye(3)
+    return poses

@@ -1,0 +1,109 @@
+"""Links between points of two bodies, or of a body and the ground: tendons, springs, dashpots and restrainers with play."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn._compiled import njit
+from fecolumn.contact.points import BASE
+from fecolumn.contact.record import record
+
+#: A link from body a to body b, -1 for the ground: arm_a, arm_b: (3,) of its ends from the centres of mass in the bodies' frames, in the table frame on the
+#: ground [m]; length: unstressed [m]; play: way at either side of it without force [m]; stiffness [N/m]; damping [N s/m]; pulls, pushes: whether it can;
+#: yields: force at which it flows, breaks: at which it fails [N], infinite where it does not.
+LINK = record(("a", "i8"), ("b", "i8"), ("arm_a", "f8", 3), ("arm_b", "f8", 3), ("length", "f8"), ("play", "f8"), ("stiffness", "f8"), ("damping", "f8"),
+              ("pulls", "?"), ("pushes", "?"), ("yields", "f8"), ("breaks", "f8"))
+#: What a link carries from step to step: its length now and the part of it that has flowed [m], force [N], pull > 0; whether it is broken.
+TIE = record(("length", "f8"), ("flowed", "f8"), ("force", "f8"), ("broken", "?"))
+
+
+@njit
+def _end_of(b, arm, frames, rotation, target):
+    """target (3,): where an end of a link is."""
+    for a in range(3):
+        if b == BASE:
+            target[a] = arm[a]
+        else:
+            R = rotation[b]
+            target[a] = frames[b].center[a] + R[a, 0] * arm[0] + R[a, 1] * arm[1] + R[a, 2] * arm[2]
+
+
+@njit
+def span(link, frames, rotation, target):
+    """target (3,): way from end a to end b [m]; its length."""
+    other = np.empty(3)
+    _end_of(link.a, link.arm_a, frames, rotation, other)
+    _end_of(link.b, link.arm_b, frames, rotation, target)
+    square = 0.0
+    for a in range(3):
+        target[a] -= other[a]
+        square += target[a] ** 2
+    return np.sqrt(square)
+
+
+@njit
+def _stretch(link, tie, length):
+    """Elastic part of the elongation [m] at a length: above 0 it pulls, below 0 it pushes."""
+    over = length - link.length - tie.flowed
+    if link.pulls and over > link.play:
+        return over - link.play
+    if link.pushes and over < -link.play:
+        return over + link.play
+    return 0.0
+
+
+@njit
+def stored(link, tie, length):
+    """Strain energy [J]."""
+    return 0.0 if tie.broken else link.stiffness * _stretch(link, tie, length) ** 2 / 2
+
+
+@njit
+def pull(link, tie, begin, way, length, dt, target):
+    """target (3,): force [N] of a link on its end a within a step, on b the opposite; the elastic force and that of the dashpot.
+
+    A discrete gradient (Gonzalez 1996): its work is the loss of strain energy exactly, the dashpot's c (l1 - l0)^2 / dt.
+
+    Args:
+        begin, way: (3,) from a to b at the start and at the end of the step [m]. length: at the end [m]; tie.length is that at the start.
+    """
+    before, elastic, rate = tie.length, 0.0, (length - tie.length) / dt
+    if not tie.broken:
+        s0, s1 = _stretch(link, tie, before), _stretch(link, tie, length)
+        change = length - before
+        if s0 != 0.0 and s1 != 0.0 or abs(change) <= 1e-12 * link.length:
+            elastic = link.stiffness * (s0 + s1) / 2
+        else:
+            elastic = link.stiffness * (s1**2 - s0**2) / (2 * change)
+    total = elastic + (0.0 if tie.broken else link.damping * rate)
+    for a in range(3):
+        target[a] = total * (begin[a] + way[a]) / (before + length)
+    return total
+
+
+@njit
+def end_links(links, frames, rotation, before, after, dt):
+    """Carry ties (nl,) on to the end of a step: energy that their dashpots have taken, strain energy at its end, energy that they lose by flowing and breaking [J]."""
+    taken = kept = lost = 0.0
+    way = np.empty(3)
+    for n in range(len(links)):
+        link, tie, new = links[n], before[n], after[n]
+        length = span(link, frames, rotation, way)
+        new.flowed, new.broken, new.length = tie.flowed, tie.broken, length
+        if tie.broken:
+            new.force = 0.0
+            continue
+        if np.isfinite(dt):
+            taken += link.damping * (length - tie.length) ** 2 / dt
+        held = stored(link, tie, length)
+        force = link.stiffness * _stretch(link, tie, length)
+        if abs(force) > link.breaks:
+            new.broken, force = True, 0.0
+        elif abs(force) > link.yields:
+            new.flowed += np.sign(force) * (abs(force) - link.yields) / link.stiffness
+            force = np.sign(force) * link.yields
+        new.force = force
+        now = stored(link, new, length)
+        kept += now
+        lost += held - now
+    return taken, kept, lost

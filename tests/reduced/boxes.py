@@ -1,0 +1,53 @@
+"""Structures of boxes that are rigid but for their contact points, made by hand: every number of them is known."""
+
+import numpy as np
+
+from fecolumn.contact.unbounded_base import rigid_base
+from fecolumn.dynamics.hht import HHT
+from fecolumn.reduced.run import Engine
+from fecolumn.reduced.start import of_parts
+from fecolumn.reduced.structure import structure_of, view_of
+from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
+
+GRAVITY = np.array([0.0, 0.0, -9.81])
+# each point gives way by this [m/N]
+GIVES = 1e-10
+
+
+def box(length, width, height, density=2700.0, gives=GIVES, per_side=2):
+    """A BodyModel of length x width x height [m], its foot and head touching with `per_side` x `per_side` nodes."""
+    mass = density * length * width * height
+    inertia = mass / 12 * np.diag([width**2 + height**2, length**2 + height**2, length**2 + width**2])
+    x, y = (grid.ravel() for grid in np.meshgrid(np.linspace(-length / 2, length / 2, per_side), np.linspace(-width / 2, width / 2, per_side), indexing="ij"))
+    n = per_side**2
+    arms = np.concatenate([np.column_stack([x, y, np.full(n, z)]) for z in (-height / 2, height / 2)])
+    cells = [(i * per_side + j, (i + 1) * per_side + j, (i + 1) * per_side + j + 1, i * per_side + j + 1) for i in range(per_side - 1) for j in range(per_side - 1)]
+    triangles = np.array([triangle for a, b, c, d in cells for triangle in ((a, b, c), (a, c, d))])
+    down = np.array([[1.0, 0, 0], [0, -1.0, 0], [0, 0, -1.0]])
+    areas, outlines = np.full(n, length * width / n), np.ones(n, bool)
+    surfaces = {"foot": Surface(np.arange(n), np.array([0.0, 0, -height / 2]), down, areas, outlines, triangles[:, ::-1]),
+                "head": Surface(n + np.arange(n), np.array([0.0, 0, height / 2]), np.eye(3), areas, outlines, triangles)}
+    flexibility = np.zeros((2 * n, 2 * n, 3, 3))
+    flexibility[np.arange(2 * n), np.arange(2 * n)] = gives * np.eye(3)
+    return BodyModel(mass, inertia, np.array([0.0, 0, height / 2]), np.zeros(0), np.zeros((2 * n, 3, 0)), flexibility, arms, 0, surfaces,
+                     {"top": (np.array([0.0, 0, height / 2]), np.zeros((3, 0)))})
+
+
+def part(name, model, at, rotation=None, spin=(0.0, 0, 0), velocity=(0.0, 0, 0)):
+    """A Part whose drawing stands at `at` (3,)."""
+    return Part(name, model, np.asarray(at, float) + model.center, np.eye(3) if rotation is None else rotation, 0.0, np.array(velocity, float), np.array(spin, float))
+
+
+def joint(slave, master, model, surface="foot", on="head", friction=0.7, restitution=0.0):
+    n = len(model.surfaces[surface].nodes)
+    return Joint(f"{slave} on {master}", slave, surface, master, None if master == GROUND else on, friction, np.zeros((n, 3)), False, restitution)
+
+
+def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=0):
+    """An Engine of a StructureModel of these."""
+    base = rigid_base(np.concatenate([p.center + p.model.arms for p in parts]))
+    model = StructureModel(tuple(parts), tuple(joints), tuple(links), base, (observed, "top"))
+    hht = HHT(dt, alpha)
+    structure, _ = structure_of(model, hht, GRAVITY)
+    eye = view_of(model, structure, structure.bodies.body["mass"].sum() * 9.81)
+    return Engine(lambda step: structure_of(model, step, GRAVITY), base, eye, hht, lambda made: of_parts(made, parts, stands), model=model)

@@ -1,0 +1,181 @@
+"""Bodies that stand, rock and slide on moving ones, against closed forms: stacks, frames, links."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from boxes import GRAVITY, box, engine, joint, part
+
+from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.reduced.observe import ENERGY, WIDTH
+from fecolumn.structures.model import GROUND, Link
+
+G = -GRAVITY[2]
+
+
+def closure(rows):
+    """Largest error of the energy balance over the energy moved."""
+    return np.abs(rows[:, WIDTH - 1] - rows[0, WIDTH - 1]).max() / np.ptp(rows[:, ENERGY + 2])
+
+
+def stack(dt=1e-3, alpha=-0.05):
+    low, up = box(0.4, 0.4, 0.8), box(0.3, 0.3, 0.9)
+    return engine([part("low", low, (0, 0, 0)), part("up", up, (0, 0, 0.8))], [joint(0, GROUND, low), joint(1, 0, up)], dt=dt, alpha=alpha, observed=1)
+
+
+def frame(columns, order=None, dt=1e-3):
+    """A slab on two or four columns; order: places of the columns, then of the slab, among the bodies."""
+    column, slab = box(0.2, 0.2, 1.2), box(2.4, 2.4 if columns == 4 else 0.6, 0.3, per_side=9)
+    places = [(-1, 0, 0), (1, 0, 0)] if columns == 2 else [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+    number, parts, joints = order or list(range(columns + 1)), [None] * (columns + 1), []
+    for i in range(columns):
+        parts[number[i]] = part(f"column {i}", column, places[i])
+    parts[number[-1]] = part("slab", slab, (0, 0, 1.2))
+    for i in range(columns) if order is None else reversed(range(columns)):
+        joints += [joint(number[i], GROUND, column), joint(number[i], number[-1], column, surface="head", on="foot")]
+    return engine(parts, joints, observed=number[-1], dt=dt), slab, column
+
+
+def pulse(amplitude, period, steps, dt=1e-3):
+    t = np.arange(1, steps + 1) * dt
+    return np.column_stack([amplitude * np.sin(2 * np.pi * t / period) * (t < period), np.zeros((steps, 2))])
+
+
+@pytest.mark.parametrize("alpha", [0.0, -0.2])
+def test_a_stack_carries_its_weight_and_rests(alpha):
+    made = stack(alpha=alpha)
+    low, up = (body["mass"] * G for body in made.structure.bodies.body)
+    forces = made.motion.forces[:, 2]
+    assert forces[:4].sum() == pytest.approx(low + up, rel=1e-8) and forces[4:].sum() == pytest.approx(up, rel=1e-8)
+    rows, over = made.advance(np.zeros((500, 3)))
+    assert not over and np.abs(rows[:, 1:4] - rows[0, 1:4]).max() < 1e-11
+
+
+@pytest.mark.parametrize("columns", [2, 4])
+def test_a_slab_rests_on_more_columns_than_it_needs(columns):
+    made, slab, column = frame(columns)
+    rows, over = made.advance(np.zeros((500, 3)))
+    weight = (slab.mass + columns * column.mass) * G
+    assert not over and np.abs(rows[:, 1:4] - rows[0, 1:4]).max() < 1e-11
+    assert rows[-1, 10] == pytest.approx(weight, rel=1e-9)
+
+
+def test_a_block_rocks_on_a_heavy_one_as_on_the_ground():
+    """Housner (1963): quarter period acosh(1 / (1 - theta / alpha)) / p; an impact leaves (1 - 3/2 sin^2 alpha)^2 of the energy."""
+    breadth, height, dt = 0.3, 0.9, 5e-4
+    up, low = box(breadth, breadth, height), box(1.0, 1.0, 0.5, density=2e4)
+    alpha, R = np.arctan(breadth / height), np.hypot(breadth, height) / 2
+    p = np.sqrt(0.75 * G / R)
+    spin, toe = np.array([0, 0.5 * alpha * p, 0]), np.array([breadth / 2, 0, 0])
+    tipped = part("up", up, (0, 0, 0.5), spin=spin, velocity=np.cross(spin, up.center - toe))
+    made = engine([part("low", low, (0, 0, 0)), tipped], [joint(0, GROUND, low), joint(1, 0, up)], observed=1, dt=dt)
+    tilt = made.advance(np.zeros((1000, 3)))[0][:, 4]
+    top = np.argmax(tilt[:500])
+    quarter = np.arccosh(1 / (1 - tilt[top] / alpha)) / p
+    back = top + np.argmin(tilt[top:top + int(1.3 * quarter / dt)])
+    assert (back - top) * dt == pytest.approx(quarter, abs=4 * dt)
+    again = tilt[back:back + int(1.2 * quarter / dt)].max()
+    energy = [np.cos(alpha - most) - np.cos(alpha) for most in (tilt[top], again)]
+    assert energy[1] / energy[0] == pytest.approx((1 - 1.5 * np.sin(alpha) ** 2) ** 2, rel=2e-3)
+
+
+def test_energy_of_a_stack_in_which_both_blocks_rock_is_accounted_for():
+    made = stack()
+    rows, _ = made.advance(pulse(7.0, 0.66, 1000))
+    assert rows[:, WIDTH + 3].max() > 0.05 and rows[:, WIDTH + 7].max() > 0.1
+    assert closure(rows) < 1e-11
+    # contact makes no energy: what is not friction or impact takes some
+    assert rows[-1, ENERGY + 6] < 1e-6 * np.ptp(rows[:, ENERGY + 2])
+
+
+@pytest.mark.parametrize("columns, push, uplifts", [(2, 0.95, False), (2, 1.1, True), (4, 0.95, False), (4, 1.1, True)])
+def test_a_frame_uplifts_when_the_ground_accelerates_by_g_tan_alpha(columns, push, uplifts):
+    """Makris and Vassiliou (2013): columns of slenderness alpha under a slab uplift together at g tan(alpha), whatever the slab's mass."""
+    made, *_ = frame(columns)
+    ground = np.zeros((400, 3))
+    # slowly, lest the elastic points ring
+    ground[:, 0] = push * G * 0.2 / 1.2 * np.minimum(np.arange(400) / 300, 1.0)
+    rows, _ = made.advance(ground)
+    assert (rows[-1, WIDTH + 3] > 1e-4) == uplifts
+
+
+def test_a_frame_rocks_at_the_frequency_of_its_theory():
+    """Makris and Vassiliou (2013): the frame rocks as a column with p_hat = p sqrt((1 + 2 g) / (1 + 3 g)), g the slab's mass over that of the columns.
+
+    theta'' = -p_hat^2 sin(alpha - theta): quarter period of small rocking acosh(1 / (1 - theta / alpha)) / p_hat.
+    """
+    made, slab, column = frame(2, dt=5e-4)
+    alpha, R = np.arctan(0.2 / 1.2), np.hypot(0.2, 1.2) / 2
+    mass = slab.mass / (2 * column.mass)
+    p_hat = np.sqrt(0.75 * G / R * (1 + 2 * mass) / (1 + 3 * mass))
+    rows, over = made.advance(pulse(2.1, 0.8, 3500, dt=5e-4))
+    assert not over
+    tilt = rows[1700:, WIDTH + 3]
+    top = np.argmax(tilt[:1000])
+    quarter = np.arccosh(1 / (1 - tilt[top] / alpha)) / p_hat
+    back = top + np.argmin(tilt[top:top + int(1.2 * quarter / 5e-4)])
+    assert (back - top) * 5e-4 == pytest.approx(quarter, rel=0.02)
+
+
+@pytest.mark.parametrize("columns, order", [(2, [2, 0, 1]), (4, [3, 1, 4, 0, 2])])
+def test_motion_does_not_depend_on_the_order_of_bodies_and_contacts(columns, order):
+    ground = pulse(4.0, 1.0, 1000)
+    first, other = (frame(columns, numbers)[0].advance(ground)[0] for numbers in (None, order))
+    assert np.abs(first[:, 1:4]).max() > 0.05
+    np.testing.assert_allclose(other[:, 1:4], first[:, 1:4], rtol=0, atol=1e-10)
+
+
+def test_momentum_is_conserved_where_nothing_is_held():
+    """Two blocks that collide in free flight: their common momentum and angular momentum stay."""
+    one = box(0.3, 0.4, 0.5)
+    lower = part("lower", one, (0, 0, 10.0), spin=(0.3, -0.2, 0.1))
+    upper = replace(part("upper", one, (0.05, 0.08, 10.6), velocity=(0.1, 0.0, -1.5)), rotation=rotation_matrix(np.array([0.1, 0.05, 0.3])))
+    made = engine([lower, upper], [joint(0, GROUND, one), joint(1, 0, one)], stands=False)
+
+    def moments():
+        frames, spins = made.motion.frames, [R @ body["inertia"] @ w for R, body, w in zip(made.motion.rotation, made.structure.bodies.body, made.motion.frames["spin"])]
+        momentum = one.mass * frames["velocity"]
+        return momentum.sum(axis=0), (np.cross(frames["center"], momentum) + spins).sum(axis=0)
+
+    # a frame that falls along: no gravity in it
+    before, record = moments(), made.record.impacts
+    made.advance(np.tile(GRAVITY, (300, 1)))
+    after = moments()
+    assert made.record.impacts > record
+    # the first step still blends the gravity of the start
+    np.testing.assert_allclose(after[0] - before[0], [0, 0, (after[0] - before[0])[2]], atol=1e-9)
+    assert abs((after[0] - before[0])[2]) < 2 * one.mass * G * 1e-3
+
+
+def tie(**settings):
+    values = dict(name="tie", kind="spring", a=0, arm_a=np.array([0.0, 0, 0.4]), b=GROUND, arm_b=np.array([0.0, 0, 3.0]), stiffness=2e4, damping=0.0, prestress=0.0,
+                  slack=0.0, pushes=True, pulls=True, yield_n=np.inf, breaking_n=np.inf)
+    return Link(**{**values, **settings})
+
+
+def tied(link, steps=600, push=8.0):
+    block = box(0.3, 0.3, 0.8)
+    made = engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [link])
+    return made, made.advance(pulse(push, 0.5, steps))[0]
+
+
+def test_a_tendon_that_is_tight_presses_the_block_down():
+    block = box(0.3, 0.3, 0.8)
+    tendon = tie(kind="tendon", arm_b=np.array([0.0, 0, 0.0]), prestress=500.0, pushes=False)
+    made = engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [tendon])
+    assert made.motion.forces[:, 2].sum() == pytest.approx(block.mass * G + 500.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("settings", [{}, dict(slack=0.005), dict(pushes=False, slack=0.002), dict(damping=300.0), dict(yield_n=200.0), dict(breaking_n=100.0)])
+def test_energy_of_links_is_accounted_for(settings):
+    made, rows = tied(tie(**settings))
+    assert rows[:, 4].max() > 0.01 and closure(rows) < 1e-11
+    lost = rows[-1, ENERGY + 8]
+    dissipates = bool({"damping", "yield_n", "breaking_n"} & set(settings))
+    assert (lost < -1e-3) == dissipates and lost <= 1e-12
+    assert made.motion.ties["broken"][0] == ("breaking_n" in settings) and (made.motion.ties["flowed"][0] != 0) == ("yield_n" in settings)
+
+
+def test_a_link_too_stiff_for_the_step_is_refused_by_name():
+    with pytest.raises(ValueError, match="links.tie: a stiffness of .* needs steps of at most"):
+        tied(tie(stiffness=1e12))
