@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import MASTER, SLAVE
+from fecolumn.contact.pose import MASTER, SLAVE, turns
 
 
 @njit
@@ -23,7 +22,8 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
         nodal: (3 N, 3 n) as of Bodies. own: (n, 3) of the points alone.
     """
     k, m = len(active), 2 * len(active)
-    rows, signs, nodes, shares, sides, turns = np.empty(m, np.int64), np.empty(m), np.empty((m, 4), np.int64), np.empty((m, 4)), np.empty((m, 3)), np.empty((m, 3, 3))
+    rows, signs, nodes, shares, sides = np.empty(m, np.int64), np.empty(m), np.empty((m, 4), np.int64), np.empty((m, 4)), np.empty((m, 3))
+    turned, faces = turns(poses), np.empty((m, 2), np.int64)
     W[:] = 0.0
     for b in range(len(bodies.body)):
         count = 0
@@ -35,7 +35,7 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
                     nodes[count, q], shares[count, q] = points[i].carriers[q], points[i].weights[q]
                 for a in range(3):
                     sides[count, a] = arms[i, a]
-                put_matrix(poses[points[i].interface].turned[SLAVE], turns[count])
+                faces[count, 0], faces[count, 1] = points[i].interface, SLAVE
                 count += 1
             if points[i].master == b:
                 rows[count], signs[count] = j, -1.0
@@ -43,9 +43,9 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
                     nodes[count, q], shares[count, q] = points[i].below[q], points[i].shares[q]
                 for a in range(3):
                     sides[count, a] = points[i].seat[a]
-                put_matrix(poses[points[i].interface].turned[MASTER], turns[count])
+                faces[count, 0], faces[count, 1] = points[i].interface, MASTER
                 count += 1
-        _add_body(bodies, b, rows, signs, nodes, shares, sides, turns, count, rigid, nodal, W)
+        _add_body(bodies, b, rows, signs, nodes, shares, sides, faces, turned, count, rigid, nodal, W)
     if factor != 0.0:
         count = 0
         for j in range(k):
@@ -67,9 +67,9 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
 
 
 @njit
-def _add_body(bodies, b, rows, signs, nodes, shares, arms, turns, count, rigid, nodal, W):
-    """Add to the upper blocks of W what one body gives: `count` sides of points on it, for each row in W, sign, nodes, shares, arm
-    and turn (3, 3) from the body to the frame of the interface."""
+def _add_body(bodies, b, rows, signs, nodes, shares, arms, faces, turned, count, rigid, nodal, W):
+    """Add to the upper blocks of W what one body gives: `count` sides of points on it, for each row in W, sign, nodes, shares, arm, and its
+    interface and side, whose turns (ni, 2, 3, 3) lead from the body to the frame of the interface."""
     if count == 0:
         return
     B, block, half, lever = np.zeros((3 * count, 3 * count)), np.empty((3, 3)), np.empty((3, 3)), np.empty((count, 3, 3))
@@ -97,13 +97,13 @@ def _add_body(bodies, b, rows, signs, nodes, shares, arms, turns, count, rigid, 
                     block[1, c] += rigid * (x * l2 - z * l0)
                     block[2, c] += rigid * (y * l0 - x * l1)
                     block[c, c] += mobile
-            sign, R, S = signs[i] * signs[j], turns[i], turns[j]
+            sign, k, s, l, t = signs[i] * signs[j], faces[i, 0], faces[i, 1], faces[j, 0], faces[j, 1]
             for a in range(3):
                 for c in range(3):
-                    half[a, c] = R[a, 0] * block[0, c] + R[a, 1] * block[1, c] + R[a, 2] * block[2, c]
+                    half[a, c] = turned[k, s, a, 0] * block[0, c] + turned[k, s, a, 1] * block[1, c] + turned[k, s, a, 2] * block[2, c]
             for a in range(3):
                 for c in range(3):
-                    value = sign * (half[a, 0] * S[c, 0] + half[a, 1] * S[c, 1] + half[a, 2] * S[c, 2])
+                    value = sign * (half[a, 0] * turned[l, t, c, 0] + half[a, 1] * turned[l, t, c, 1] + half[a, 2] * turned[l, t, c, 2])
                     W[3 * rows[i] + a, 3 * rows[j] + c] += value
                     if rows[i] == rows[j] and i != j:
                         # both sides of one point on one body
@@ -221,10 +221,10 @@ def static_displacement(bodies, base, points, poses, contact, listed, target):
             target[i, a] = 0.0
     if loaded == 0:
         return
-    room, far = 8 * loaded, 8 * len(listed)
+    room, far, turned = 8 * loaded, 8 * len(listed), turns(poses)
     pushed, pushes, reached, moved = np.empty(room, np.int64), np.empty((room, 3)), np.empty(far, np.int64), np.empty((far, 3))
     for b in range(-1, len(bodies.body)):
-        _displace(bodies, base, points, b, poses, contact, listed, pushed, pushes, reached, moved, target)
+        _displace(bodies, base, points, b, turned, contact, listed, pushed, pushes, reached, moved, target)
     for i in listed:
         if contact[i].force[2] > 0 and points[i].count > 1:
             for a in range(3):
@@ -233,7 +233,7 @@ def static_displacement(bodies, base, points, poses, contact, listed, target):
 
 
 @njit
-def _displace(bodies, base, points, b, poses, contact, listed, pushed, pushes, reached, moved, target):
+def _displace(bodies, base, points, b, turned, contact, listed, pushed, pushes, reached, moved, target):
     """What `static_displacement` finds of one body, or the base; the four arrays before the last are room to work in."""
     n_pushed, first = 0, 0 if b == BASE else bodies.body[b].first
     compliance = base.compliance if b == BASE else bodies.static
@@ -256,9 +256,9 @@ def _displace(bodies, base, points, b, poses, contact, listed, pushed, pushes, r
                     pushes[place, 1] += w * r1
                     pushes[place, 2] += w * r2
                 else:
-                    T = poses[points[i].interface].turned[side]
+                    k = points[i].interface
                     for a in range(3):
-                        pushes[place, a] += w * (T[0, a] * r0 + T[1, a] * r1 + T[2, a] * r2)
+                        pushes[place, a] += w * (turned[k, side, 0, a] * r0 + turned[k, side, 1, a] * r1 + turned[k, side, 2, a] * r2)
     if n_pushed == 0:
         return
     # what they do at the nodes of the near points, each found once
@@ -288,6 +288,6 @@ def _displace(bodies, base, points, b, poses, contact, listed, pushed, pushes, r
                 target[i, 1] += u1
                 target[i, 2] += u2
             else:
-                T = poses[points[i].interface].turned[side]
+                k = points[i].interface
                 for a in range(3):
-                    target[i, a] += T[a, 0] * u0 + T[a, 1] * u1 + T[a, 2] * u2
+                    target[i, a] += turned[k, side, a, 0] * u0 + turned[k, side, a, 1] * u1 + turned[k, side, a, 2] * u2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn._compiled import njit
 from fecolumn.contact.record import record
 
 #: The frame of an interface, of its master's surface: frame: (3, 3) its axes in the table frame, two tangents and the normal; origin: (3,) in the table
@@ -19,3 +20,15 @@ def poses_on_base(rotations: np.ndarray) -> np.ndarray:
     poses = np.zeros(len(rotations), POSE)
     poses["frame"], poses["turned"][:, SLAVE], poses["turned"][:, MASTER] = np.eye(3), rotations, np.eye(3)
     return poses
+
+
+@njit
+def turns(poses):
+    """(ni, 2, 3, 3): what of poses (ni,) loops over points need; from a record each of them would take as long as what is done with it."""
+    result = np.empty((len(poses), 2, 3, 3))
+    for k in range(len(poses)):
+        for side in range(2):
+            for a in range(3):
+                for c in range(3):
+                    result[k, side, a, c] = poses[k].turned[side, a, c]
+    return result

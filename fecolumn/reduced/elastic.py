@@ -71,7 +71,9 @@ def find_elastic(structure, points, i, motion, elastic, when):
     x = y = z = 0.0
     for q in range(points[i].count):
         node, w = points[i].carriers[q], points[i].weights[q]
-        _find_node(structure, node, b, motion, elastic, when)
+        if elastic.stamp[when, node] != elastic.now[when]:
+            elastic.stamp[when, node] = elastic.now[when]
+            _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node])
         x += w * elastic.node[when, node, 0]
         y += w * elastic.node[when, node, 1]
         z += w * elastic.node[when, node, 2]
@@ -111,33 +113,40 @@ def _into_frame(pose, place):
 
 
 @njit
-def find_position(structure, points, i, motion, poses, elastic, when, target):
-    """target (3,): place of point i relative to its master's surface, in the frame of its interface, without static part, its elastic displacement being known.
+def find_position(points, i, motion, elastic, when, target):
+    """target (3,): position of point i in the table frame without its static part, its elastic displacement being known; on the base that is all of it."""
+    b, u = points[i].slave, elastic.point[when, i]
+    x, y, z = points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2]
+    for a in range(3):
+        target[a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
+    if points[i].master == BASE:
+        target[2] += points[i].lift
+
+
+@njit
+def find_on_master(structure, points, i, motion, poses, elastic, when, target):
+    """Position (3,) of point i in the table frame as its place relative to its moving master's surface, in the frame of its interface, in place.
 
     A point that is beyond the surface at the START of a step is put high above it: within a step none comes or goes over an outline.
     """
-    b, u = points[i].slave, elastic.point[when, i]
-    _into_table(motion, b, points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2], target)
-    b = points[i].master
-    if b != BASE:
-        interface, seat = structure.interfaces[points[i].interface], elastic.seat[when, i]
-        axes = interface.axes
-        _into_frame(poses[points[i].interface], target)
-        for a in range(3):
-            seat[a] = interface.origin[a] + axes[a, 0] * target[0] + axes[a, 1] * target[1] + axes[a, 2] * target[2]
-            points[i].seat[a] = seat[a]
-        on = project_on_body(structure.bodies, interface, points[i], target[0], target[1]) == ON
-        if when == START:
-            points[i].beyond = not on
-        if points[i].beyond:
-            target[2] = interface.width
-        elif motion.modal.shape[2] > 0:
-            for q in range(3):
-                node, w = points[i].below[q], points[i].shares[q]
-                _find_node(structure, node, b, motion, elastic, when)
-                moved = elastic.node[when, node]
-                for a in range(3):
-                    target[a] -= w * (axes[0, a] * moved[0] + axes[1, a] * moved[1] + axes[2, a] * moved[2])
+    b, interface, seat = points[i].master, structure.interfaces[points[i].interface], elastic.seat[when, i]
+    axes = interface.axes
+    _into_frame(poses[points[i].interface], target)
+    for a in range(3):
+        seat[a] = interface.origin[a] + axes[a, 0] * target[0] + axes[a, 1] * target[1] + axes[a, 2] * target[2]
+        points[i].seat[a] = seat[a]
+    on = project_on_body(structure.bodies, interface, points[i], target[0], target[1]) == ON
+    if when == START:
+        points[i].beyond = not on
+    if points[i].beyond:
+        target[2] = interface.width
+    elif motion.modal.shape[2] > 0:
+        for q in range(3):
+            node, w = points[i].below[q], points[i].shares[q]
+            _find_node(structure, node, b, motion, elastic, when)
+            moved = elastic.node[when, node]
+            for a in range(3):
+                target[a] -= w * (axes[0, a] * moved[0] + axes[1, a] * moved[1] + axes[2, a] * moved[2])
     target[2] += points[i].lift
 
 
@@ -145,11 +154,15 @@ def find_position(structure, points, i, motion, poses, elastic, when, target):
 def locate_start(structure, points, i, start, poses, elastic, before, place):
     """Elastic displacement at the START of a step of point i, which was open, and where it was, unless the step before located it; place: (3,) room."""
     find_elastic(structure, points, i, start, elastic, START)
-    if before[i].located and points[i].master == BASE:
+    if points[i].master != BASE:
+        find_position(points, i, start, elastic, START, place)
+        find_on_master(structure, points, i, start, poses, elastic, START, place)
+        if before[i].located:
+            return
+    elif before[i].located:
         return
-    find_position(structure, points, i, start, poses, elastic, START, place)
-    if before[i].located:
-        return
+    else:
+        find_position(points, i, start, elastic, START, place)
     for a in range(3):
         before[i].relative[a] = place[a]
         if a < 2:

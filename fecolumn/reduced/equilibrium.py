@@ -26,7 +26,7 @@ from fecolumn.contact.problem import (
 )
 from fecolumn.contact.stick import Stick, holds, no_stick
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
-from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_position, locate_start, no_elastic
+from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_on_master, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, begin_frames, follow, no_action
 from fecolumn.reduced.pose import find_poses
 
@@ -92,28 +92,40 @@ def find_positions(structure, work, start, end):
         reach[b] = np.sqrt(reach[b])
         if all_of_them and end.modal.shape[2] > 0:
             find_all_elastic(structure, b, end, elastic, END)
+    turned, center = np.empty((len(interfaces), 3, 3)), np.empty((len(interfaces), 3))
+    for k in range(len(interfaces)):
+        _slave_in_frame(interfaces[k], poses[k], end, turned[k], center[k])
     for i in range(len(points)):
-        k, b, m, arm = points[i].interface, points[i].slave, points[i].master, points[i].arm
+        point = points[i]
+        k, x, y, z = point.interface, point.arm[0], point.arm[1], point.arm[2]
+        for a in range(3):
+            positions[i, a] = center[k, a] + turned[k, a, 0] * x + turned[k, a, 1] * y + turned[k, a, 2] * z
+        positions[i, 2] += point.lift
         # a point of the rim moves with nodes near to its own, which may reach farther, but not twice as far
-        low = CLOSE * interfaces[k].width + 2 * reach[b] * structure.reach[points[i].node]
-        if m == BASE:
-            R = end.rotation
-            for a in range(3):
-                positions[i, a] = end.frames[b].center[a] + R[b, a, 0] * arm[0] + R[b, a, 1] * arm[1] + R[b, a, 2] * arm[2]
-        else:
-            T, frame, offset = poses[k].turned, poses[k].frame, poses[k].origin
-            for a in range(3):
-                positions[i, a] = T[SLAVE, a, 0] * arm[0] + T[SLAVE, a, 1] * arm[1] + T[SLAVE, a, 2] * arm[2]
-                for c in range(3):
-                    positions[i, a] += frame[c, a] * (end.frames[b].center[c] - offset[c])
-            low += reach[m] * interfaces[k].reach
-        positions[i, 2] += points[i].lift
+        low = CLOSE * interfaces[k].width + 2 * reach[point.slave] * structure.reach[point.node]
+        if point.master != BASE:
+            low += reach[point.master] * interfaces[k].reach
         if positions[i, 2] > low and not all_of_them and not (work.before[i].force[2] > 0 or end.contact[i].force[2] > 0):
             continue
         if work.before[i].force[2] <= 0:
             locate_start(structure, points, i, start, work.poses[START], elastic, work.before, work.places[0])
         find_elastic(structure, points, i, end, elastic, END)
-        find_position(structure, points, i, end, poses, elastic, END, positions[i])
+        find_position(points, i, end, elastic, END, positions[i])
+        if point.master != BASE:
+            find_on_master(structure, points, i, end, poses, elastic, END, positions[i])
+
+
+@njit
+def _slave_in_frame(interface, pose, motion, turned, center):
+    """turned (3, 3), center (3,): how the slave is turned towards the frame of an interface, and where its centre of mass is in it."""
+    place, offset, frame = motion.frames[interface.slave].center, pose.origin, pose.frame
+    put_matrix(pose.turned[SLAVE], turned)
+    for a in range(3):
+        center[a] = place[a]
+        if interface.master != BASE:
+            center[a] = 0.0
+            for c in range(3):
+                center[a] += frame[c, a] * (place[c] - offset[c])
 
 
 @njit
@@ -140,7 +152,8 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
     for i in near_points(problem):
         find_elastic(structure, points, i, start, elastic, START)
         if points[i].master != BASE:
-            find_position(structure, points, i, start, poses[START], elastic, START, work.places[0])
+            find_position(points, i, start, elastic, START, work.places[0])
+            find_on_master(structure, points, i, start, poses[START], elastic, START, work.places[0])
         for a in range(3):
             elastic.point[END, i, a], elastic.seat[END, i, a] = elastic.point[START, i, a], elastic.seat[START, i, a]
     begin_problem(problem, still, not still and stays(interfaces, poses[START], start, free_center, advance))

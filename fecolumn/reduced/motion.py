@@ -177,7 +177,7 @@ def _carry_bodies(structure, scheme, points, listed, start, free_center, advance
             on, under = points[i].slave == b, points[i].master == b
             if not (on or under) or end.contact[i].force[2] <= 0.0:
                 continue
-            _turned(action.frames, points[i], end.contact[i].force, force)
+            _turned(action.frames, points[i], end.contact[i].force[0], end.contact[i].force[1], end.contact[i].force[2], force)
             for a in range(3):
                 if on:
                     arm[a] = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
@@ -204,15 +204,14 @@ def _carry_bodies(structure, scheme, points, listed, start, free_center, advance
 
 
 @njit
-def _turned(frames, point, force, target):
-    """target (3,): the force (3,) on the slave of a point, in the table frame."""
+def _turned(frames, point, x, y, z, target):
+    """target (3,): the force (x, y, z) on the slave of a point, in the table frame."""
     if point.master == BASE:
-        for a in range(3):
-            target[a] = force[a]
+        target[0], target[1], target[2] = x, y, z
         return
-    Q = frames[point.interface]
+    k = point.interface
     for a in range(3):
-        target[a] = Q[a, 0] * force[0] + Q[a, 1] * force[1] + Q[a, 2] * force[2]
+        target[a] = frames[k, a, 0] * x + frames[k, a, 1] * y + frames[k, a, 2] * z
 
 
 @njit
@@ -227,11 +226,11 @@ def modal_forces(structure, points, listed, b, rotation, frames, contact, target
             if contact[i].force[2] <= 0.0:
                 continue
             if points[i].slave == b:
-                _turned(frames, points[i], contact[i].force, force)
-                _add_modal(structure.pushes, points[i].carriers, points[i].weights, points[i].count, rotation, force[0], force[1], force[2], target)
+                _turned(frames, points[i], contact[i].force[0], contact[i].force[1], contact[i].force[2], force)
+                _add_modal(structure.pushes, points[i], True, rotation, force[0], force[1], force[2], target)
             elif points[i].master == b:
-                _turned(frames, points[i], contact[i].force, force)
-                _add_modal(structure.pushes, points[i].below, points[i].shares, 3, rotation, -force[0], -force[1], -force[2], target)
+                _turned(frames, points[i], contact[i].force[0], contact[i].force[1], contact[i].force[2], force)
+                _add_modal(structure.pushes, points[i], False, rotation, -force[0], -force[1], -force[2], target)
         return
     # of a whole foot: forces on its nodes first, then one product
     first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
@@ -240,7 +239,7 @@ def modal_forces(structure, points, listed, b, rotation, frames, contact, target
         on = points[i].slave == b
         if contact[i].force[2] <= 0.0 or not (on or points[i].master == b):
             continue
-        _turned(frames, points[i], contact[i].force, force)
+        _turned(frames, points[i], contact[i].force[0], contact[i].force[1], contact[i].force[2], force)
         for a in range(3):
             along = rotation[0, a] * force[0] + rotation[1, a] * force[1] + rotation[2, a] * force[2]
             if on:
@@ -253,12 +252,13 @@ def modal_forces(structure, points, listed, b, rotation, frames, contact, target
 
 
 @njit
-def _add_modal(pushes, nodes, shares, count, rotation, x, y, z, target):
-    """Add to target (m,) what the force (x, y, z) does on the modes whose `count` nodes bear their shares of it."""
+def _add_modal(pushes, point, on, rotation, x, y, z, target):
+    """Add to target (m,) what the force (x, y, z) at a point of POINT does on the modes of its slave, `on`, or of its master."""
     for a in range(3):
         along = rotation[0, a] * x + rotation[1, a] * y + rotation[2, a] * z
-        for q in range(count):
-            share, push = shares[q] * along, pushes[nodes[q], a]
+        for q in range(point.count if on else 3):
+            node, share = (point.carriers[q], point.weights[q] * along) if on else (point.below[q], point.shares[q] * along)
+            push = pushes[node, a]
             for k in range(len(target)):
                 target[k] += share * push[k]
 
@@ -294,9 +294,9 @@ def push_bodies(structure, scheme, points, arms, poses, impulses, motion):
             if len(jump) == 0:
                 continue
             if on:
-                _add_modal(structure.pushes, points[i].carriers, points[i].weights, points[i].count, R, p0, p1, p2, jump)
+                _add_modal(structure.pushes, points[i], True, R, p0, p1, p2, jump)
             else:
-                _add_modal(structure.pushes, points[i].below, points[i].shares, 3, R, p0, p1, p2, jump)
+                _add_modal(structure.pushes, points[i], False, R, p0, p1, p2, jump)
         J = body.inverse_inertia
         for a in range(3):
             motion.frames[b].spin[a] += J[a, 0] * moment[0] + J[a, 1] * moment[1] + J[a, 2] * moment[2]
