@@ -61,11 +61,17 @@ class History:
         write_hdf5(path, fill)
 
 
-def read_history(path) -> dict[str, np.ndarray]:
-    """Columns of a history file; energy terms as "energy/<term>"."""
+def read_history(path, names: tuple[str, ...] = ()) -> dict[str, np.ndarray]:
+    """Columns of a history file, all or those named; energy terms as "energy/<term>".
+
+    Raises:
+        OSError: no such file, or none of HDF5. KeyError: one named is not in it.
+    """
     import h5py
 
     with h5py.File(path) as file:
+        if names:
+            return {name: file[name][()] for name in names}
         names = []
         file.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
         return {name: file[name][()] for name in names}

@@ -15,6 +15,7 @@ COLUMN_WIDTH_IN, PAGE_WIDTH_IN = 3.5, 7.2
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7")  # Okabe & Ito (2008)
 GREY = "#9A9A9A"
+_PRINT_DPI = 300  # of those parts of a PDF that are drawn as an image, for their many lines
 # Told apart by colour and by dash, so that print in grey still reads; yellow is too faint for a line.
 LINES = tuple(zip((BLUE, VERMILION, GREEN, PURPLE, ORANGE, BLACK, SKY), ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)), "-", "--")))
 
@@ -49,7 +50,7 @@ def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
     with matplotlib.rc_context({"figure.constrained_layout.use": False}):
         figure.set_layout_engine(None)
         for file in files:
-            figure.savefig(file, metadata={".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(file.suffix))
+            figure.savefig(file, dpi=_PRINT_DPI if file.suffix == ".pdf" else STYLE["savefig.dpi"], metadata={".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(file.suffix))
     return files
 
 

@@ -13,6 +13,7 @@ from fecolumn.atomic import write_csv
 
 _REFERENCE = re.compile(r"\[\[(\w+)\]\]")
 _WIDE = 11
+_PATH, _DIGITS = re.compile(rb' d="[^"]*"'), re.compile(rb"(\.\d\d)\d+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +48,9 @@ class Figure:
 
 
 def _data_uri(svg: bytes) -> str:
-    """An image of its own, whose names cannot clash with those of other figures."""
-    return "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
+    """An image of its own, whose names cannot clash with those of other figures; paths to 0.01 of a point, which halves it."""
+    short = _PATH.sub(lambda path: _DIGITS.sub(rb"\1", path[0]), svg)
+    return "data:image/svg+xml;base64," + base64.b64encode(short).decode()
 
 
 @dataclass(frozen=True, slots=True)

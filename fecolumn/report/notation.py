@@ -82,8 +82,8 @@ def typeset(text: str):
 
 
 def count(n: int, noun: str) -> str:
-    """"1 motion", "3 motions"; nouns in -s stay ("analysis" takes "analyses")."""
-    plural = {"analysis": "analyses"}.get(noun, noun + "s")
+    """"1 motion", "3 motions"; "1 analysis", "3 analyses"."""
+    plural = {"analysis": "analyses", "history": "histories"}.get(noun, noun + "s")
     return f"{n} {noun if n == 1 else plural}"
 
 

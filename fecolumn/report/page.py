@@ -8,14 +8,17 @@ from pathlib import Path
 
 from fecolumn.atomic import write_bytes
 from fecolumn.folder import written
+from fecolumn.report.all_motions import all_motions
 from fecolumn.report.audit import audit
 from fecolumn.report.claim import MARGIN, SUPPORTED, Claim
 from fecolumn.report.cost import cost_claims
 from fecolumn.report.distribution_claims import distribution_claims
 from fecolumn.report.distributions import TARGET_NOTE, distributions
 from fecolumn.report.document import Column, Paragraph, Section, Table, numbered, referenced
+from fecolumn.report.explorer import explorer
 from fecolumn.report.fragility import fragility
 from fecolumn.report.gallery import Gallery
+from fecolumn.report.histories import read_histories
 from fecolumn.report.incremental import incremental
 from fecolumn.report.individual import individual
 from fecolumn.report.individual_claims import individual_claims
@@ -87,9 +90,9 @@ def claims_of(sweep: Sweep, pairs: list[Pair]) -> list[Claim]:
 def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
     pairs = read_pairs(sweep)
     claims = claims_of(sweep, pairs) if gallery.paper else []
-    intensities = Intensities(sweep.folder)
+    intensities, histories = Intensities(sweep.folder), read_histories(sweep)
     parts = [specimen(sweep, gallery, intensities), _claims_section(sweep, claims) if claims else None, distributions(sweep, pairs, gallery),
-             individual(sweep, gallery), sensitivity_section(sweep, gallery), incremental(sweep, gallery, intensities),
+             all_motions(sweep, histories, gallery), explorer(sweep, histories), individual(sweep, gallery), sensitivity_section(sweep, gallery), incremental(sweep, gallery, intensities),
              fragility(sweep, gallery, intensities), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
     return [part for part in parts if part]
 
@@ -111,10 +114,13 @@ def _html(sweep: Sweep, sections: list[Section]) -> str:
 
     pages = Environment(loader=PackageLoader("fecolumn.report", "."), autoescape=True, undefined=StrictUndefined)
     labels = numbered(sections)
-    here = Path(__file__).parent
+
+    def files(*names: str) -> Markup:
+        return Markup("\n".join((Path(__file__).parent / name).read_text() for name in names))
+
     return pages.get_template("page.html").render(
         title=sweep.title, byline=_byline(sweep), abstract=_abstract(sweep, sections), sections=sections, labels=labels,
-        style=Markup((here / "page.css").read_text()), plain=lambda words: referenced(words, labels),
+        style=files("page.css", "explorer.css"), script=files("chart.js", "explorer.js"), plain=lambda words: referenced(words, labels),
         text=lambda words: typeset(referenced(words, labels)))
 
 

@@ -67,6 +67,17 @@ def test_pip_refuses_the_h5py_wheel():
     assert "h5py<0" in report.stdout + report.stderr
 
 
+def test_the_browser_of_the_tests_is_asked_for_by_pytest_alone(tmp_path):
+    asked = tmp_path / "asked"
+    (tmp_path / "dpkg-query").write_text(f'#!/bin/sh\necho "$@" >>{asked}\nexec /usr/bin/dpkg-query "$@"\n')
+    (tmp_path / "dpkg-query").chmod(0o755)
+    environment = os.environ | {"PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    assert run("true", env=environment).returncode == 0
+    assert "python3-dolfinx" in asked.read_text() and "chromium" not in asked.read_text()
+    assert run("pytest", "--version", env=environment).returncode == 0
+    assert "chromium-driver" in asked.read_text()
+
+
 @pytest.mark.skipif(not shutil.which("shellcheck"), reason="shellcheck is not installed")
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.name)
 def test_scripts_pass_shellcheck(script):
