@@ -8,7 +8,7 @@ import warnings
 import numpy as np
 
 from fecolumn.atomic import write_json
-from fecolumn.case import GRAVITY, REST
+from fecolumn.case import GRAVITY, MODEL_ENGINES, REST
 from fecolumn.ending import AT_REST, EDGE, OVERTURNED, REST_SHARE, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.files import is_file
 from fecolumn.schema import InputError
@@ -41,13 +41,13 @@ class Analysis:
         from fecolumn.mesh.estimate import estimate
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
-        self.began, self.code = time.perf_counter(), code()
+        self.began, self.cpu_began, self.code = time.perf_counter(), time.process_time(), code()
         self.motion = self._load_motion(file)
         self.steps = int(round(self._duration() / case.integration.dt_s))
         self.motion_steps = len(self.motion.acceleration) if self.motion else 0
         self.until_rest = bool(self.motion) and case.motion.free_vibration_s == REST and not case.integration.duration_s
         self.cut_at_s = self._cut(file)
-        if not (folder / CHECKPOINT).is_file():
+        if case.integration.engine not in MODEL_ENGINES and not (folder / CHECKPOINT).is_file():
             self.say(str(estimate(case)))
         self.history, self.step = History(), 0
         self.stepping_s = self.earlier_s = 0.0
@@ -92,6 +92,11 @@ class Analysis:
 
         asked = self.until_rest and self.step >= self.motion_steps
         return self.standing_j + REST_SHARE * barrier(self.stance) if asked else -np.inf
+
+    @property
+    def cpu_s(self) -> float | None:
+        """Processor time of this process since the analysis began [s]; None where it went on from an earlier process."""
+        return None if self.earlier_s else time.process_time() - self.cpu_began
 
     @property
     def field_steps(self) -> int:
@@ -236,7 +241,7 @@ class Analysis:
             energy_left_j=None if overturned else self.energy_left(), energy_to_overturn_j=float(barrier(self.stance)),
             tilt_max_rad=float(rows["tilt"].max()), residual_slide_m=float(np.hypot(*rows["slide"][-1])),
             penetration_max_m=float(rows["penetration"].max()), ranks=self.comm.size,
-            wall_s=self.earlier_s + time.perf_counter() - self.began, s_per_step=self.stepping_s / max(self.step, 1),
+            wall_s=self.earlier_s + time.perf_counter() - self.began, cpu_s=self.cpu_s, s_per_step=self.stepping_s / max(self.step, 1),
             iterations=record.iterations, contact_iterations=record.contact_iterations, impacts=record.impacts,
             cuts=record.cuts, parts=record.parts, factorizations=factorizations, energy_closure_rel=energy_closure(rows),
             energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS})

@@ -1,4 +1,4 @@
-"""The command line: fecolumn new | mesh | run | resume | study | compare | report | render | motions | keys | help | verify | prepare | doctor | completion."""
+"""The command line: fecolumn new | mesh | run | resume | study | compare | report | fragility | render | rocking | motions | keys | help | verify | prepare | doctor | completion."""
 
 from __future__ import annotations
 
@@ -77,6 +77,8 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.motions import command as motions
     from fecolumn.render import command as render
     from fecolumn.report import command as report
+    from fecolumn.report import fragility_command as fragility
+    from fecolumn.rocking import command as rocking
     from fecolumn.study import command as study
     from fecolumn.study import compare_command as compare
     from fecolumn.verification import command as verify
@@ -109,7 +111,9 @@ def _parser() -> argparse.ArgumentParser:
     add("study", "run a sweep of analyses and compare their CDFs", study)
     add("compare", "compare two ensembles: settings, studies, computation and experiment", compare)
     add("report", "write the report of a study: one HTML page, figures and tables", report)
+    add("fragility", "probability of overturning over one or two intensity measures, of a study or of your own table", fragility)
     add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)
+    add("rocking", "run a rocking model of rigid bodies in a motion or an ensemble; overturning spectra", rocking)
     add("motions", "make, fit, look at and convert ground motions", motions)
     add("keys", "every key of a case and of a study: meaning, unit, range, default", keys)
     add("help", "the manual, topic by topic", manual)

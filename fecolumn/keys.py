@@ -1,4 +1,4 @@
-"""`fecolumn keys`: every key of a case and of a study, with meaning, unit, range and default, as the schema declares them."""
+"""`fecolumn keys`: every key of a case, of a study and of a rocking model, with meaning, unit, range and default, as the schema declares them."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def main(args) -> int:
 
 
 def tables() -> list[Table]:
-    """Every table of a case file and of a study file."""
+    """Every table of a case file, of a study file and of a rocking model."""
     from fecolumn.case import Case
     from fecolumn.study.keys import LatinHypercube, StudyKeys
     from fecolumn.study.plan import DEFAULTS
@@ -74,7 +74,15 @@ def tables() -> list[Table]:
             kind = sections[field.name]
             found.append(Table(field.name, _sentence(kind) + absent, _keys(kind, DEFAULTS.get(field.name, {})), "case"))
     return [*found, Table("", _sentence(StudyKeys), (extends, *_keys(StudyKeys)), "study"),
-            Table("latin_hypercube", _sentence(LatinHypercube), _keys(LatinHypercube), "study")]
+            Table("latin_hypercube", _sentence(LatinHypercube), _keys(LatinHypercube), "study"),
+            *(Table(name, _sentence(section), _keys(section), "model") for name, section in _model_sections().items())]
+
+
+def _model_sections() -> dict[str, type]:
+    """Sections of the rocking models by the names of their tables."""
+    from fecolumn.rocking.model import MODELS, model_class
+
+    return {cls.TABLE: cls.SECTION for cls in map(model_class, MODELS)}
 
 
 def chosen(name: str) -> list[Table]:

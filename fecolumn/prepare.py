@@ -21,7 +21,7 @@ def prepare(say) -> None:
     from fecolumn.case import case_from_tables
     from fecolumn.simulation import run
 
-    for engine in ("full", "reduced"):
+    for engine in ("full", "reduced", "housner"):
         began = time.perf_counter()
         case = case_from_tables(_TUBE | dict(integration=dict(engine=engine, duration_s=1e-3, dt_s=1e-3)), "fecolumn prepare")
         with tempfile.TemporaryDirectory() as folder:

@@ -7,7 +7,7 @@ import warnings
 from pathlib import Path
 
 from fecolumn.analysis import Analysis, AnalysisFailed
-from fecolumn.case import Case, check_duration, finished, read_case
+from fecolumn.case import MODEL_ENGINES, Case, check_duration, finished, read_case
 from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.result_folder import held
 from fecolumn.schema import InputError
@@ -69,6 +69,10 @@ def _analysis_class(case, comm, file) -> type[Analysis]:
         return FullAnalysis
     if comm.size > 1:
         raise InputError(file, "integration.engine", case.integration.engine, "runs on one process: start it without mpirun")
+    if case.integration.engine in MODEL_ENGINES:
+        from fecolumn.rocking.analysis import ModelAnalysis
+
+        return ModelAnalysis
     from fecolumn.reduced.analysis import ReducedAnalysis
 
     return ReducedAnalysis

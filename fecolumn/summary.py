@@ -11,7 +11,7 @@ NAME = "summary.json"
 # What tables, figures and statistics take from every summary, whichever function wrote it: numbers of at least 0
 _NUMBERS = ("u_max_m", "residual_slide_m", "steps", "wall_s", "s_per_step", "energy_closure_rel")
 # The same of summaries that have them
-_OPTIONAL = ("tilt_max_rad", "duration_s", "overturn_time_s", "dofs", "iterations", "contact_iterations", "impacts", "cuts", "parts",
+_OPTIONAL = ("tilt_max_rad", "duration_s", "overturn_time_s", "cpu_s", "dofs", "iterations", "contact_iterations", "impacts", "cuts", "parts",
              "factorizations", "ranks", "dt", "motion_cut_at_s")
 _MOST_BYTES = 10_000_000
 

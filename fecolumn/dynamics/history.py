@@ -10,12 +10,13 @@ from fecolumn.atomic import write_hdf5
 from fecolumn.dynamics.energy import TERMS
 
 UNITS = {"time": "s", "u_top": "m", "tilt": "rad", "twist": "rad", "slide": "m", "contact_force": "N",
-         "active_nodes": "-", "penetration": "m", "ground": "m/s2", "iterations": "-"}
+         "active_nodes": "-", "penetration": "m", "ground": "m/s2", "iterations": "-", "theta_x": "rad", "theta_y": "rad"}
 MEANING = {"u_top": "displacement of the top's centre relative to the base", "slide": "horizontal displacement of the foot's centre",
            "tilt": "angle of the column's axis to the vertical", "twist": "rotation about the vertical",
            "contact_force": "force of the base on the column", "active_nodes": "foot nodes in contact",
            "penetration": "largest penetration of a foot node", "ground": "acceleration of the base",
-           "iterations": "position iterations of the step"}
+           "iterations": "position iterations of the step",
+           "theta_x": "tilt in the plane of x, positive towards +x", "theta_y": "tilt in the plane of y, positive towards +y"}
 
 
 class History:

@@ -9,7 +9,7 @@ import numpy as np
 
 from fecolumn.case import GRAVITY
 from fecolumn.motions.ensemble import Ensemble
-from fecolumn.motions.rocking_spectrum import larger_rocking_spectrum, tilt_quantile
+from fecolumn.rocking.spectrum import larger_rocking_spectrum, tilt_quantile
 from fecolumn.post.style import BLUE, GREY, PAGE_WIDTH_IN, SKY, VERMILION, new_figure, save
 
 _PERIODS = np.geomspace(0.5, 10.0, 48)  # rectangular blocks of R = 0.05 to 19 m

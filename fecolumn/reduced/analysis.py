@@ -61,7 +61,7 @@ class ReducedAnalysis(Analysis):
         if not compiled(advance):
             self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
         self.engine = engine_of(case, self.model, self.base)
-        self.began = time.perf_counter()  # what was made and compiled so far was so for all analyses
+        self.began, self.cpu_began = time.perf_counter(), time.process_time()  # what was made and compiled so far was so for all analyses
         self.stance, self.top_arm = self.engine.eye.stance, self.model.top_arm
         self.fields = self._fields() if self.field_steps else None
         if self.went_on(self._take):

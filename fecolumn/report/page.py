@@ -23,6 +23,7 @@ from fecolumn.report.incremental import incremental
 from fecolumn.report.individual import individual
 from fecolumn.report.individual_claims import individual_claims
 from fecolumn.report.intensity import Intensities
+from fecolumn.report.models import models
 from fecolumn.report.notation import axis_name, count, percent, typeset
 from fecolumn.report.pair import Pair, read_pairs
 from fecolumn.report.power import power
@@ -91,7 +92,7 @@ def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
     pairs = read_pairs(sweep)
     claims = claims_of(sweep, pairs) if gallery.paper else []
     intensities, histories = Intensities(sweep.folder), read_histories(sweep)
-    parts = [specimen(sweep, gallery, intensities), _claims_section(sweep, claims) if claims else None, distributions(sweep, pairs, gallery),
+    parts = [specimen(sweep, gallery, intensities), _claims_section(sweep, claims) if claims else None, distributions(sweep, pairs, gallery), models(sweep, gallery),
              all_motions(sweep, histories, gallery), explorer(sweep, histories), individual(sweep, gallery), sensitivity_section(sweep, gallery), incremental(sweep, gallery, intensities),
              fragility(sweep, gallery, intensities), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
     return [part for part in parts if part]

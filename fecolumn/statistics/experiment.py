@@ -59,7 +59,7 @@ def read_maxima(path) -> Maxima:
         if not motion or motion in motions:
             raise InputError(path, f"line {number}, motion", motion, "must be a name" if not motion else "stands twice in the file")
         motions.append(motion)
-        overturned.append(_overturned(path, number, word))
+        overturned.append(overturned_word(path, number, word))
         maxima.append(math.nan if overturned[-1] else factor * _number(path, number, table[0][columns[1]].strip(), u_text))
     return Maxima(tuple(motions), np.array(maxima), np.array(overturned))
 
@@ -76,7 +76,8 @@ def _columns(path: Path, header: list[str]) -> tuple[tuple[int, int, int], float
     return (header.index("motion"), header.index(maxima[0]), header.index("overturned")), _TO_METRES[maxima[0]]
 
 
-def _overturned(path: Path, number: int, word: str) -> bool:
+def overturned_word(path: Path, number: int, word: str) -> bool:
+    """Whether a line of a file says that it overturned; InputError where it says neither."""
     if word.lower() not in _WORDS:
         raise InputError(path, f"line {number}, overturned", word, f"must be one of {', '.join(_WORDS)}")
     return _WORDS[word.lower()]

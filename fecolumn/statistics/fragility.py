@@ -87,6 +87,7 @@ class LogitFragility:
         loglik: log-likelihood at the maximum; with one more intensity measure 2 (difference) is chi-square with one degree of
             freedom where that measure tells nothing.
         n, overturned: runs, and how many overturned.
+        clusters: as of Fragility.
     """
 
     coefficients: np.ndarray
@@ -94,6 +95,7 @@ class LogitFragility:
     loglik: float
     n: int
     overturned: int
+    clusters: int | None = None
 
     @property
     def parameters(self) -> np.ndarray:
@@ -103,7 +105,8 @@ class LogitFragility:
     def probability(self, im, confidence: float = 0.95) -> Probability:
         """P(overturn) at im (m, k), or (m,) of one measure, with its band by the delta method on the scale of the logit."""
         x = log_columns(im, len(self.coefficients) - 1)
-        eta, reach = x @ self.coefficients, normal_quantile(confidence) * _deviation(x, self.covariance)
+        quantile = normal_quantile(confidence) if self.clusters is None else float(stdtrit(self.clusters - 1, (1 + confidence) / 2))
+        eta, reach = x @ self.coefficients, quantile * _deviation(x, self.covariance)
         return Probability(expit(eta), expit(eta - reach), expit(eta + reach))
 
 
@@ -150,19 +153,24 @@ def lognormal(im, overturned, groups=None) -> Fragility:
     return Fragility(math.exp(-a / b), 1 / b, to_shape @ covariance @ to_shape.T, fit.loglik, overturned.size, int(overturned.sum()), clusters)
 
 
-def logit(im, overturned) -> LogitFragility:
+def logit(im, overturned, groups=None) -> LogitFragility:
     """Logistic regression on the logarithms of one or more intensity measures.
 
     Args:
         im: (n, k) or (n,) positive intensities of each run.
         overturned: (n,) True where the column overturned.
+        groups: as of `lognormal`.
 
     Raises:
         DegenerateData, ValueError: as of `lognormal`, but for the direction of the trend.
     """
     overturned = np.asarray(overturned, bool)
-    fit = fit_binary(_data(im, overturned), overturned, "logit")
-    return LogitFragility(fit.coefficients, fit.covariance, fit.loglik, overturned.size, int(overturned.sum()))
+    x = _data(im, overturned)
+    fit = fit_binary(x, overturned, "logit")
+    covariance, clusters = fit.covariance, None
+    if groups is not None:
+        covariance, clusters = clustered_covariance(x, overturned, "logit", fit, groups)
+    return LogitFragility(fit.coefficients, covariance, fit.loglik, overturned.size, int(overturned.sum()), clusters)
 
 
 def bootstrap(im, overturned, fit=lognormal, groups=None, confidence: float = 0.95, resamples: int = 500, seed: int = 0) -> Bootstrap:

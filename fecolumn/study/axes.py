@@ -21,22 +21,18 @@ import dataclasses
 import difflib
 import math
 import pickle
-import re
 import typing
 from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.case import Case
-from fecolumn.motions import lick
-from fecolumn.motions.ensemble_file import ALL, file_and_number, members
-from fecolumn.motions.record import UnusableRecord
+from fecolumn.motions.chosen import chosen_motions
 from fecolumn.schema import InputError, build
 from fecolumn.study.keys import LatinHypercube
 
 # A study's tables that hold axes
 TABLES = ("axes", "zip", "latin_hypercube")
 _SAMPLES = tuple(field.name for field in dataclasses.fields(LatinHypercube))
-_SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +94,7 @@ def _lists(table, name: str, path: Path) -> dict[str, tuple]:
         if not isinstance(values, list) or not values:
             raise InputError(path, f"{name}.{key}", values, "must be a list of at least one value")
         if key == "motion.source":
-            values = [source for value in values for source in _members(value, name, path)]
+            values = [source for value in values for source in chosen_motions(value, f"{name}.motion.source", path)]
         lists[key] = tuple(values)
     return lists
 
@@ -158,28 +154,6 @@ def _drawn(share: float, values: list, kind):
     low, high = float(values[0]), float(values[1] + (1 if kind is int else 0))
     value = low * (high / low) ** share if values[2:] else low + share * (high - low)
     return math.floor(value) if kind is int else float(f"{value:.6g}")
-
-
-def _members(source, name: str, path: Path) -> list:
-    """Every motion of ensemble.h5#* or lick:*, those of lick:1-40 or ensemble.h5#1-40; any other value as it is."""
-    if not isinstance(source, str):
-        return [source]
-    if source.startswith(lick.PREFIX):
-        place, mark, wanted = "", lick.PREFIX, source.removeprefix(lick.PREFIX)
-    else:
-        place, wanted = file_and_number(source) or ("", "")
-        mark = f"{place}#"
-    span = _SPAN.fullmatch(wanted)
-    if wanted != ALL and not span:
-        return [source]
-    try:
-        count = len(members(str(path.resolve().parent / f"{place}#{ALL}"))) if place else lick.COUNT
-    except UnusableRecord as error:
-        raise InputError(path, f"{name}.motion.source", source, str(error)) from None
-    first, last = map(int, span.groups()) if span else (1, count)
-    if not 1 <= first <= last <= count:
-        raise InputError(path, f"{name}.motion.source", source, f"must be two rising numbers from 1 to {count}")
-    return [f"{mark}{number}" for number in range(first, last + 1)]
 
 
 def _flat(table: dict, prefix: str = ""):

@@ -88,10 +88,13 @@ def _run(args, share, team_of=None) -> tuple[int, bool]:
 
     plan = read_plan(args.study)
     if args.entry is None:  # an analysis function of the user's may read motions this package does not know
+        from fecolumn.case import MODEL_ENGINES
         from fecolumn.mesh.estimate import estimate_of_all
 
         check_motions(plan)
-        print(estimate_of_all(analysis.case for analysis in plan.analyses), file=sys.stderr, flush=True)
+        meshed = [analysis.case for analysis in plan.analyses if analysis.case.integration.engine not in MODEL_ENGINES]
+        if meshed:
+            print(estimate_of_all(meshed), file=sys.stderr, flush=True)
     entry, rule = args.entry or ENTRY, _rule(args, share, plan)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's stop is answered like Ctrl-C
 

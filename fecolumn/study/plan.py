@@ -37,6 +37,7 @@ _KEYS = tuple(field.name for field in dataclasses.fields(StudyKeys))
 _MOST = 1_000_000
 # Cost of a step, relative: only the order and the share of the work left are judged by it
 _COST = {"full": 500.0, "reduced": 1.0, "rigid": 0.5}
+_COST_OF_MODEL = 0.01
 # dataclass of each section
 _KINDS = {name: inner for name, kind in typing.get_type_hints(Case).items() for inner in (kind, *typing.get_args(kind))
           if dataclasses.is_dataclass(inner)}
@@ -85,7 +86,7 @@ class Analysis:
         Landings and slips cost the same whatever the step: a second of them, as much as a thousand steps between them.
         """
         plan = self.case.integration
-        return self.duration_s * (1 / plan.dt_s + 1000) * _COST[plan.engine]
+        return self.duration_s * (1 / plan.dt_s + 1000) * _COST.get(plan.engine, _COST_OF_MODEL)
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,7 +69,7 @@ def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, mat
     """A body of bricks over a base of bricks.
 
     Args:
-        engine: of ALL_ENGINES.
+        engine: of ELEMENTS.
         mesh: the body; its faces with all corners between z = 0 and `foot_height` [m] and facing down are the foot.
         base: tensor-product grid with its top at z = 0, held at its bottom.
         material, base_material: steel unless given.

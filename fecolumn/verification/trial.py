@@ -77,7 +77,7 @@ class Trial:
 
 
 def begin(engine: str, system, start=standing, impact: str = "plastic", n_modes: int = N_MODES) -> Trial:
-    """A trial of a system in an engine of `verification.ALL_ENGINES`; arguments as of `Trial`, n_modes of `ReducedTrial`."""
+    """A trial of a system in an engine of `verification.ELEMENTS`; arguments as of `Trial`, n_modes of `ReducedTrial`."""
     if engine in FULL:
         return Trial(system, start, impact)
     from fecolumn.verification.reduced_trial import ReducedTrial

@@ -128,7 +128,8 @@ def shrink(path):
             file.write(text)
         change = "" if isinstance(tables["case"], str) else "[case.integration]\nduration_s = 0.02\n"
     else:
-        change = "[integration]\nduration_s = 0.02\nn_modes = 3\n" + coarse(tables)
+        modes = "n_modes = 3\n" if "column" in tables or "extends" in tables else ""  # rocking models have none
+        change = f"[integration]\nduration_s = 0.02\n{modes}{coarse(tables)}"
     with open(path, "w") as file:
         file.write(f'extends = "whole-{name}"\n{change}')
 

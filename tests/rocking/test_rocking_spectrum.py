@@ -11,7 +11,8 @@ from fecolumn.case import GRAVITY
 from fecolumn.motions.pulses import Pulse, sample
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.record import GroundMotion
-from fecolumn.motions.rocking_spectrum import housner_restitution, larger_rocking_spectrum, rock, rocking_spectrum, tilt_quantile
+from fecolumn.rocking.impact import housner_restitution
+from fecolumn.rocking.spectrum import larger_rocking_spectrum, rock, rocking_spectrum, tilt_quantile
 
 SLENDER = 0.05
 P = 2.0

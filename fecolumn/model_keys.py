@@ -1,0 +1,18 @@
+"""What a case must leave out where its engine is a rocking model of rigid bodies."""
+
+from __future__ import annotations
+
+
+def check_model(case, models, refuse) -> None:
+    """Keys that a rocking model of rigid bodies, an engine of `models`, knows nothing of."""
+    engine = case.integration.engine
+    if engine not in models:
+        return
+    for section, key in (("contact", "restitution"), ("contact", "rolling_resistance"), ("material", "damping_ratio"), ("output", "fields_every_s")):
+        if value := getattr(getattr(case, section), key):
+            refuse(f"{section}.{key}", value, f"must be 0 where integration.engine = {engine!r}: a rigid model with an impact law of its own")
+    if case.base.kind == "pad":
+        refuse("base.kind", "pad", f"must be plate or unbounded where integration.engine = {engine!r}: it stands on rigid ground")
+    if case.initial.moves:
+        key = "velocity_m_s" if any(case.initial.velocity_m_s) else "spin_rad_s"
+        refuse(f"initial.{key}", list(getattr(case.initial, key)), f"must be 0 where integration.engine = {engine!r}; it starts from initial.tilt_rad")

@@ -1,0 +1,42 @@
+"""Motions of an ensemble that one text names: ensemble.h5#*, lick:1-40."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from fecolumn.motions import lick
+from fecolumn.motions.ensemble_file import ALL, file_and_number, members
+from fecolumn.motions.record import UnusableRecord
+from fecolumn.schema import InputError
+
+_SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
+
+
+def chosen_motions(source, key: str, file) -> list:
+    """Every motion of ensemble.h5#* or lick:*, those of lick:1-40 or ensemble.h5#1-40; any other value as it is.
+
+    Args:
+        source: as in motion.source. key: that it stands under, for messages. file: that states it; relative paths are taken from its folder.
+
+    Raises:
+        InputError: no such ensemble or numbers.
+    """
+    if not isinstance(source, str):
+        return [source]
+    if source.startswith(lick.PREFIX):
+        place, mark, wanted = "", lick.PREFIX, source.removeprefix(lick.PREFIX)
+    else:
+        place, wanted = file_and_number(source) or ("", "")
+        mark = f"{place}#"
+    span = _SPAN.fullmatch(wanted)
+    if wanted != ALL and not span:
+        return [source]
+    try:
+        count = len(members(str(Path(file).resolve().parent / f"{place}#{ALL}"))) if place else lick.COUNT
+    except UnusableRecord as error:
+        raise InputError(file, key, source, str(error)) from None
+    first, last = map(int, span.groups()) if span else (1, count)
+    if not 1 <= first <= last <= count:
+        raise InputError(file, key, source, f"must be two rising numbers from 1 to {count}")
+    return [f"{mark}{number}" for number in range(first, last + 1)]

@@ -1,0 +1,83 @@
+"""Runs with their intensities and outcomes from a user's own CSV file."""
+
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.schema import InputError
+from fecolumn.statistics.experiment import overturned_word
+
+#: Columns that are no intensity measure
+_OTHERS = ("motion", "record", "overturned", "outcome", "notes", "number", "impacts", "end_s")
+_RESPONSES = ("u_max", "tilt_max")
+
+
+@dataclass(frozen=True, slots=True)
+class IntensityTable:
+    """n runs.
+
+    Attributes:
+        measures: name of each intensity measure to its values (n,), positive.
+        overturned: (n,) bool. records: (n,) what the motion of each run is of, where runs repeat one; None where each stands for itself.
+    """
+
+    measures: dict[str, np.ndarray]
+    overturned: np.ndarray
+    records: np.ndarray | None
+
+
+def read_intensity_table(path, wanted: tuple[str, ...] = ()) -> IntensityTable:
+    """Runs of a CSV file with a header: overturned (1 or 0, true or false, yes or no), and columns of intensity measures.
+
+    A column record, or else motion, tells which runs are of one motion at several scales. Lines that begin with # are comments.
+
+    Args:
+        wanted: names of the measures; none: all columns of positive numbers that are no response.
+
+    Raises:
+        InputError: no such file, a column missing, a value that cannot be used.
+    """
+    path = Path(path)
+    try:
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            lines = [(number, line) for number, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
+    except FileNotFoundError:
+        raise InputError(path, "", None, "no such file") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(path, "", None, f"cannot be read as text in UTF-8 ({error})") from None
+    table = list(csv.reader([line for _, line in lines], skipinitialspace=True))
+    if len(table) < 2:
+        raise InputError(path, "", None, "holds no line below its header; needed are the column overturned and one of an intensity measure")
+    header = [name.strip() for name in table[0]]
+    for name in ("overturned", *wanted):
+        if header.count(name) != 1:
+            raise InputError(path, "header", ", ".join(header), f"must have one column {name}")
+    for (number, _), row in zip(lines[1:], table[1:]):
+        if len(row) != len(header):
+            raise InputError(path, f"line {number}", None, f"has {len(row)} columns where the header has {len(header)}")
+    columns = {name: [row[place].strip() for row in table[1:]] for place, name in enumerate(header)}
+    numbers = [number for number, _ in lines[1:]]
+    fallen = np.array([overturned_word(path, number, word) for number, word in zip(numbers, columns["overturned"])])
+    names = wanted or tuple(name for name in header if name not in _OTHERS and not name.startswith(_RESPONSES) and all(_positive(text) for text in columns[name]))
+    if not names:
+        raise InputError(path, "header", ", ".join(header), "must have a column of an intensity measure, of positive numbers in every line")
+    measures = {}
+    for name in names:
+        for number, text in zip(numbers, columns[name]):
+            if not _positive(text):
+                raise InputError(path, f"line {number}, {name}", text, "must be a number greater than 0")
+        measures[name] = np.array([float(text) for text in columns[name]])
+    labels = next((np.array(columns[name]) for name in ("record", "motion") if name in columns), None)
+    return IntensityTable(measures, fallen, labels if labels is not None and len(set(labels)) < len(labels) else None)
+
+
+def _positive(text: str) -> bool:
+    try:
+        return 0 < float(text) < math.inf
+    except ValueError:
+        return False
