@@ -174,6 +174,7 @@ class Output(Section):
 
     fields_every_s: float = parameter(0.0, doc="interval of the ParaView fields; 0 writes none", unit="s", low=0, high=1e5)
     history_every_s: float = parameter(0.0, doc="interval of the rows of history.h5; 0 writes every step (the summary always sees every step)", unit="s", low=0, high=1e5)
+    states_every_s: float = parameter(0.04, doc="interval of the states of a reduced or rigid engine from which fecolumn render makes deformation, stress and contact pressure; 0 keeps none; doubled before they fill 24 MB", unit="s", low=0, high=1e5, since="0.4")
     checkpoint_every_s: float = parameter(60.0, doc="wall time between checkpoints", unit="s", above=0, high=1e6)
 
 

@@ -109,7 +109,7 @@ def _parser() -> argparse.ArgumentParser:
     resume.add_argument("output", metavar="DIR", help="result folder of fecolumn run")
     resume.add_argument("-q", "--quiet", action="store_true", help="no progress line")
     add("study", "run a sweep of analyses and compare their CDFs", study)
-    add("compare", "compare two ensembles: settings, studies, computation and experiment", compare)
+    add("compare", "compare two analyses, or two ensembles: settings, studies, computation and experiment", compare)
     add("report", "write the report of a study: one HTML page, figures and tables", report)
     add("fragility", "probability of overturning over one or two intensity measures, of a study or of your own table", fragility)
     add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)

@@ -71,11 +71,11 @@ class FullAnalysis(Analysis):
         self.state, self.ledger.start, self.ledger.work, self.stepper.record = state, start, work, record
 
     def _fields(self, specimen):
-        from fecolumn.post.fields import FieldWriter
+        from fecolumn.post.fields import FieldWriter, SpecimenFields
 
         system = self.system
         plate = system.base if len(specimen.base.cells) else None
-        return FieldWriter(self.folder / "fields", system.column, plate, system.footprint, specimen)
+        return FieldWriter(self.folder / "fields", SpecimenFields(system.column, plate, system.footprint, specimen))
 
     def _write_fields(self) -> None:
         from fecolumn.fem.free_body import FreeBody

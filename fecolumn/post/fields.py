@@ -19,10 +19,8 @@ _GEOMETRY = '<Geometry GeometryType="XYZ"><DataItem Dimensions="{points} 3" Form
 _FIELD = '<Attribute Name="{title}" AttributeType="{kind}" Center="{center}"><DataItem Dimensions="{shape}" Format="HDF" Precision="8">{file}:/{name}</DataItem></Attribute>'
 
 
-class FieldWriter:
-    """Writes frames of column and base into a folder; `fields.xdmf` always lists complete frames only.
-
-    Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and continued.
+class SpecimenFields:
+    """Fields of column and base from positions and contact forces, in the order of the mesh.
 
     Args:
         column: Body. plate: BasePlate, None for a base without bricks, which is not shown.
@@ -30,21 +28,55 @@ class FieldWriter:
         specimen: SpecimenMesh of both.
     """
 
-    def __init__(self, folder: Path, column, plate, foot, specimen):
-        self.folder, self.specimen = folder, specimen
+    def __init__(self, column, plate, foot, specimen):
+        self.specimen = specimen
         self.column, self.plate, self.foot = column, plate, foot
         bodies = (column, plate.body) if plate else (column,)
         self._nodes = [_vertex_nodes(body) for body in bodies]
-        self._offset = len(specimen.body.points)
         self._stress = {body: _StressField(body) for body in bodies}
         self._pressure_points = self._points_of_foot()
-        if column.comm.rank == 0:
-            folder.mkdir(parents=True, exist_ok=True)
-            self._write_mesh()
 
     def _points_of_foot(self) -> np.ndarray:
         at = {node: point for point, node in enumerate(self._nodes[0])}
         return np.array([at.get(node, -1) for node in self.foot.all_nodes])
+
+    def values(self, x, local, positions, forces, at_nodes) -> dict[str, np.ndarray] | None:
+        """Displacement (n_points, 3) [m] relative to the table, von Mises stress (n_cells,) and contact pressure (n_points,) [Pa] on rank 0; called on every rank.
+
+        Args:
+            x: (n_owned, 3) positions of the column [m]; local: its displacements in its own frame [m].
+            positions, forces: (n, 3) of the contact points [m, N]; at_nodes: (n, 3) these forces on the foot's nodes.
+        """
+        column, plate = self.column, self.plate
+        displacement, stress = [gather_all(column, x - column.X)], [self._stress[column].values(local)]
+        if plate:
+            sunk = plate.displacement(*nodes_under(plate.grid, positions, forces[:, 2] > 0), -forces)
+            displacement.append(gather_all(plate.body, sunk))
+            stress.append(self._stress[plate.body].values(sunk))
+        if column.comm.rank:
+            return None
+        pressure = np.zeros(len(self.specimen.body.points) + len(self.specimen.base.points))
+        at_vertex = self._pressure_points >= 0
+        pressure[self._pressure_points[at_vertex]] = (at_nodes[:, 2] / self.foot.areas)[self.foot.nearest][at_vertex]
+        return {"displacement": np.vstack([values[nodes] for values, nodes in zip(displacement, self._nodes)]),
+                "von_mises": np.concatenate(stress), "pressure": pressure}
+
+
+class FieldWriter:
+    """Writes frames of column and base into a folder; `fields.xdmf` always lists complete frames only.
+
+    Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and continued.
+
+    Args:
+        fields: SpecimenFields.
+    """
+
+    def __init__(self, folder: Path, fields: SpecimenFields):
+        self.folder, self.fields, self.specimen = folder, fields, fields.specimen
+        self._offset = len(self.specimen.body.points)
+        if fields.column.comm.rank == 0:
+            folder.mkdir(parents=True, exist_ok=True)
+            self._write_mesh()
 
     def _write_mesh(self) -> None:
         body, base = self.specimen.body, self.specimen.base
@@ -59,28 +91,14 @@ class FieldWriter:
             "part": np.concatenate([body.part, base.part]).astype(float)})
 
     def write(self, time: float, x, local, positions, forces, at_nodes) -> None:
-        """Add a frame; called on every rank.
+        """Add the frame of a time [s]; called on every rank, the other arguments as of `SpecimenFields.values`."""
+        self.add(time, self.fields.values(x, local, positions, forces, at_nodes))
 
-        Args:
-            time: [s]. x: (n_owned, 3) positions of the column [m]; local: its displacements in its own frame [m].
-            positions, forces: (n, 3) of the contact points [m, N]; at_nodes: (n, 3) these forces on the foot's nodes.
-        """
-        column, plate = self.column, self.plate
-        displacement, stress = [gather_all(column, x - column.X)], [self._stress[column].values(local)]
-        if plate:
-            sunk = plate.displacement(*nodes_under(plate.grid, positions, forces[:, 2] > 0), -forces)
-            displacement.append(gather_all(plate.body, sunk))
-            stress.append(self._stress[plate.body].values(sunk))
-        if column.comm.rank:
-            return
-        pressure = np.zeros(self._offset + len(self.specimen.base.points))
-        at_vertex = self._pressure_points >= 0
-        pressure[self._pressure_points[at_vertex]] = (at_nodes[:, 2] / self.foot.areas)[self.foot.nearest][at_vertex]
-        name = f"frame_{round(time * 1e6):012d}.h5"
-        _write_h5(self.folder / name, {
-            "displacement": np.vstack([values[nodes] for values, nodes in zip(displacement, self._nodes)]),
-            "von_mises": np.concatenate(stress), "pressure": pressure})
-        self._write_index()
+    def add(self, time: float, values: dict[str, np.ndarray] | None) -> None:
+        """Add the frame of a time [s] from `SpecimenFields.values`."""
+        if values is not None:
+            _write_h5(self.folder / f"frame_{round(time * 1e6):012d}.h5", values)
+            self._write_index()
 
     def _write_index(self) -> None:
         points = self._offset + len(self.specimen.base.points)

@@ -24,6 +24,7 @@ from fecolumn.reduced import start
 from fecolumn.reduced.cache import load_model
 from fecolumn.reduced.observe import COLUMNS, view
 from fecolumn.reduced.run import Engine, advance, column_engine
+from fecolumn.reduced.states import States, state_of
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
 CHUNK = 500
@@ -63,20 +64,34 @@ class ReducedAnalysis(Analysis):
         self.engine = engine_of(case, self.model, self.base)
         self.began, self.cpu_began = time.perf_counter(), time.process_time()  # what was made and compiled so far was so for all analyses
         self.stance, self.top_arm = self.engine.eye.stance, self.model.top_arm
-        self.fields = self._fields() if self.field_steps else None
+        self.fields, self.states = self._fields() if self.field_steps else None, self._states()
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
             self.standing_j = standing_energy(case, self.model, self.base) if case.initial.tilt_rad else self.engine.mechanical()
             self.engine.motion.whole["ground"] = self.ground(0)
             self._note(self.engine.row()[None])
-            if self.fields:
-                self.fields.write(self.engine)
+            self._keep()
 
     def _fields(self):
-        from fecolumn.reduced.fields import ReducedFields
+        """Writer of the fields, and what expands a state to them."""
+        from fecolumn.post.fields import FieldWriter
+        from fecolumn.reduced.fields import StateFields
 
-        return ReducedFields(self.folder / "fields", self.case, self.model, self.model_folder)
+        fields = StateFields(self.case, self.model, self.model_folder)
+        return FieldWriter(self.folder / "fields", fields.specimen), fields
+
+    def _states(self) -> States | None:
+        every = self.case.output.states_every_s
+        return States(max(1, round(every / self.case.integration.dt_s))) if every else None
+
+    def _keep(self) -> None:
+        """Keep the state of this step, and write its fields, where they are due."""
+        if self.states and self.step % self.states.every == 0:
+            self.states.add(self.engine)
+        if self.fields and self.step % self.field_steps == 0:
+            writer, fields = self.fields
+            writer.add(self.engine.motion.time, fields.values(state_of(self.engine)))
 
     def run(self, stop) -> dict:
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
@@ -88,13 +103,13 @@ class ReducedAnalysis(Analysis):
                 count = min(CHUNK, self.steps - self.step)
                 if self.step < self.motion_steps:
                     count = min(count, self.motion_steps - self.step)
-                if self.fields:
-                    count = min(count, self.field_steps - self.step % self.field_steps)
+                for every in (self.field_steps, self.states.every if self.states else 0):
+                    if every:
+                        count = min(count, every - self.step % every)
                 over = self._advance(count)
                 last = engine.made[-1]
                 progress.show(self.step, dict(time=last[0], tilt=last[4], active_nodes=int(last[11])), engine.record)
-                if self.fields and self.step % self.field_steps == 0:
-                    self.fields.write(engine)
+                self._keep()
                 ended = stop()
                 if ended or time.perf_counter() - saved > cadence.checkpoint_every_s:
                     self._save()
@@ -109,6 +124,9 @@ class ReducedAnalysis(Analysis):
         finally:
             progress.end()
         fallen = engine.fallen(self.steepest(self.step)) if over else STANDS
+        if self.states:
+            self.states.add(engine, last=True)
+            self.states.write(self.folder, self.model, {"case_id": self.case.id, **self.code})
         return self.finish(off or self.ending(fallen, engine.motion.rotation[0]), self.model.dofs + self.base.dofs, engine.record, 0)
 
     def _advance(self, count: int) -> bool:
@@ -148,7 +166,7 @@ class ReducedAnalysis(Analysis):
     def _save(self) -> None:
         arrays = self._arrays()
         content = io.BytesIO()
-        np.savez(content, **arrays, **self.to_resume())
+        np.savez(content, **arrays, **self.to_resume(), **(self.states.to_resume() if self.states else {}))
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
@@ -165,5 +183,7 @@ class ReducedAnalysis(Analysis):
             if saved[name].shape != values.shape or not np.can_cast(saved[name].dtype, values.dtype, "equiv"):
                 raise ValueError(f"{name} does not fit")
         self.resumed(saved)
+        if self.states:
+            self.states.resumed(saved)
         for name, values in targets.items():
             values[...] = saved[name]

@@ -98,11 +98,11 @@ def render(folder, wish: Wish = Wish(), quiet: bool = False) -> list[Path]:
     result = read_result(folder)
     target = result.folder / "render"
     if wish.paraview:
-        from fecolumn.render.paraview import write_view
+        from fecolumn.render.paraview import NAME, write_view
 
-        with written(target, "render paraview", names=("view.py",)) as draft:
-            write_view(result, draft / "view.py")
-        return [target / "view.py"]
+        with written(target, "render paraview", names=(NAME,)) as draft:
+            write_view(result, draft, wish.view, quiet)
+        return [target / NAME]
     start, end = _window(result, wish)
     files = []
     if wish.only != "movie":
@@ -140,7 +140,7 @@ def _pictures(result: Result, wish: Wish, start: float, end: float, target: Path
     from fecolumn.render.still import still_figure, still_size
 
     instants = np.unique(wish.instants) if wish.instants else chosen_instants(result, start, end)
-    interval = max(1 / wish.fps * wish.speed, result.fields.interval if len(result.fields.time) > 1 else 0.0)
+    interval = max(1 / wish.fps * wish.speed, result.frames.interval if len(result.frames.time) > 1 else 0.0)
     frames = _frames(result, wish, start, end, instants, interval)
     drawn = list(frames)
 

@@ -20,23 +20,15 @@ class Fields:
     pressure: np.ndarray
 
 
-class FieldFrames:
-    """The frames in a folder that `post.fields.FieldWriter` filled; one is in memory at a time.
+class FrameSeries:
+    """Instants at which fields are known: read(k) gives the Fields of one.
 
     Attributes:
-        files: of the frames; time: (n,) [s] of each, rising. points: (n_points, 3) [m] of column and base.
+        time: (n,) [s], rising.
     """
 
-    def __init__(self, folder: Path):
-        self.folder = folder
-        self.files = sorted(folder.glob("frame_*.h5"))
-        self.time = np.array([int(file.stem.partition("_")[2]) / 1e6 for file in self.files])
-        self.points = _read(folder / "mesh.h5", "points")[0] if self.files else np.empty((0, 3))
-
-    def fits(self, solid: Solid) -> bool:
-        """Whether the fields are on the mesh of `solid`."""
-        points = np.vstack([solid.mesh.body.points, solid.mesh.base.points])
-        return points.shape == self.points.shape and np.allclose(points, self.points, rtol=0, atol=1e-6 * solid.height)
+    def __init__(self, time: np.ndarray):
+        self.time = time
 
     @property
     def interval(self) -> float:
@@ -47,6 +39,25 @@ class FieldFrames:
         """Number (k,) of the frame nearest to each of `times` [s]."""
         middle = (self.time[1:] + self.time[:-1]) / 2
         return np.searchsorted(middle, times)
+
+
+class FieldFrames(FrameSeries):
+    """The frames in a folder that `post.fields.FieldWriter` filled; one is in memory at a time.
+
+    Attributes:
+        files: of the frames; time: (n,) [s] of each, rising. points: (n_points, 3) [m] of column and base.
+    """
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.files = sorted(folder.glob("frame_*.h5"))
+        super().__init__(np.array([int(file.stem.partition("_")[2]) / 1e6 for file in self.files]))
+        self.points = _read(folder / "mesh.h5", "points")[0] if self.files else np.empty((0, 3))
+
+    def fits(self, solid: Solid) -> bool:
+        """Whether the fields are on the mesh of `solid`."""
+        points = np.vstack([solid.mesh.body.points, solid.mesh.base.points])
+        return points.shape == self.points.shape and np.allclose(points, self.points, rtol=0, atol=1e-6 * solid.height)
 
     def read(self, k: int) -> Fields:
         """Frame `k`.

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.fem.rotation import polar_rotation
+from fecolumn.render.field_frames import Fields
 from fecolumn.render.quantity import Quantity
 from fecolumn.render.result import Result
 from fecolumn.schema import InputError
@@ -45,7 +46,7 @@ class Frame:
 
 
 class Frames:
-    """Frames of an analysis, from its fields where they were written often enough, else from its history.
+    """Frames of an analysis, from its fields where they are known often enough, written or made from states, else from its history.
 
     Attributes:
         times: (k,) [s] of the frames; at an instant of the fields where these are used.
@@ -62,14 +63,18 @@ class Frames:
         Raises:
             InputError: elastic displacements or stress are asked for, and were not written.
         """
-        self.result, fields = result, result.fields
-        self.from_fields = bool(len(fields.time)) and fields.interval <= 1.5 * interval + 1e-9
+        self.result, fields = result, result.frames
+        # what the history gives at once is not made from states
+        wanted = fields is result.fields or colour != "displacement" or exaggerate != 1.0
+        self.from_fields = wanted and bool(len(fields.time)) and fields.interval <= 1.5 * interval + 1e-9
         self.colour = colour or ("stress" if self.from_fields else "displacement")
         if not self.from_fields and (self.colour == "stress" or exaggerate != 1.0):
             asked, value = ("--exaggerate", exaggerate) if exaggerate != 1.0 else ("--color", colour)
-            have = f"these are every {fields.interval:.3g} s apart" if len(fields.time) > 1 else "none were written"
-            raise InputError("fecolumn render", asked, value, f"needs fields at least every {1.5 * interval:.3g} s, and {have}; "
-                             f"run the case into a new folder with output.fields_every_s = {interval:.3g}")
+            have = f"these are every {fields.interval:.3g} s" if len(fields.time) > 1 else "there are none"
+            key = "fields_every_s" if result.case.integration.engine == "full" else "states_every_s"
+            raise InputError("fecolumn render", asked, value, f"needs fields or states at least every {1.5 * interval:.3g} s, and {have}; "
+                             f"run the case into a new folder with output.{key} = {interval:.3g}")
+        self._kept: tuple = (None, None)
         if self.from_fields:
             self._number = np.unique(fields.nearest(times))
             times = fields.time[self._number]
@@ -98,6 +103,12 @@ class Frames:
         """Frame `k`."""
         return self._from_fields(k) if self.from_fields else self._from_history(k)
 
+    def _fields(self, k: int) -> Fields:
+        """Of frame `k`, the last one kept: a frame is asked for twice, to be drawn and for its colours."""
+        if self._kept[0] != self._number[k]:
+            self._kept = self._number[k], self.result.frames.read(self._number[k])
+        return self._kept[1]
+
     def _from_history(self, k: int) -> Frame:
         solid = self.result.solid
         column = self._poses.move(solid.column.points, k)
@@ -107,7 +118,7 @@ class Frames:
 
     def _from_fields(self, k: int) -> Frame:
         solid, body = self.result.solid, self.result.solid.mesh.body
-        fields = self.result.fields.read(self._number[k])
+        fields = self._fields(k)
         moved = body.points + fields.displacement[:self._count]
         drawn, base = moved, None
         if self.exaggeration != 1.0:
@@ -142,7 +153,7 @@ class Frames:
         return times, self._pressure_centres(times)
 
     def _largest_elastic(self, k: int) -> float:
-        moved = self.result.solid.mesh.body.points + self.result.fields.read(self._number[k]).displacement[:self._count]
+        moved = self.result.solid.mesh.body.points + self._fields(k).displacement[:self._count]
         return float(np.linalg.norm(moved - self._rigid(moved), axis=1).max())
 
     def _quantities(self) -> tuple[Quantity, Quantity | None]:

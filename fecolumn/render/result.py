@@ -10,9 +10,11 @@ import numpy as np
 from fecolumn.case import Case, finished
 from fecolumn.dynamics.history import read_history
 from fecolumn.files import Unreadable, is_file, read_json
-from fecolumn.render.field_frames import FieldFrames
+from fecolumn.reduced.states import NAME as STATES
+from fecolumn.render.field_frames import FieldFrames, FrameSeries
 from fecolumn.render.pose import Poses, poses
 from fecolumn.render.solid import Solid, solid_of
+from fecolumn.render.state_frames import StateFrames
 from fecolumn.schema import InputError
 from fecolumn.simulation import read_folder_case
 from fecolumn.summary import NAME, read_summary
@@ -27,7 +29,7 @@ class Result:
     Attributes:
         folder: of the analysis. case: finished. summary: of `fecolumn.summary`.
         history: columns of n rows by name; poses: Poses at these rows. solid: Solid.
-        fields: FieldFrames, without frames where none were written.
+        fields: FieldFrames, without frames where none were written. states: StateFrames; None where none were kept.
     """
 
     folder: Path
@@ -37,6 +39,12 @@ class Result:
     poses: Poses
     solid: Solid
     fields: FieldFrames
+    states: StateFrames | None
+
+    @property
+    def frames(self) -> FrameSeries:
+        """Fields as often as they are known: as they were written, or made from states where these are closer to one another."""
+        return self.states if self.states and self.states.interval < 0.99 * self.fields.interval else self.fields
 
 
 def read_result(folder) -> Result:
@@ -63,7 +71,8 @@ def read_result(folder) -> Result:
     fields = FieldFrames(folder / "fields")
     if len(fields.time) and not fields.fits(solid):
         raise InputError(folder / "fields", "", None, "is of another mesh than that of the case made now; render with the version that made it, or remove this folder")
-    return Result(folder, case, summary, history, poses(history, solid.foot, solid.top), solid, fields)
+    states = StateFrames(folder / STATES, case) if is_file(folder / STATES) else None
+    return Result(folder, case, summary, history, poses(history, solid.foot, solid.top), solid, fields, states)
 
 
 def _history(file: Path) -> dict[str, np.ndarray]:

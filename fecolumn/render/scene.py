@@ -62,8 +62,8 @@ class Scene:
         import pyvista
 
         mesh = pyvista.PolyData.from_regular_faces(np.array(points, np.float32), surface.faces)
-        quantity, data = self._frames.colour_quantity, mesh.cell_data if len(colour) == len(surface.faces) else mesh.point_data
-        data["colour"] = np.asarray(colour, np.float32)
+        quantity = self._frames.colour_quantity
+        self._coloured(mesh)["colour"] = np.asarray(colour, np.float32)
         # the edges of bricks show how the column turns about its axis
         self._plotter.add_mesh(mesh, scalars="colour", cmap=COLOUR_MAPS[self._frames.colour], clim=quantity.range, log_scale=quantity.decades > 0, show_scalar_bar=False,
                                show_edges=True, edge_color=_EDGE, edge_opacity=0.35, line_width=0.5 * self._line_width, ambient=0.55, diffuse=0.5,
@@ -140,12 +140,14 @@ class Scene:
         pixel, (_, largest) = 2 * self._camera.half_height / self._size[1], self._frames.colour_quantity.range
         return bool(np.abs(frame.column - column).max() < _UNSEEN * pixel and np.abs(frame.colour - colour).max() < _ALIKE * largest)
 
-    @staticmethod
-    def _move(mesh, points, colour) -> None:
+    def _coloured(self, mesh):
+        """Where a surface keeps its colour: stress belongs to faces, displacement to points; a tube has as many of the ones as of the others."""
+        return mesh.cell_data if self._frames.colour == "stress" else mesh.point_data
+
+    def _move(self, mesh, points, colour) -> None:
         mesh.points = np.asarray(points, np.float32)
         if colour is not None:
-            data = mesh.cell_data if len(colour) == mesh.n_cells else mesh.point_data
-            data["colour"] = np.asarray(colour, np.float32)
+            self._coloured(mesh)["colour"] = np.asarray(colour, np.float32)
 
     def close(self) -> None:
         """Give the picture's memory back."""

@@ -18,6 +18,8 @@ _LEFT_IN, _RIGHT_IN = 0.55, 0.75
 _LETTERS = "abcdefghij"
 # Height that they take of a strip, over that of its line [-]
 _LETTERS_SHARE = 0.25
+# Share of the axis [-] within which a letter stands beside its line, not over it
+_END = 0.02
 
 
 def picture_size(count: int, natural: float, dpi: int) -> tuple[int, int]:
@@ -59,7 +61,9 @@ def sequence_figure(frames: Frames, images: list[np.ndarray], dpi: int, times: n
             for k, time in enumerate(frames.times):
                 axes.axvline(time, color=BLACK, linewidth=0.7, linestyle=(0, (3, 2)))
                 if row == 1:
-                    axes.annotate(_LETTERS[k], (time, 1), (0, -2), xycoords=("data", "axes fraction"), textcoords="offset points", ha="center", va="top", fontsize=8,
+                    share = (time - strip.time[0]) / (strip.time[-1] - strip.time[0])  # at the ends the letter stays off the axis' numbers
+                    side = "left" if share < _END else "right" if share > 1 - _END else "center"
+                    axes.annotate(_LETTERS[k], (time, 1), (0, -2), xycoords=("data", "axes fraction"), textcoords="offset points", ha=side, va="top", fontsize=8,
                                   bbox=dict(facecolor="white", edgecolor="none", pad=0.8))
         if frames.exaggeration != 1:
             figure.text(1 - 0.02 / PAGE_WIDTH_IN, 1 - (picture + 0.2) / height, f"elastic\ndeformation\n× {frames.exaggeration:g}", ha="right", va="bottom", fontsize=8)

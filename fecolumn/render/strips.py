@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.render.quantity import Quantity
+from fecolumn.render.pose import Poses
 from fecolumn.render.result import Result
+from fecolumn.render.solid import Solid
 
 # Points of a line: more are not told apart at the width of a strip
 _MOST_POINTS = 4000
-# Uplift over the foot's width [-] below which a column only slides: elastic deformation alone opens some 1e-5 of it
-_LIFTED = 1e-4
+#: Uplift over the foot's width [-] below which a column only slides: elastic deformation alone opens some 1e-5 of it
+LIFTED = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,8 +55,8 @@ def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
         shaken = strip("top", "$u$", "m", [(top[:, axis], f"${'xy'[axis]}$") for axis in range(2)])
     kinetic, potential = history["energy/kinetic"], history["energy/gravity"] + history["energy/strain"]
     standing = potential[np.argmin(history["tilt"])]
-    lifted = uplift(result)
-    if lifted.max() > _LIFTED * result.solid.foot_width:
+    lifted = uplift(result.solid, result.poses)
+    if lifted.max() > LIFTED * result.solid.foot_width:
         motion = strip("tilt", r"$\theta$", "rad", [(history["tilt"], "")]), strip("uplift", "$w$", "m", [(lifted, "")])
     else:
         motion = (strip("slide", "$s$", "m", [(history["slide"][:, axis], f"${'xy'[axis]}$") for axis in range(2)]),
@@ -63,9 +65,8 @@ def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
             strip("energy", "$E$", "J", [(kinetic, "kinetic"), (potential - standing, "potential"), (kinetic + potential - standing, "sum")])]
 
 
-def uplift(result: Result) -> np.ndarray:
-    """Height (n,) [m] of the highest point of the foot above the base, of the rigid column."""
-    solid, poses = result.solid, result.poses
+def uplift(solid: Solid, poses: Poses) -> np.ndarray:
+    """Height (n,) [m] of the highest point of the foot above the base, of the rigid column at n poses."""
     corners = solid.mesh.body.points[np.unique(solid.foot_faces)] - poses.origin
     height = np.full(len(poses.time), -np.inf)
     for corner in corners:  # one by one: all corners at all times fill gigabytes

@@ -126,6 +126,19 @@ class AnalysisResult:
 
         return render(self.folder, Wish(**wishes), quiet=True)
 
+    def compare(self, other: AnalysisResult, tolerance: float = 0.05):
+        """This analysis against another as of `fecolumn compare`; a `results.parting.Parting`.
+
+        Args:
+            other: the reference. tolerance: difference over the larger peak [-] at which they have parted.
+
+        Raises:
+            InputError: a history is missing, or they have no time in common.
+        """
+        from fecolumn.results.parting import parting
+
+        return parting(self, other, tolerance)
+
     def __repr__(self) -> str:
         return f"AnalysisResult({str(self.folder)!r}: {self.summary.get('outcome', 'not finished')})"
 

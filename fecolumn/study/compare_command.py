@@ -1,4 +1,4 @@
-"""`fecolumn compare`: two ensembles of peak displacements, settings of a study, studies, or computation and experiment."""
+"""`fecolumn compare`: two analyses, or two ensembles of peak displacements: settings of a study, studies, or computation and experiment."""
 
 from __future__ import annotations
 
@@ -6,25 +6,34 @@ import dataclasses
 import math
 from pathlib import Path
 
+ANALYSIS = "an analysis"
+
 
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn compare`."""
-    form = "study folder, with a choice of settings as DIR@integration.dt_s=1e-3,integration.alpha_hht=-0.2, or CSV of maxima"
+    form = "folder of an analysis; or study folder, with a choice of settings as DIR@integration.dt_s=1e-3,integration.alpha_hht=-0.2, or CSV of maxima"
     parser.add_argument("a", metavar="A", help=form)
     parser.add_argument("b", metavar="B", help="the reference, in the same form")
-    parser.add_argument("-o", "--output", metavar="DIR", help="folder for comparison.csv, pairs.csv and the figure")
+    parser.add_argument("-o", "--output", metavar="DIR", help="folder for tables and figure")
     parser.add_argument("--unpaired", action="store_true", help="do not match runs by motion")
     parser.add_argument("--cap-mm", type=float, default=None, metavar="MM",
                         help="displacement of a run in R that overturned or slid off, such as 250 of Katsamakas and Vassiliou (default: the largest peak of those that stood)")
     parser.add_argument("--seed", type=int, default=0, help="of the permutations (default: %(default)s)")
+    parser.add_argument("--tolerance", type=float, default=None, metavar="SHARE",
+                        help="of two analyses: difference over the larger peak at which they have parted, above 0 and at most 1 (default: 0.05)")
 
 
 def main(args) -> int:
     """Print the comparison, and write it where a folder is given; returns 0.
 
     Raises:
-        InputError: A or B cannot be used.
+        InputError: A or B cannot be used, or an option is of the other kind of comparison.
     """
+    if _are_analyses(args):
+        from fecolumn.results.compare_command import compare_analyses
+
+        compare_analyses((args.a, args.b), args.tolerance, args.output)
+        return 0
     from fecolumn.folder import written
     from fecolumn.schema import InputError
     from fecolumn.statistics.compare import compare
@@ -49,6 +58,40 @@ def main(args) -> int:
         for file in files:
             print(f"wrote {Path(args.output) / file.name}")
     return 0
+
+
+def _are_analyses(args) -> bool:
+    """Whether A and B are folders of analyses.
+
+    Raises:
+        InputError: only one of them is, or an option does not fit what they are.
+    """
+    from fecolumn.schema import InputError
+
+    kinds = [_kind(place) for place in (args.a, args.b)]
+    analyses = ANALYSIS in kinds
+    if analyses and kinds[0] != kinds[1]:
+        told = ", ".join(f"{letter}, {place}, is {kind}" for letter, place, kind in zip("AB", (args.a, args.b), kinds))
+        raise InputError("fecolumn compare", "A, B", None, f"{told}: give two analyses, or two ensembles (studies or CSV files)")
+    if analyses:
+        for option, value in (("--unpaired", args.unpaired or None), ("--cap-mm", args.cap_mm), ("--seed", args.seed or None)):
+            if value is not None:
+                raise InputError("fecolumn compare", option, value, "is for ensembles; these are two analyses")
+        if args.tolerance is not None and not 0 < args.tolerance <= 1:
+            raise InputError("fecolumn compare", "--tolerance", args.tolerance, "must be greater than 0 and at most 1")
+    elif args.tolerance is not None:
+        raise InputError("fecolumn compare", "--tolerance", args.tolerance, "is for two analyses; these are ensembles")
+    return analyses
+
+
+def _kind(place: str) -> str:
+    """What a place is, in words."""
+    folder = Path(place.rpartition("@")[0] if "=" in place.rpartition("@")[2] and "@" in place else place)
+    if (folder / "study.json").is_file():
+        return "a study"
+    if (folder / "case.json").is_file():
+        return ANALYSIS
+    return "a file" if folder.is_file() else "a folder of neither" if folder.is_dir() else "not there"
 
 
 def matched(a, b, unpaired: bool):

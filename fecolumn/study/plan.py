@@ -6,7 +6,7 @@
     "integration.dt_s" = [0.02, 1e-3]
 
 Paths are relative to the file that states them. What neither case nor axes state is as in `fecolumn run`, except that a study takes
-integration.engine = "reduced" and output.history_every_s = 0.005.
+integration.engine = "reduced", output.history_every_s = 0.005 and output.states_every_s = 0.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from fecolumn.study.keys import StudyKeys
 ENSEMBLE_AXES = ("motion", "motion.source", "motion.source_y", "motion.source_z", "motion.rotation_deg")
 # What a study takes where neither its case nor its axes say otherwise: thousands of analyses are the reduced engine's work, and
 # a column rocks at a few hertz
-DEFAULTS = {"integration": {"engine": "reduced"}, "output": {"history_every_s": 0.005}}
+DEFAULTS = {"integration": {"engine": "reduced"}, "output": {"history_every_s": 0.005, "states_every_s": 0.0}}
 _KEYS = tuple(field.name for field in dataclasses.fields(StudyKeys))
 # As many fit into memory and into a ledger
 _MOST = 1_000_000

@@ -63,6 +63,16 @@ def test_every_dataset_of_a_history_with_its_unit(analysis):
     assert listed("outputs", "history.h5") == found
 
 
+def test_every_dataset_of_the_states_with_its_unit(analysis):
+    with h5py.File(analysis / "states.h5") as file:
+        assert listed("outputs", "states.h5") == {name: file[name].attrs["unit"] for name in file}
+
+
+def test_every_entry_of_a_comparison_of_two_analyses(analysis, tmp_path):
+    assert main(["compare", str(analysis), str(analysis), "-o", str(tmp_path / "out")]) == 0
+    assert set(listed("outputs", "comparison.json")) == set(json.loads((tmp_path / "out" / "comparison.json").read_text()))
+
+
 def test_every_entry_of_a_summary(analysis):
     assert set(listed("outputs", "summary.json")) == set(json.loads((analysis / "summary.json").read_text()))
 

@@ -67,9 +67,9 @@ def test_instants_are_chosen_at_peaks_within_the_time_shown(block):
     (["--instants", "0.1,9"], "--instants = 9.0: must lie between 0 and 0.2 s"), (["--instants", "0.1,x"], "--instants = 'x': must be times"),
     (["--start", "0.1", "--end", "0.1"], "--end = 0.1: must be later than the begin, 0.1 s"), (["--fps", "500"], "--fps = 500.0: must lie between 1 and 60"),
     (["--size", "1280"], "--size = '1280': must be two numbers"), (["--size", "400x400"], "--size = '400x400': must be 1.4 to 3 times as wide"),
-    (["--exaggerate", "20"], "--exaggerate = 20.0: needs fields at least every 0.06 s, and none were written"),
-    (["--color", "stress"], "--color = 'stress': needs fields"), (["--exaggerate", "0.1"], "--exaggerate = 0.1: must be auto, or lie between"),
-    (["--paraview"], "--paraview: needs fields")])
+    (["--exaggerate", "20"], "--exaggerate = 20.0: needs fields or states at least every 0.06 s, and there are none"),
+    (["--color", "stress"], "--color = 'stress': needs fields or states"), (["--exaggerate", "0.1"], "--exaggerate = 0.1: must be auto, or lie between"),
+    (["--paraview"], "--paraview: needs fields or states")])
 def test_what_cannot_be_drawn_is_one_line_with_what_can(block, capsys, options, told):
     assert main(["render", str(block), *options]) == 2
     error = capsys.readouterr().err
@@ -126,3 +126,17 @@ def test_full_disk_is_told_and_leaves_nothing(tmp_path, capsys):
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert "the disk is full" in capsys.readouterr().err
     assert {file.name for file in (folder / "render").iterdir()} <= {".fecolumn.json"}
+
+
+def test_displacement_colours_the_points_of_a_tube_that_has_as_many_points_as_faces(tmp_path):
+    from fecolumn.render.frames import Frames
+    from fecolumn.render.scene import Scene
+
+    tube = BLOCK | {"column": {"outer_diameter_m": 0.2, "wall_m": 0.02, "height_m": 0.6}, "mesh": {"fine_size_m": 0.02, "coarse_size_m": 0.06, "base_size_m": 0.2}}
+    result = read_result(analysed(tube | {"integration": {"engine": "rigid", "duration_s": 0.02}}, tmp_path / "run"))
+    surface = result.solid.column
+    assert len(surface.points) == len(surface.faces)  # of a torus, what a tube's surface is; both have a value for each
+    frames = Frames(result, np.array([0.0]), 0.04)
+    path = result.history["u_top"] + result.solid.top
+    with Scene(frames, camera.camera(result, "lean", frames.times, 1.0), (128, 128), path, result.poses.time) as scene:
+        assert scene._column.point_data["colour"] == pytest.approx(frames.frame(0).colour) and "colour" not in scene._column.cell_data

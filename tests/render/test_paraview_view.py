@@ -1,5 +1,6 @@
 """ParaView opens the fields as a time series whose names have their units, and the script sets up the view."""
 
+import os
 import shutil
 import subprocess
 
@@ -7,6 +8,8 @@ import numpy as np
 import pytest
 
 from fecolumn.cli import main
+
+PACKAGES = "apt install --no-install-recommends paraview python3-paraview xvfb xauth"
 
 
 def test_fields_are_a_time_series_with_units_in_their_names(drum):
@@ -28,15 +31,34 @@ def test_script_is_of_this_analysis_and_finds_its_fields_from_where_it_is(drum):
     assert (drum / "render" / ".." / "fields" / "fields.xdmf").is_file()
 
 
-@pytest.mark.verification
-@pytest.mark.skipif(not (shutil.which("pvbatch") and shutil.which("xvfb-run")), reason="Debian's paraview, python3-paraview and xvfb are not installed")
-def test_pvbatch_draws_the_instant_asked_for(drum, tmp_path):
+@pytest.mark.slow
+@pytest.mark.skipif(not (shutil.which("pvbatch") and shutil.which("xvfb-run")), reason=f"ParaView is not installed: {PACKAGES}")
+@pytest.mark.parametrize("source", ["files", "states"])
+def test_pvbatch_draws_the_instant_asked_for(drum, source, tmp_path):
+    """The drum upright in the middle, in colours of its stress, its scale beside it; from the fields it wrote, and from those made of its states."""
     from PIL import Image
 
-    assert main(["render", str(drum), "--paraview"]) == 0
+    folder = shutil.copytree(drum, tmp_path / "run", ignore=shutil.ignore_patterns("render", *(["fields"] if source == "states" else [])))
+    assert main(["render", str(folder), "--paraview", "-q"]) == 0
     pictures = []
     for time in ("0", "0.2"):
         file = tmp_path / f"{time}.png"
-        subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", "pvbatch", drum / "render" / "view.py", file, time], check=True, timeout=300)
+        # a display number of this process' own: two servers that start at once may take the same one
+        screen = ["xvfb-run", "-a", "-n", str(1000 + os.getpid() % 8000), "-s", "-screen 0 1280x1024x24"]
+        done = subprocess.run([*screen, "pvbatch", folder / "render" / "view.py", file, time], capture_output=True, text=True, timeout=300, env=_debians_python())
+        assert done.returncode == 0 and file.is_file(), done.stderr[-2000:]
         pictures.append(np.asarray(Image.open(file).convert("RGB"), float))
-    assert pictures[0].shape == (720, 1280, 3) and np.abs(pictures[0] - pictures[1]).mean() > 0.5
+    for picture in pictures:
+        assert picture.shape == (720, 1280, 3)
+        coloured = np.ptp(picture, axis=2) > 40  # neither white nor the grey of edges and words
+        assert 0.03 < coloured.mean() < 0.6 and np.abs(picture[:40, :200] - 255).max() > 100  # the time stands in a corner
+        rows, columns = np.nonzero(coloured[:, 300:980])
+        assert np.ptp(rows) > 0.6 * 720
+    seen = [len(np.unique((picture[100:, 300:980] // 16).reshape(-1, 3), axis=0)) for picture in pictures]
+    assert 2 * seen[0] < seen[1]  # released without stress, then in all colours of it
+    assert np.abs(pictures[0] - pictures[1]).mean() > 0.5
+
+
+def _debians_python() -> dict:
+    """The environment without this one's Python: pvbatch has Debian's."""
+    return {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV")}

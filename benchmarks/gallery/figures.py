@@ -1,0 +1,98 @@
+"""Each figure of README and manual: where it lies and how it is made."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from benchmarks.gallery.rolling import rolling
+from fecolumn.schema import read_toml
+
+ROOT = Path(__file__).parents[2]
+# The stout column in motion 3 of the Lick ensemble, half again as strong, on a mesh coarser than its own
+ROCKING = {"mesh": {"coarse_size_m": 0.02, "cap_size_m": 0.025, "base_size_m": 0.03},
+           "motion": {"source": "lick:3", "scale": 1.5}, "integration": {"engine": "reduced", "duration_s": 6.0}}
+# Colours of a picture's file, the most that PNG's palette has: lines and their soft edges need fewer, a stress scale all
+_COLOURS = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Work:
+    """How the figures are to be made: folder of the analyses, which are kept and gone on with; analyses at a time; folder of a finished study to draw, or None."""
+
+    folder: Path
+    jobs: int = 1
+    study: Path | None = None
+
+
+def rocking(work: Work, target: Path) -> str:
+    """The stout column at its largest tilt, coloured by its stress, as `fecolumn render` draws it."""
+    from fecolumn.case import case_from_tables
+    from fecolumn.dynamics.history import read_history
+    from fecolumn.render.draw import Wish, render
+    from fecolumn.simulation import run
+
+    file, folder = ROOT / "meshes" / "stout.toml", work.folder / "rocking"
+    tables = read_toml(file)
+    for section, keys in ROCKING.items():
+        tables[section] = tables.get(section, {}) | keys
+    run(case_from_tables(tables, file), folder)
+    history = read_history(folder / "history.h5")
+    time = float(history["time"][history["tilt"].argmax()])
+    still = next(path for path in render(folder, Wish(only="pictures", instants=(time,))) if path.name.startswith("still_"))
+    shutil.copy(still, target)
+    return f"motion 3 of the Lick ensemble at 1.5 times its strength: largest tilt {1e3 * history['tilt'].max():.0f} mrad at {time:.2f} s"
+
+
+def cdf(work: Work, target: Path) -> str:
+    """The distributions of a study: of benchmarks/quick_study.toml, which is run, or of the one that is given."""
+    from fecolumn.results.study import StudyResult
+    from fecolumn.study.plan import read_plan
+    from fecolumn.study.run import run_study
+
+    folder = work.study or work.folder / "quick"
+    if not work.study:
+        run_study(read_plan(ROOT / "benchmarks" / "quick_study.toml"), folder, workers=work.jobs)
+    result = StudyResult(folder)
+    result.plot.cdf().save(target)
+    levels = ", ".join(f"{len(values)} of {key}" for key, values in result.axes.items())
+    source = f"--study {folder}" if work.study else "benchmarks/quick_study.toml"
+    return f"{result.title}: {result.done} of {len(result.rows)} analyses done ({levels}), from {source}"
+
+
+def impact(_: Work, target: Path) -> str:
+    """Loss of one impact by time step, from the table that `python -m benchmarks.impact` made in an hour."""
+    from benchmarks.impact.__main__ import read
+    from benchmarks.impact.figure import draw
+
+    table = ROOT / "benchmarks" / "impact" / "impact.csv"
+    rows = read(table)
+    draw(rows, target.with_suffix(""))
+    return f"{len(rows)} impacts of {table.relative_to(ROOT)}"
+
+
+def rim(_: Work, target: Path) -> str:
+    """How the points of a round rim roll in a step; all of it from `contact.rolling`."""
+    rolling(target)
+    return "from contact.rolling"
+
+
+#: Figures by name: place in the repository and the function that makes them, of (Work, target), which says from what.
+FIGURES = {"rocking": ("meshes/rocking.png", rocking), "cdf": ("benchmarks/cdf.png", cdf), "impact": ("fecolumn/manual/impact.png", impact),
+           "rolling": ("fecolumn/manual/rolling.png", rim)}
+
+
+def make(name: str, work: Work, root: Path = ROOT) -> str:
+    """Make a figure anew in its place below `root`, with few colours; where it lies and what it is from, in words."""
+    from PIL import Image
+
+    place, function = FIGURES[name]
+    with tempfile.TemporaryDirectory() as folder:
+        draft = Path(folder) / Path(place).name
+        told = function(work, draft)
+        (root / place).parent.mkdir(parents=True, exist_ok=True)
+        with Image.open(draft) as image:
+            image.convert("RGB").quantize(_COLOURS).save(root / place, optimize=True)
+    return f"{place}: {told}"
