@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from boxes import GRAVITY, box, engine, joint, part
 
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced.observe import ENERGY, WIDTH
 from fecolumn.structures.model import GROUND, Link
+from fecolumn.verification.boxes import GRAVITY, box, engine, frame, joint, part, pulse, stack
 
 G = -GRAVITY[2]
 
@@ -16,29 +16,6 @@ G = -GRAVITY[2]
 def closure(rows):
     """Largest error of the energy balance over the energy moved."""
     return np.abs(rows[:, WIDTH - 1] - rows[0, WIDTH - 1]).max() / np.ptp(rows[:, ENERGY + 2])
-
-
-def stack(dt=1e-3, alpha=-0.05):
-    low, up = box(0.4, 0.4, 0.8), box(0.3, 0.3, 0.9)
-    return engine([part("low", low, (0, 0, 0)), part("up", up, (0, 0, 0.8))], [joint(0, GROUND, low), joint(1, 0, up)], dt=dt, alpha=alpha, observed=1)
-
-
-def frame(columns, order=None, dt=1e-3):
-    """A slab on two or four columns; order: places of the columns, then of the slab, among the bodies."""
-    column, slab = box(0.2, 0.2, 1.2), box(2.4, 2.4 if columns == 4 else 0.6, 0.3, per_side=9)
-    places = [(-1, 0, 0), (1, 0, 0)] if columns == 2 else [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-    number, parts, joints = order or list(range(columns + 1)), [None] * (columns + 1), []
-    for i in range(columns):
-        parts[number[i]] = part(f"column {i}", column, places[i])
-    parts[number[-1]] = part("slab", slab, (0, 0, 1.2))
-    for i in range(columns) if order is None else reversed(range(columns)):
-        joints += [joint(number[i], GROUND, column), joint(number[i], number[-1], column, surface="head", on="foot")]
-    return engine(parts, joints, observed=number[-1], dt=dt), slab, column
-
-
-def pulse(amplitude, period, steps, dt=1e-3):
-    t = np.arange(1, steps + 1) * dt
-    return np.column_stack([amplitude * np.sin(2 * np.pi * t / period) * (t < period), np.zeros((steps, 2))])
 
 
 @pytest.mark.parametrize("alpha", [0.0, -0.2])

@@ -1,4 +1,4 @@
-"""Structures of boxes that are rigid but for their contact points, made by hand: every number of them is known."""
+"""Structures of boxes that are rigid but for their contact points: every number of them is known."""
 
 import numpy as np
 
@@ -51,3 +51,26 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     structure, _ = structure_of(model, hht, GRAVITY)
     eye = view_of(model, structure, structure.bodies.body["mass"].sum() * 9.81)
     return Engine(lambda step: structure_of(model, step, GRAVITY), base, eye, hht, lambda made: of_parts(made, parts, stands), model=model)
+
+
+def stack(dt=1e-3, alpha=-0.05):
+    low, up = box(0.4, 0.4, 0.8), box(0.3, 0.3, 0.9)
+    return engine([part("low", low, (0, 0, 0)), part("up", up, (0, 0, 0.8))], [joint(0, GROUND, low), joint(1, 0, up)], dt=dt, alpha=alpha, observed=1)
+
+
+def frame(columns, order=None, dt=1e-3):
+    """A slab on two or four columns; order: places of the columns, then of the slab, among the bodies."""
+    column, slab = box(0.2, 0.2, 1.2), box(2.4, 2.4 if columns == 4 else 0.6, 0.3, per_side=9)
+    places = [(-1, 0, 0), (1, 0, 0)] if columns == 2 else [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+    number, parts, joints = order or list(range(columns + 1)), [None] * (columns + 1), []
+    for i in range(columns):
+        parts[number[i]] = part(f"column {i}", column, places[i])
+    parts[number[-1]] = part("slab", slab, (0, 0, 1.2))
+    for i in range(columns) if order is None else reversed(range(columns)):
+        joints += [joint(number[i], GROUND, column), joint(number[i], number[-1], column, surface="head", on="foot")]
+    return engine(parts, joints, observed=number[-1], dt=dt), slab, column
+
+
+def pulse(amplitude, period, steps, dt=1e-3):
+    t = np.arange(1, steps + 1) * dt
+    return np.column_stack([amplitude * np.sin(2 * np.pi * t / period) * (t < period), np.zeros((steps, 2))])

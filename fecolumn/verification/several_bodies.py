@@ -1,0 +1,92 @@
+"""Bodies that stand on moving ones, rigid but for their contact points: stacks and rocking frames against closed forms (manual: theory, section 7)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.case import GRAVITY
+from fecolumn.reduced.observe import ENERGY, WIDTH
+from fecolumn.structures.model import GROUND
+from fecolumn.verification.boxes import box, engine, frame, joint, part, pulse, stack
+from fecolumn.verification.result import Result, Row
+
+
+def run(engine: str, long: bool = False) -> Result:
+    """The rows of the rigid engine."""
+    return Result([*_rest(60.0 if long else 2.0), *_rocking_on_a_body(), *_frame(2), *_frame(4), *_order(), *_energy()])
+
+
+def closure(rows) -> float:
+    """Largest error of the energy balance over the energy moved."""
+    return float(np.abs(rows[:, WIDTH - 1] - rows[0, WIDTH - 1]).max() / np.ptp(rows[:, ENERGY + 2]))
+
+
+def _rest(seconds: float):
+    for name, made in (("stack of two", stack()), ("slab on four columns", frame(4)[0])):
+        rows, _ = made.advance(np.zeros((int(1000 * seconds), 3)))
+        drift = np.abs(rows[:, 1:4] - rows[0, 1:4]).max()
+        yield Row(f"{name} at rest: drift of the top in {seconds:g} s [m]", 0.0, drift, 1e-9)
+
+
+def _rocking_on_a_body():
+    """Quarter period and loss of a block on another one, 46 times its mass (Housner 1963)."""
+    breadth, height, dt = 0.3, 0.9, 5e-4
+    up, low = box(breadth, breadth, height), box(1.0, 1.0, 0.5, density=2e4)
+    alpha, R = np.arctan(breadth / height), np.hypot(breadth, height) / 2
+    p = np.sqrt(0.75 * GRAVITY / R)
+    spin, toe = np.array([0, 0.5 * alpha * p, 0]), np.array([breadth / 2, 0, 0])
+    tipped = part("up", up, (0, 0, 0.5), spin=spin, velocity=np.cross(spin, up.center - toe))
+    made = engine([part("low", low, (0, 0, 0)), tipped], [joint(0, GROUND, low), joint(1, 0, up)], observed=1, dt=dt)
+    tilt = made.advance(np.zeros((1000, 3)))[0][:, 4]
+    top, back, quarter = _swing(tilt[:700], alpha, p, dt)
+    again = tilt[back:back + int(1.2 * quarter / dt)].max()
+    left = (np.cos(alpha - again) - np.cos(alpha)) / (np.cos(alpha - tilt[top]) - np.cos(alpha))
+    yield Row("block on a heavy block: quarter period [s]", quarter, (back - top) * dt, 4 * dt / quarter)
+    yield Row("block on a heavy block: share of the energy after an impact", (1 - 1.5 * np.sin(alpha) ** 2) ** 2, left, 2e-3)
+
+
+def _swing(tilt, alpha, p, dt):
+    """Places of the largest tilt and of the impact after it, and the quarter period acosh(1 / (1 - theta / alpha)) / p of that tilt."""
+    top = int(np.argmax(tilt))
+    quarter = float(np.arccosh(1 / (1 - tilt[top] / alpha)) / p)
+    return top, top + int(np.argmin(tilt[top:top + int(1.3 * quarter / dt)])), quarter
+
+
+def _frame(columns: int):
+    """Makris and Vassiliou (2013): uplift at g tan(alpha), p_hat = p sqrt((1 + 2 g) / (1 + 3 g)), g the slab's mass over that of the columns."""
+    made, slab, column = frame(columns, dt=5e-4)
+    slope, dt = 0.2 / 1.2, 5e-4
+    alpha, mass = np.arctan(slope), slab.mass / (columns * column.mass)
+    p_hat = np.sqrt(0.75 * GRAVITY / (np.hypot(0.2, 1.2) / 2) * (1 + 2 * mass) / (1 + 3 * mass))
+    ground = np.zeros((1500, 3))
+    # slowly: the points' springs must not ring
+    ground[:, 0] = 1.1 * GRAVITY * slope * np.arange(1500) / 1500
+    rows, _ = made.advance(ground)
+    # half of the points carry nothing: each foot and head stands on an edge; being elastic, not all of them at once
+    lifted = int(np.argmax(2 * rows[:, 11] <= len(made.points)))
+    yield Row(f"slab on {columns} columns: acceleration at uplift [m/s2]", GRAVITY * slope, ground[lifted, 0], 0.01)
+    made = frame(columns, dt=dt)[0]
+    # tilted by a pulse; then free
+    rows, _ = made.advance(pulse(2.1, 0.8, 5000, dt=dt))
+    free = rows[1700:, WIDTH + 3]
+    top, back, quarter = _swing(free[:1000], alpha, p_hat, dt)
+    back = top + int(np.argmin(free[top:top + int(1.2 * quarter / dt)]))
+    yield Row(f"slab on {columns} columns: quarter period of p_hat [s]", quarter, (back - top) * dt, 0.01)
+    again = free[back:back + int(1.2 * quarter / dt)].max()
+    left = (np.cos(alpha - again) - np.cos(alpha)) / (np.cos(alpha - free[top]) - np.cos(alpha))
+    kept = (1 - 1.5 * np.sin(alpha) ** 2 + 3 * mass * np.cos(2 * alpha)) / (1 + 3 * mass)
+    yield Row(f"slab on {columns} columns: share of the energy after an impact", kept**2, left, 0.01)
+    yield Row(f"slab on {columns} columns: error of the energy balance over the energy moved", 0.0, closure(rows), 1e-9)
+
+
+def _order():
+    ground = pulse(4.0, 1.0, 1000)
+    first, other = (frame(4, order)[0].advance(ground)[0] for order in (None, [3, 1, 4, 0, 2]))
+    yield Row("bodies and contacts in another order: largest difference of the top [m]", 0.0, np.abs(first[:, 1:4] - other[:, 1:4]).max(), 1e-10)
+
+
+def _energy():
+    rows, _ = stack().advance(pulse(7.0, 0.66, 1000))
+    yield Row("stack of which both blocks rock: error of the energy balance over the energy moved", 0.0, closure(rows), 1e-9)
+    gained = max(float(rows[-1, ENERGY + 6]), 0.0) / np.ptp(rows[:, ENERGY + 2])
+    yield Row("stack of which both blocks rock: energy made by contact over the energy moved", 0.0, gained, 1e-6)
