@@ -24,28 +24,31 @@ def cache_folder() -> Path:
 
 
 @functools.cache
-def compiled_folder(alone: str = "") -> str:
+def compiled_folder(alone: tuple[str, ...] = ()) -> str:
     """Folder of the functions compiled from the present sources by this numba for this processor.
 
     numba asks only whether a function's own file has changed: code compiled with what another file said before would be run.
 
     Args:
-        alone: file of functions that take code and constants from this file alone; "" for those of the engines.
+        alone: files of functions that take code and constants from these alone; () for those of the engines.
     """
     package = Path(__file__).parent
-    sources = digest_of([Path(alone)] if alone else (path for name in _SOURCES for path in sorted((package / name).glob("*.py"))))
+    sources = digest_of([Path(file) for file in alone] if alone else (path for name in _SOURCES for path in sorted((package / name).glob("*.py"))))
     return str(cache_folder() / f"compiled-{sources}-numba-{numba.__version__}-{get_host_cpu_name()}")
 
 
-def njit(function=None, *, alone: bool = False, **options):
+def njit(function=None, *, alone: bool | tuple[str, ...] = False, **options):
     """numba.njit with a cache on disk that knows all sources; a decorator, with or without options.
 
     Args:
-        alone: whether the function takes code and constants from its own file alone, so that no other file's change compiles it again.
+        alone: whether the function takes code and constants from its own file alone, or from those beside it that are named, too, so that
+            no other file's change compiles it again.
     """
     if function is None:
         return lambda one: njit(one, alone=alone, **options)
-    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, compiled_folder(function.__code__.co_filename if alone else "")
+    own, beside = Path(function.__code__.co_filename), () if alone is True else alone or ()
+    files = (str(own), *(str(own.with_name(name)) for name in beside)) if alone else ()
+    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, compiled_folder(files)
     try:
         if not is_tested() or numba.config.DISABLE_JIT:
             return numba.njit(cache=True, **options)(function)

@@ -19,6 +19,9 @@ if TYPE_CHECKING:  # the command line asks for the names alone, and must not wai
 MODELS = {
     "housner": "block:Block",
     "rocking_frame": "frame:Frame",
+    "wobbling": "wobbling:Wobbling",
+    "wobbling_frame": "wobbling_frame:WobblingFrame",
+    "podium": "podium:Podium",
 }
 SAFE, OVERTURNED = "safe", "overturned"
 

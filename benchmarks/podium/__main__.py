@@ -1,0 +1,55 @@
+"""The podium study: nine buildings on a rocking storey, laws CRV and CAV, near-fault motions of 5 magnitudes x 7 distances.
+
+    ./containers/run python -m benchmarks.podium [-n 100] [-j N] [-o DIR]
+
+Source: Bantilas, Kavvadias and Vasiliadis, "The effect of impact modeling on the seismic response of multi-storey podium structures" (COMPDYN).
+-n 100 motions a scenario are the paper's 3500; an hour and a half of processor time. What is done is kept: the same command goes on.
+Writes tilt.png, shear.png (and .pdf) and buildings.csv into DIR, and prints each claim with what it is here.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import os
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context
+from pathlib import Path
+
+from benchmarks.podium.claims import compared, verdicts
+from benchmarks.podium.ensemble import SCENARIOS, gathered, responses
+from benchmarks.podium.figure import draw
+from fecolumn.atomic import write_csv
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("-n", type=int, default=100, help="motions of each scenario (default: %(default)s)")
+    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="scenarios at a time (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="of the motions (default: %(default)s)")
+    parser.add_argument("-o", "--output", metavar="DIR", default="results/podium")
+    args = parser.parse_args()
+    folder, began = Path(args.output), time.perf_counter()
+    (folder / "scenarios").mkdir(parents=True, exist_ok=True)
+    files = {}
+    with ProcessPoolExecutor(args.jobs, mp_context=get_context("spawn")) as pool:
+        futures = {pool.submit(responses, scenario, args.n, args.seed, folder / "scenarios"): scenario for scenario in SCENARIOS}
+        for number, future in enumerate(as_completed(futures), 1):
+            files[futures[future]] = future.result()
+            print(f"{number} of {len(SCENARIOS)} scenarios, {time.perf_counter() - began:.0f} s", file=sys.stderr, flush=True)
+    found = gathered(files[scenario] for scenario in SCENARIOS)
+    buildings = compared(found)
+    names = [field.name for field in dataclasses.fields(buildings[0])]
+    write_csv(folder / "buildings.csv", [names, *([getattr(one, name) for name in names] for one in buildings)])
+    draw(found, folder / "tilt", "tilt", r"$\theta_{\max}/\alpha$", 1.05)
+    draw(found, folder / "shear", "shear", r"$V_{\max}/V_{st}$", 5.0)
+    print(f"{args.n * len(SCENARIOS)} motions, {len(buildings)} buildings\n")
+    for claim, holds, how in verdicts(buildings):
+        print(f"{'yes' if holds else 'NO ':<4}{claim}\n      {how}")
+    print(f"\nwrote {folder}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,49 @@
+"""Peak responses of all podiums to the motions of one earthquake scenario, kept in a file each."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.atomic import write_csv
+from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES, near_fault_ensemble
+from fecolumn.rocking.podium import study_podium
+from fecolumn.rocking.podium_impact import LAWS
+from fecolumn.rocking.storeys import PROFILES
+
+STOREYS = (3, 6, 9)
+BUILDINGS = tuple((profile, n) for profile in PROFILES for n in STOREYS)
+SCENARIOS = tuple((magnitude, distance) for magnitude in MAGNITUDES for distance in DISTANCES)
+_HEAD = ["profile", "storeys", "law", "motion", "tilt_over_alpha", "overturned", "shear_over_static"]
+
+
+def responses(scenario, count: int, seed: int, folder: Path) -> Path:
+    """File with the peak tilt over alpha and base shear over V_st of every building under every motion of a scenario; made where it is missing."""
+    file = folder / f"M{scenario[0]:g}_R{scenario[1]:g}_n{count}_seed{seed}.csv"
+    if file.exists():
+        return file
+    motions = near_fault_ensemble(scenario[:1], scenario[1:], count, seed=seed).motions
+    rows = [_HEAD]
+    for profile, n in BUILDINGS:
+        for law in LAWS:
+            podium = study_podium(profile, n, law)
+            for number, motion in enumerate(motions, 1):
+                _, _, shears, peak, fallen = podium.shake(motion.acceleration[:, [0, 2]], motion.dt)
+                shear = podium.building_mass * shears[0] / podium.static_shear
+                rows.append([profile, n, law, number, f"{peak / podium.slenderness:.8g}", int(fallen), f"{shear:.8g}"])
+    write_csv(file, rows)
+    return file
+
+
+def gathered(files) -> dict[tuple[str, int, str], dict[str, np.ndarray]]:
+    """By (profile, storeys, law): tilt over alpha, inf where overturned, and shear over V_st, (motions,) each, in one order of motions."""
+    found: dict = {}
+    for file in files:
+        with open(file, newline="") as text:
+            for row in csv.DictReader(text):
+                one = found.setdefault((row["profile"], int(row["storeys"]), row["law"]), {"tilt": [], "shear": []})
+                one["tilt"].append(float("inf") if row["overturned"] == "1" else float(row["tilt_over_alpha"]))
+                one["shear"].append(float(row["shear_over_static"]))
+    return {key: {name: np.array(values) for name, values in one.items()} for key, one in found.items()}

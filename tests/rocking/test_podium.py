@@ -1,0 +1,120 @@
+"""The podium: impact laws of the paper's figure, the building, uplift, limits, energy, and the judgement of its claims."""
+
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks.podium.claims import compared, verdicts
+from benchmarks.podium.ensemble import gathered, responses
+from fecolumn.motions.record import GroundMotion
+from fecolumn.rocking.podium import Podium, PodiumSection, study_podium
+from fecolumn.rocking.podium_impact import CAV, CRV, LAWS, kinetic_energy_kept, podium_restitution
+from fecolumn.rocking.storeys import PROFILES, storeys
+from fecolumn.schema import InputError
+from fecolumn.verification.podium import run
+
+FIGURE = Path(__file__).with_name("podium_restitution.csv")
+SECTION = dict(column_mass_kg=2500.0, floor_mass_kg=1e5, slenderness_rad=math.atan(0.15), half_diagonal_m=1.5)
+REST = GroundMotion(np.zeros((501, 3)), 0.01, "at rest", "")
+
+
+def pulse(amplitude, seconds=4.0, period=1.0):
+    time = np.arange(0, seconds, 0.01)
+    return np.column_stack([amplitude * np.sin(2 * math.pi * time / period) * (time < period), 0 * time, 0 * time])
+
+
+def test_restitution_is_that_of_the_figure_for_all_slendernesses_and_masses():
+    """Equations 5 and 6 over slenderness and eta, gamma 10, computed from them to five digits."""
+    with FIGURE.open() as text:
+        rows = list(csv.DictReader(text))
+    assert len(rows) == 84
+    for row in rows:
+        for law in LAWS:
+            assert podium_restitution(law, float(row["alpha_rad"]), 10.0, float(row["eta"])) == pytest.approx(float(row[f"COR_{law}"]), abs=6e-6)
+
+
+def test_verification_rows_hold():
+    assert [row for row in run("models").rows if not row.ok] == []
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_building_that_moves_with_the_beam_keeps_the_kinetic_energy_of_its_law(law):
+    """Stiff and undamped, released from rest: the first impact's loss over the kinetic energy before it, which is the weight's work."""
+    podium = Podium(math.atan(0.15), 1.5, 1e4, 1e5, storeys("shear", 3, 1e5, 0.01, damping=0.0), law)
+    found = podium.respond(GroundMotion(np.zeros((81, 3)), 0.01, "", ""), tilt=0.5 * podium.slenderness)
+    first = np.flatnonzero(found.energy["impact"])[0]
+    kept = 1 + found.energy["impact"][first] / found.energy["gravity"][0]
+    assert kept == pytest.approx(kinetic_energy_kept(law, podium.slenderness, podium.gamma, podium.eta), abs=2e-3)
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("n", [1, 2, 9])
+def test_the_building_has_its_profile_period_and_damping(profile, n):
+    building = storeys(profile, n, 2e4, 0.1 * n)
+    shape = PROFILES[profile](np.arange(1, n + 1) / n)
+    assert building.shapes[:, 0] / building.shapes[-1, 0] == pytest.approx(shape / shape[-1], abs=1e-10)
+    assert 2 * math.pi / building.omega[0] == pytest.approx(0.1 * n) and building.damping[: min(n, 2)] == pytest.approx(0.05)
+    assert (building.stiffness > 0).all() and building.effective_mass.sum() == pytest.approx(1.0)
+
+
+def test_first_mode_of_the_shear_profile_moves_the_most_mass_and_of_the_flexural_the_least():
+    for n in (3, 6, 9):
+        masses = [storeys(profile, n, 1.0, 1.0).effective_mass[0] for profile in ("flexural", "triangular", "shear")]
+        assert masses == sorted(masses)
+
+
+def test_a_steady_ground_acceleration_below_g_tan_alpha_starts_no_rocking_and_above_it_does():
+    podium = study_podium("shear", 3, CRV)
+    for share, rocks in ((0.98, False), (1.02, True)):
+        ramp = np.clip(np.arange(3000) / 2500, 0, 1) * share * 9.80665 * 0.15
+        peak = podium.shake(np.column_stack([ramp, 0 * ramp]), 0.01)[3]
+        assert (peak > 0) == rocks
+
+
+def test_it_falls_when_released_beyond_its_critical_tilt_or_pushed_hard():
+    podium = study_podium("triangular", 6, CAV)
+    assert podium.respond(REST, tilt=1.05 * podium.critical_tilt).overturned
+    assert not podium.respond(REST, tilt=0.9 * podium.critical_tilt).overturned
+    assert podium.respond(GroundMotion(pulse(8.0, 6.0, 2.0), 0.01, "", "")).overturned
+
+
+def test_both_sides_are_alike():
+    podium = study_podium("shear", 6, CRV)
+    left, right = (podium.respond(GroundMotion(pulse(sign * 4.0), 0.01, "", "")) for sign in (1, -1))
+    assert left.coordinates["theta"] == pytest.approx(-right.coordinates["theta"], abs=1e-12) and left.tilt.max() > 0.01
+    assert left.peaks == pytest.approx(right.peaks)
+
+
+def test_stout_columns_that_cav_would_throw_back_are_refused():
+    with pytest.raises(InputError, match="podium.impact = 'CAV'"):
+        Podium.of_section(PodiumSection(**SECTION | dict(slenderness_rad=0.35, storeys=9, impact=CAV)), "podium.toml")
+    assert Podium.of_section(PodiumSection(**SECTION | dict(slenderness_rad=0.35, storeys=9)), "podium.toml").restitution > 0
+
+
+def test_a_small_study_is_kept_judged_and_its_sizes_are_those_of_the_whole(tmp_path):
+    file = responses((6.5, 10.0), 2, 1, tmp_path)
+    written = file.stat().st_mtime_ns
+    assert responses((6.5, 10.0), 2, 1, tmp_path).stat().st_mtime_ns == written
+    found = gathered([file])
+    assert len(found) == 18 and all(len(one["tilt"]) == 2 for one in found.values())
+    buildings = compared(found, resamples=99)
+    assert len(verdicts(buildings)) == 8 and {one.storeys for one in buildings} == {3, 6, 9}
+
+
+def test_claims_follow_the_numbers():
+    """Two laws of the same answers are alike; a CAV shear half as large again is larger, and outside the band."""
+    rng = np.random.default_rng(3)
+    found = {}
+    for profile in PROFILES:
+        for n in (3, 6, 9):
+            tilt, shear = rng.uniform(0, 1, 200) * (rng.uniform(size=200) > 0.02 * n), rng.lognormal(0, 0.3, 200)
+            found[profile, n, CRV] = dict(tilt=tilt, shear=shear)
+            found[profile, n, CAV] = dict(tilt=tilt, shear=shear * (1 + 1.5 * (profile == "flexural") / n + 0.3 * (n < 9)))
+    told = {claim: holds for claim, holds, _ in verdicts(compared(found, resamples=99))}
+    assert [holds for claim, holds in told.items() if "tilts are alike" in claim] == [True]
+    assert [holds for claim, holds in told.items() if "most so for the stiffest" in claim] == [True]
+    found["shear", 9, CAV]["tilt"] = found["shear", 9, CRV]["tilt"] * 2
+    assert not verdicts(compared(found, resamples=99))[0][1]
