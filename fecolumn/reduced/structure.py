@@ -92,13 +92,13 @@ def links_of(model, hht) -> np.ndarray:
     """Links (nl,) of LINK."""
     links = np.zeros(len(model.links), LINK)
     for row, link in zip(links, model.links):
-        ends, gives = [], 0.0
-        for b, arm in ((link.a, link.arm_a), (link.b, link.arm_b)):
-            part = model.parts[b] if b != BASE else None
-            ends.append(np.asarray(arm, float) if part is None else part.center + part.rotation @ arm)
-            if part is not None:
-                gives += 1 / part.model.mass + arm @ arm / np.linalg.eigvalsh(part.model.inertia)[0]
+        sides = [(model.parts[b] if b != BASE else None, np.asarray(arm, float)) for b, arm in ((link.a, link.arm_a), (link.b, link.arm_b))]
+        ends = [arm if part is None else part.center + part.rotation @ arm for part, arm in sides]
         length = np.linalg.norm(ends[1] - ends[0])
+        along = (ends[1] - ends[0]) / length
+        # how far a force along the link moves its ends apart: by which the fixed point of a step contracts
+        turns = [(part, np.cross(arm, part.rotation.T @ along)) for part, arm in sides if part is not None]
+        gives = sum(1 / part.model.mass + turn @ np.linalg.solve(part.model.inertia, turn) for part, turn in turns)
         if link.stiffness * gives * hht.dt**2 / 2 > STIFFEST:
             longest = np.sqrt(2 * STIFFEST / (link.stiffness * gives))
             raise ValueError(f"links.{link.name}: a stiffness of {link.stiffness:g} N/m between such light bodies needs steps of at most {longest:.2g} s")
