@@ -38,7 +38,6 @@ class Analysis:
     def __init__(self, case, folder, comm, file, quiet):
         from fecolumn.dynamics.history import History
         from fecolumn.dynamics.overturning import steepest_to_come
-        from fecolumn.mesh.estimate import estimate
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
         self.began, self.cpu_began, self.code = time.perf_counter(), time.process_time(), code()
@@ -48,12 +47,18 @@ class Analysis:
         self.until_rest = bool(self.motion) and case.motion.free_vibration_s == REST and not case.integration.duration_s
         self.cut_at_s = self._cut(file)
         if case.integration.engine not in MODEL_ENGINES and not (folder / CHECKPOINT).is_file():
-            self.say(str(estimate(case)))
+            self.say(self.expected())
         self.history, self.step = History(), 0
         self.stepping_s = self.earlier_s = 0.0
         self.stance, self.top_arm, self.standing_j = None, None, 0.0
         grounds = self.motion.acceleration[:self.steps + 1] if self.motion else np.zeros((0, 3))
         self._steepest = steepest_to_come(np.array([0.0, 0.0, -GRAVITY]), grounds)
+
+    def expected(self) -> str:
+        """What meshes and analysis will take, in words."""
+        from fecolumn.mesh.estimate import estimate
+
+        return str(estimate(self.case))
 
     def _load_motion(self, file):
         if self.case.motion is None:
@@ -86,12 +91,17 @@ class Analysis:
         return float(self._steepest[step]) if step < len(self._steepest) else 0.0
 
     @property
-    def rest_j(self) -> float:
-        """Mechanical energy at which the analysis ends as the column is at rest [J]; -inf where it goes on."""
+    def barrier_j(self) -> float:
+        """Energy to overturn [J]."""
         from fecolumn.dynamics.overturning import barrier
 
+        return float(barrier(self.stance))
+
+    @property
+    def rest_j(self) -> float:
+        """Mechanical energy at which the analysis ends as the column is at rest [J]; -inf where it goes on."""
         asked = self.until_rest and self.step >= self.motion_steps
-        return self.standing_j + REST_SHARE * barrier(self.stance) if asked else -np.inf
+        return self.standing_j + REST_SHARE * self.barrier_j if asked else -np.inf
 
     @property
     def cpu_s(self) -> float | None:
@@ -194,20 +204,31 @@ class Analysis:
 
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
         """How the analysis ends, from the answer of `overturning.fallen` and the last rotation (3, 3)."""
-        from fecolumn.dynamics.overturning import CAPPED, NO_RETURN, barrier, critical_tilt_along
+        from fecolumn.dynamics.overturning import CAPPED, NO_RETURN
 
         last, dt = self.history.last(), self.case.integration.dt_s
         if fallen == CAPPED:
             return Ending(OVERTURNED, f"top displacement reached overturn.displacement_m = {self.stance.cap:g} m, at {last['time']:.3f} s")
         if fallen == NO_RETURN:
-            critical = critical_tilt_along(self.stance, rotation)
-            return Ending(OVERTURNED, f"point of no return: tilt {last['tilt']:.3g} rad, critical {critical:.3g} rad, at {last['time']:.3f} s")
-        outcome = AT_REST if self.energy_left() <= REST_SHARE * barrier(self.stance) else STILL_ROCKING
+            return Ending(OVERTURNED, f"point of no return: {self.no_return(last, rotation)}, at {last['time']:.3f} s")
+        outcome = AT_REST if self.energy_left() <= REST_SHARE * self.barrier_j else STILL_ROCKING
         if not self.until_rest:
             return Ending(outcome, f"end of the analysed time, {last['time']:.3f} s")
         if outcome == AT_REST:
             return Ending(outcome, f"at rest {last['time'] - self.motion_steps * dt:.3f} s after the motion's end, at {last['time']:.3f} s")
         return Ending(outcome, f"motion.rest_ceiling_s = {self.case.motion.rest_ceiling_s:g} s after the motion's end, at {last['time']:.3f} s")
+
+    def no_return(self, last: dict, rotation: np.ndarray) -> str:
+        """What the point of no return was, from the last row of the history and the last rotation (3, 3)."""
+        from fecolumn.dynamics.overturning import critical_tilt_along
+
+        return f"tilt {last['tilt']:.3g} rad, critical {critical_tilt_along(self.stance, rotation):.3g} rad"
+
+    def limits(self) -> dict:
+        """Of the summary: tilt and displacement beyond which the column falls."""
+        from fecolumn.dynamics.overturning import critical_displacement
+
+        return dict(critical_tilt_rad=self.stance.critical, u_critical_m=critical_displacement(self.stance, self.top_arm))
 
     def slid_off(self, failure, base, foot: np.ndarray) -> Ending | None:
         """The ending of a column whose step failed because its foot, at (n, 3) [m] before, met the edge of the base; None for another failure."""
@@ -220,8 +241,6 @@ class Analysis:
     def finish(self, ending: Ending, dofs: int, record, factorizations: int) -> dict:
         """Write the last history and the summary, which is returned; the checkpoint goes."""
         from fecolumn.dynamics.energy import TERMS
-        from fecolumn.dynamics.overturning import barrier, critical_displacement
-
         rows, plan, overturned = self.history.arrays(), self.case.integration, ending.outcome == OVERTURNED
         slid_off, slide = ending.outcome == SLID_OFF, rows["slide"][-1]
         top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
@@ -237,8 +256,7 @@ class Analysis:
             overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0]))) if overturned else None,
             slid_off=slid_off, slid_off_time_s=end if slid_off else None,
             slid_off_direction_deg=float(np.degrees(np.arctan2(slide[1], slide[0]))) if slid_off else None,
-            critical_tilt_rad=self.stance.critical, u_critical_m=critical_displacement(self.stance, self.top_arm),
-            energy_left_j=None if overturned else self.energy_left(), energy_to_overturn_j=float(barrier(self.stance)),
+            **self.limits(), energy_left_j=None if overturned else self.energy_left(), energy_to_overturn_j=self.barrier_j,
             tilt_max_rad=float(rows["tilt"].max()), residual_slide_m=float(np.hypot(*rows["slide"][-1])),
             penetration_max_m=float(rows["penetration"].max()), ranks=self.comm.size,
             wall_s=self.earlier_s + time.perf_counter() - self.began, cpu_s=self.cpu_s, s_per_step=self.stepping_s / max(self.step, 1),

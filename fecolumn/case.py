@@ -314,7 +314,11 @@ def located(name: str, section, file):
 
 
 def case_from_tables(tables: dict, file) -> Case:
-    """Case from TOML tables; relative paths are taken from the folder of `file`."""
+    """Case from TOML tables; relative paths are taken from the folder of `file`. Tables with [bodies] make a `structures.case.StructureCase`."""
+    if "bodies" in tables:
+        from fecolumn.structures.case import structure_from_tables
+
+        return structure_from_tables(tables, file)
     case = build(Case, tables, file)
     return finished(dataclasses.replace(case, **{name: located(name, getattr(case, name), file) for name in FILES}), file)
 

@@ -138,6 +138,12 @@ def _mesh(args) -> int:
 
     case = read_case(args.case)
     _warn_of_motion(case, args.case)
+    if hasattr(case, "bodies"):
+        from fecolumn.structures.report import FILES, structure_report
+
+        with written(args.output, "mesh", names=FILES) as draft:
+            print(structure_report(case, args.case, draft, lambda text: print(text, file=sys.stderr, flush=True)))
+        return 0
     with written(args.output, "mesh", names=("specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt")) as draft:
         print(mesh_report(case, draft, lambda text: print(text, file=sys.stderr, flush=True)))
     return 0

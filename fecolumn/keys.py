@@ -73,7 +73,7 @@ def tables() -> list[Table]:
             absent = "" if field.default is dataclasses.MISSING else " The table may be left out."
             kind = sections[field.name]
             found.append(Table(field.name, _sentence(kind) + absent, _keys(kind, DEFAULTS.get(field.name, {})), "case"))
-    return [*found, Table("", _sentence(StudyKeys), (extends, *_keys(StudyKeys)), "study"),
+    return [*found, *_of_structures(), Table("", _sentence(StudyKeys), (extends, *_keys(StudyKeys)), "study"),
             Table("latin_hypercube", _sentence(LatinHypercube), _keys(LatinHypercube), "study"),
             *(Table(name, _sentence(section), _keys(section), "model") for name, section in _model_sections().items())]
 
@@ -85,6 +85,22 @@ def _model_sections() -> dict[str, type]:
     return {cls.TABLE: cls.SECTION for cls in map(model_class, MODELS)}
 
 
+def _of_structures() -> list[Table]:
+    """Tables of a structure's case beside those that it has in common with a column's."""
+    from fecolumn.case import Cap, Flange, Initial, Material
+    from fecolumn.structures.keys import KINDS, Interface, LinkKeys, Placed, Solid, Stuff
+
+    def own(kind):
+        return Table("bodies.NAME", _sentence(kind), tuple(key for key in _keys(kind, skip=("flange", "cap")) if key.name in kind.__annotations__), "structure")
+
+    top = Key("observed", "", "text", "none", 'body, or "BODY.MARK", whose displacement is u_top, such as "building.floor 2"; left out: the highest body\'s top')
+    bodies = [own(kind) for kind in (Placed, Stuff, Solid, *dict.fromkeys(KINDS.values()))]
+    others = {"bodies.NAME.flange": Flange, "bodies.NAME.cap": Cap, "materials.NAME": Material, "interfaces.NAME": Interface, "links.NAME": LinkKeys,
+              "initial.NAME": Initial}
+    return [Table("", "A structure of bodies: its tables, and [contact], [integration], [motion], [overturn], [output] as above.", (top,), "structure"), *bodies,
+            *(Table(name, _sentence(kind), _keys(kind), "structure") for name, kind in others.items())]
+
+
 def chosen(name: str) -> list[Table]:
     """All tables, those of one name ("case" and "study" are the tops of these files), or one key of a table.
 
@@ -94,7 +110,8 @@ def chosen(name: str) -> list[Table]:
     found = tables()
     if not name:
         return found
-    whole = [table for table in found if name in (table.name, table.name or table.of) or (name == "study" and table.of == name)]
+    whole = [table for table in found if name in (table.name, table.name or table.of) or table.name.startswith(f"{name}.")
+             or (name in ("study", "structure") and table.of == name)]
     if whole:
         return whole
     section, _, last = name.rpartition(".")

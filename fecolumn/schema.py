@@ -129,7 +129,15 @@ def _typed(kind, value):
     return None
 
 
+def _items(typed):
+    """Single values of a key, those of lists of lists, too."""
+    if not isinstance(typed, tuple):
+        return (typed,)
+    return tuple(item for inner in typed for item in _items(inner))
+
+
 _WORDS = {float: "a number", int: "a whole number", str: "text in quotes", bool: "true or false"}
+_ITEMS = {str: "texts", float: "numbers", int: "whole numbers"}
 
 
 def _checked(kind, metadata, value, file, key):
@@ -146,10 +154,10 @@ def _checked(kind, metadata, value, file, key):
         return value
     typed = _typed(kind, value)
     if typed is None:
-        word = _WORDS.get(kind) or "a list of " + {str: "texts", float: "numbers"}[typing.get_args(kind)[0]]
+        word = _WORDS.get(kind) or "a list of " + _ITEMS.get(typing.get_args(kind)[0], "lists of numbers")
         word = " or ".join([word, *(f'"{text}"' for text in metadata["words"])])
         raise InputError(file, key, value, f"must be {word}; {metadata['doc']}")
-    for item in typed if isinstance(typed, tuple) else (typed,):
+    for item in _items(typed):
         bad = False
         if isinstance(item, (int, float)) and not isinstance(item, bool):
             bad = ((isinstance(item, float) and not math.isfinite(item))

@@ -12,12 +12,13 @@ from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.result_folder import held
 from fecolumn.schema import InputError
 from fecolumn.sources import code, code_text
+from fecolumn.structures.case import StructureCase
 from fecolumn.summary import NAME, read_summary
 
 __all__ = ["AnalysisFailed", "read_folder_case", "run"]
 
 
-def run(case: Case | str | Path, folder, *, comm=None, file: str = "", quiet: bool = False, stop=lambda: False) -> dict:
+def run(case: Case | StructureCase | str | Path, folder, *, comm=None, file: str = "", quiet: bool = False, stop=lambda: False) -> dict:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
 
     Args:
@@ -40,10 +41,10 @@ def run(case: Case | str | Path, folder, *, comm=None, file: str = "", quiet: bo
     comm = comm or MPI.COMM_WORLD
     if isinstance(case, (str, Path)):
         case, file = read_case(case), str(case)
-    if not isinstance(case, Case):
+    if not isinstance(case, (Case, StructureCase)):
         raise TypeError(f"run takes a Case or the path of a case file, not {type(case).__name__}; see fecolumn.read_case")
     folder, file = Path(folder), file or "case"
-    case = finished(case, file)
+    case = finished(case, file) if isinstance(case, Case) else case
     with held(folder, case, comm, file) as claim:
         summary, damage = comm.bcast(_earlier_summary(folder, case.id) if comm.rank == 0 else None)
         if summary:
@@ -63,6 +64,12 @@ def run(case: Case | str | Path, folder, *, comm=None, file: str = "", quiet: bo
 
 def _analysis_class(case, comm, file) -> type[Analysis]:
     check_duration(case, file)
+    if isinstance(case, StructureCase):
+        if comm.size > 1:
+            raise InputError(file, "bodies", None, "a structure is analysed by one process: start it without mpirun")
+        from fecolumn.structures.analysis import StructureAnalysis
+
+        return StructureAnalysis
     if case.integration.engine == "full":
         from fecolumn.dynamics.analysis import FullAnalysis
 

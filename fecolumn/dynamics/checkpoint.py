@@ -13,7 +13,7 @@ from fecolumn.files import read_bytes
 
 _FIELDS = ("x", "v", "a", "contact_a", "internal")
 # arrays and fields with the angle of the rim's lowest point, nan while the foot touches with its nodes only
-_WITH_RIM = {"angle", "stick.key"}
+_WITH_RIM = {"angle", "stick.key", "stick.angles"}
 _SHARED = ("time", "strain", "rotation", "contact", "static", "ground", "rims")
 
 

@@ -11,6 +11,8 @@ from fecolumn.dynamics.energy import TERMS
 
 UNITS = {"time": "s", "u_top": "m", "tilt": "rad", "twist": "rad", "slide": "m", "contact_force": "N",
          "active_nodes": "-", "penetration": "m", "ground": "m/s2", "iterations": "-", "theta_x": "rad", "theta_y": "rad"}
+#: Of columns of a structure's bodies, interfaces, marks and storeys, by the last word of their names.
+UNITS_OF_PARTS = {"displacement": "m", "tilt": "rad", "rise": "m", "slide": "m", "force": "N", "drift": "m", "shear": "N"}
 MEANING = {"u_top": "displacement of the top's centre relative to the base", "slide": "horizontal displacement of the foot's centre",
            "tilt": "angle of the column's axis to the vertical", "twist": "rotation about the vertical",
            "contact_force": "force of the base on the column", "active_nodes": "foot nodes in contact",
@@ -55,7 +57,7 @@ class History:
                 rows = np.unique(np.append(np.arange(0, len(values), every), len(values) - 1)) if every > 1 else slice(None)
                 values = values[rows]
                 dataset = file.create_dataset(name, data=values, compression="gzip" if values.size > 1000 else None)
-                dataset.attrs["unit"] = UNITS.get(name, "J")
+                dataset.attrs["unit"] = UNITS.get(name) or UNITS_OF_PARTS.get(name.rpartition("/")[2], "J")
                 if name in MEANING:
                     dataset.attrs["meaning"] = MEANING[name]
 

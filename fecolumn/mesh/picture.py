@@ -33,7 +33,7 @@ def picture(specimen: SpecimenMesh, path) -> Path:
 
     path = Path(path)
     meshes = specimen.body, specimen.base
-    right, up, toward = _view()
+    right, up, toward = view()
     points = np.concatenate([mesh.points for mesh in meshes])
     plan, rise = points @ right, points @ up
     centre = np.array([(plan.min() + plan.max()) / 2, (rise.min() + rise.max()) / 2])
@@ -77,7 +77,7 @@ def picture(specimen: SpecimenMesh, path) -> Path:
     return path
 
 
-def _view():
+def view() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Unit vectors of the projection: to the right, upwards, towards the viewer."""
     toward = np.array([np.cos(_ELEVATION) * np.cos(_AZIMUTH), np.cos(_ELEVATION) * np.sin(_AZIMUTH), np.sin(_ELEVATION)])
     right = np.cross([0, 0, 1], toward)

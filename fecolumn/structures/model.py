@@ -68,7 +68,8 @@ class BodyModel:
     arms: (n, 3) [m] of the nodes.
     dofs: of the mesh it was made from, 0 where there was none.
     surfaces: by name, such as "foot" and "head".
-    marks: points observed, by name: arm (3,) [m] and shape (3, m) [1/sqrt(kg)]; "top" is the mean over the highest face, "floor 1" ... those of storeys.
+    marks: points observed, by name: arm (3,) [m] and shape (3, m) [1/sqrt(kg)]; "top" is the mean over the highest face, "floor 1" ... and "storey 1" ... those of a
+        building.
     damping: (m,) ratios of the modes where the body brings its own, as `storeys` with Rayleigh damping do; None where `Part.damping_ratio` says all.
     storeys: of a building, None of any other body.
     """
@@ -144,7 +145,7 @@ class Joint:
 class Link:
     """A tendon, spring, dashpot or restrainer between a point of one part and a point of another or of the ground.
 
-    Its elongation e [m] is the distance of the points less that at the start. Its force [N], positive in tension, is
+    Its elongation e [m] is the distance of the points less that as the structure stands upright. Its force [N], positive in tension, is
     prestress + stiffness e + damping de/dt, the spring's part of it only beyond the slack and only where it pulls or pushes.
 
     kind: "tendon", "spring", "dashpot" or "restrainer".

@@ -28,6 +28,7 @@ from pathlib import Path
 from fecolumn.case import Case
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.schema import InputError, build
+from fecolumn.structures.case import type_of
 from fecolumn.study.keys import LatinHypercube
 
 # A study's tables that hold axes
@@ -131,6 +132,7 @@ def _latin_hypercube(table, path: Path) -> Factor:
     kinds = _known_keys()
     for key, values in ranges.items():
         _known(key, name, path)
+        kinds.setdefault(key, type_of(key))
         if kinds[key] not in (int, float):
             raise InputError(path, f"{name}.{key}", values, "only a number has a range; give its values under [axes]")
         _refuse_range(values, f"{name}.{key}", path)
@@ -166,7 +168,7 @@ def _flat(table: dict, prefix: str = ""):
 
 
 def _known(key: str, table: str, path: Path) -> None:
-    if key not in (known := _known_keys()):
+    if key not in (known := _known_keys()) and type_of(key) is None:
         raise InputError(path, f"{table}.{key}", None, f"unknown key of a case{hint(key, tuple(known))}")
 
 

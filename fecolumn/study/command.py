@@ -93,7 +93,9 @@ def _run(args, share, team_of=None) -> tuple[int, bool]:
 
         check_motions(plan)
         meshed = [analysis.case for analysis in plan.analyses if analysis.case.integration.engine not in MODEL_ENGINES]
-        if meshed:
+        if "bodies" in plan.case:
+            print(f"{len(plan.analyses)} analyses of a structure of {len(plan.case['bodies'])} different bodies", file=sys.stderr, flush=True)
+        elif meshed:
             print(estimate_of_all(meshed), file=sys.stderr, flush=True)
     entry, rule = args.entry or ENTRY, _rule(args, share, plan)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's stop is answered like Ctrl-C

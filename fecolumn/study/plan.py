@@ -24,6 +24,7 @@ from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check_duratio
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.schema import InputError, build, merge, read_toml, shown
+from fecolumn.structures.keys import FILES as BODY_FILES
 from fecolumn.study.axes import Factor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
 
@@ -148,6 +149,9 @@ def _located(tables: dict, file: Path) -> dict:
         value = tables[section].get(key) if isinstance(tables.get(section), dict) else None
         if isinstance(value, str) and value and ":" not in value:
             tables = merge(tables, {section: {key: str((file.resolve().parent / value))}})
+    for name, key in ((name, key) for name, body in tables.get("bodies", {}).items() if isinstance(body, dict) for key in BODY_FILES.get(body.get("kind"), ())):
+        if isinstance(value := tables["bodies"][name].get(key), str):
+            tables = merge(tables, {"bodies": {name: {key: str(file.resolve().parent / value)}}})
     return tables
 
 
@@ -171,10 +175,21 @@ class _Maker:
         """The analysis at a level of each factor; an error names the study file and the key there."""
         levels = tuple(value for factor, place in zip(self.factors, places) for value in factor.levels[place])
         try:
+            if "bodies" in self.common:
+                case = self._structure(places)
+                return Analysis(case, case.id, self.keys, levels)
             case, texts = self._case(places)
         except InputError as error:
             self._refuse(error, levels)
         return Analysis(case, digest(texts), self.keys, levels)
+
+    def _structure(self, places):
+        """The StructureCase at a level of each factor."""
+        case = case_from_tables(self._tables(places), self.path)
+        check_duration(case, self.path)
+        if case.motion:
+            self._refuse_missing(case.motion)
+        return case
 
     def _case(self, places) -> tuple[Case, dict[str, str]]:
         if self.first is None:  # the whole, for what stands in no section

@@ -24,7 +24,7 @@ def preparation(analyses: Iterable) -> str:
 
     from fecolumn._compiled import cache_folder, compiled_folder
 
-    if any(cache_folder().glob(".model-*.lock")):
+    if any(lock for name in ("model", "body") for lock in cache_folder().glob(f".{name}-*.lock")):
         return MODELLING
     kept = any(Path(compiled_folder()).glob("*/*.advance-*.nbi"))  # the one function of the engine that Python calls, see reduced.run
     return "" if kept or numba.config.DISABLE_JIT else COMPILING

@@ -1,0 +1,137 @@
+"""One analysis of a structure, from its case to the result files of any analysis."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn._compiled import compiled
+from fecolumn.analysis import Analysis
+from fecolumn.case import GRAVITY
+from fecolumn.dynamics.overturning import barrier, stance
+from fecolumn.reduced.analysis import ReducedAnalysis
+from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_MARK
+from fecolumn.reduced.run import advance
+from fecolumn.reduced.structure import LOST
+from fecolumn.structures.engine import engine_of, leans, upright
+from fecolumn.structures.model import StructureModel
+from fecolumn.structures.structure import structure_model
+
+_WHOLE = ("active_nodes", "iterations")  # columns of whole numbers
+
+
+class _Whole(NamedTuple):
+    """What `ReducedAnalysis` asks of a model: degrees of freedom of the different meshes, and arms of a foot that might meet an edge."""
+
+    dofs: int
+    arms: np.ndarray
+
+
+class StructureAnalysis(ReducedAnalysis):
+    """A running analysis of a structure of many bodies.
+
+    Attributes beside those of Analysis: structure: StructureModel at its start.
+    """
+
+    def __init__(self, case, folder, comm, file, quiet):
+        Analysis.__init__(self, case, folder, comm, file, quiet)
+        self.structure, self.fields, self.states = structure_model(case, file, self.say), None, None
+        different = {id(part.model): part.model.dofs for part in self.structure.parts}
+        self.base, self.model = self.structure.base, _Whole(sum(different.values()), self.structure.parts[0].model.arms)
+        if not compiled(advance):
+            self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
+        self.engine = engine_of(case, self.structure, file)
+        self.began, self.cpu_began = time.perf_counter(), time.process_time()  # what was made and compiled so far was so for all analyses
+        self.stance, self.top_arm = self.engine.eye.stance, self.engine.eye.top_arm
+        self._feet = _stances(self.structure)
+        if self.went_on(self._take):
+            self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
+        else:
+            self.standing_j = engine_of(case, upright(case, self.structure), file).mechanical() if leans(self.structure) else self.engine.mechanical()
+            self.engine.motion.whole["ground"] = self.ground(0)
+            self._note(self.engine.row()[None])
+
+    def expected(self) -> str:
+        """What is analysed, in words."""
+        copies = sum(len(body.places) for body in self.case.bodies.values())
+        return f"{copies} bodies, {len(self.case.bodies)} of them different, {len(self.case.links)} kinds of links, {self.case.integration.engine} engine"
+
+    @property
+    def barrier_j(self) -> float:
+        """Least energy [J] that overturns a body by itself: below a share of it the structure is at rest."""
+        return min(barrier(foot) for foot in self._feet)
+
+    def limits(self) -> dict:
+        """Of the summary: the least tilt of a body at which it would overturn by itself; of a structure no displacement is known beyond which it falls."""
+        return dict(critical_tilt_rad=min(foot.critical for foot in self._feet), u_critical_m=None)
+
+    def no_return(self, last: dict, rotation: np.ndarray) -> str:
+        tilts = {part.name: float(last[f"body/{part.name}/tilt"]) for part in self.structure.parts}
+        name = max(tilts, key=tilts.get)
+        return f'"{name}" has tilted by {tilts[name]:.3g} rad, limit {LOST:.3g} rad'
+
+    def finish(self, ending, dofs: int, record, factorizations: int) -> dict:
+        from fecolumn.atomic import write_json
+        from fecolumn.summary import NAME
+
+        summary = super().finish(ending, dofs, record, factorizations)
+        summary |= peaks(self.history.arrays(), self.structure)
+        if self.comm.rank == 0:
+            write_json(self.folder / NAME, summary)
+        return summary
+
+    def _note(self, rows: np.ndarray) -> None:
+        self.history.extend(columns_of(rows, self.structure))
+
+
+def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndarray]:
+    """Rows (k, width) of the engine as columns by name: those of any analysis, and of the structure's parts.
+
+    "body/NAME/displacement" of the centre of mass [m] and "body/NAME/tilt" [rad]; "interface/NAME/tilt" of the slave from the master [rad], "rise"
+    of the middle of its foot [m], "slide" along two tangents [m], normal "force" [N]; "mark/NAME.MARK/displacement" [m];
+    "storey/NAME N/drift" [m] along x and y of the table, "shear" [N], its elastic part.
+    """
+    names = [(name, count) for name, count in COLUMNS]
+    names += [(f"body/{part.name}/{name}", count) for part in structure.parts for name, count in OF_BODY]
+    names += [(f"interface/{joint.name}/{name}", count) for joint in structure.joints for name, count in OF_INTERFACE]
+    names += [(f"mark/{part.name}.{mark}/{name}", count) for part in structure.parts for mark in part.model.marks for name, count in OF_MARK]
+    columns, place = {}, 0
+    for name, count in names:
+        values = rows[:, place] if count == 1 else rows[:, place:place + count]
+        columns[name] = values.astype(int) if name in _WHOLE else values.copy()
+        place += count
+    for part in structure.parts:
+        if part.model.storeys is None:
+            continue
+        for number, stiffness in enumerate(part.model.storeys.stiffness, 1):
+            drift = (columns.pop(f"mark/{part.name}.storey {number}/displacement") - columns[f"body/{part.name}/displacement"])[:, :2]
+            columns |= {f"storey/{part.name} {number}/drift": drift, f"storey/{part.name} {number}/shear": stiffness * drift}
+    return columns
+
+
+def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
+    """Of the summary: largest values of bodies, interfaces and storeys by name, from the columns of a history."""
+    def largest(name):
+        values = rows[name]
+        return float(np.abs(values).max() if values.ndim == 1 else np.linalg.norm(values, axis=1).max())
+
+    bodies = {part.name: dict(tilt_max_rad=largest(f"body/{part.name}/tilt")) for part in structure.parts}
+    interfaces = {joint.name: dict(tilt_max_rad=largest(f"interface/{joint.name}/tilt"), rise_max_m=largest(f"interface/{joint.name}/rise"),
+                                   slide_max_m=largest(f"interface/{joint.name}/slide"), residual_slide_m=float(np.hypot(*rows[f"interface/{joint.name}/slide"][-1])),
+                                   force_max_n=largest(f"interface/{joint.name}/force")) for joint in structure.joints}
+    storeys = {name[7:-6]: dict(drift_max_m=largest(name), shear_max_n=largest(f"{name[:-5]}shear")) for name in rows if name.startswith("storey/") and name.endswith("/drift")}
+    return dict(bodies=bodies, interfaces=interfaces, storeys=storeys)
+
+
+def _stances(structure: StructureModel) -> list:
+    """Stance of each body that stands on a face below it, by itself."""
+    found = []
+    for joint in structure.joints:
+        part = structure.parts[joint.slave]
+        surface = part.model.surfaces[joint.slave_surface]
+        if surface.normal[2] < -math.sqrt(0.5):
+            found.append(stance(part.model.arms[surface.nodes], part.model.inertia, part.model.mass * GRAVITY, joint.friction, 0.0))
+    return found

@@ -1,0 +1,88 @@
+"""A body as drawn: its mesh or matrices, its plane faces, and how it is reduced."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.case import Material
+from fecolumn.mesh.quality import mass_properties
+from fecolumn.schema import InputError
+from fecolumn.structures.check_keys import material_of
+from fecolumn.structures.faces import Face, plane_faces
+from fecolumn.structures.keys import Matrices, Storeys
+from fecolumn.structures.matrices import System, matrices_model, read_system
+from fecolumn.structures.model import BodyModel
+from fecolumn.structures.patches import Patch
+from fecolumn.structures.reduction import elastic_model, rigid_model
+from fecolumn.structures.shapes import Shape, shape_of
+from fecolumn.structures.storeys import storeys_model
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """A body in its own drawing, the middle of its foot at the origin.
+
+    key: such as "bodies.slab", for messages. body: its keys. shape: its mesh, and system: its matrices; one of them is None.
+    faces: its plane faces. material: with the density that the body has; None of matrices.
+    """
+
+    key: str
+    body: object
+    shape: Shape | None
+    system: System | None
+    faces: list[Face]
+    material: Material | None
+    file: object
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether it gives at its contact points only."""
+        return isinstance(self.body, Storeys) or getattr(self.body, "rigid", False)
+
+    @property
+    def order(self) -> int:
+        """Polynomial order of its elements, 1 where it has none."""
+        return 1 if self.shape is None or self.is_rigid else self.shape.order
+
+    @property
+    def points(self) -> np.ndarray:
+        """Points (n, 3) [m] that it consists of."""
+        return self.system.coordinates if self.shape is None else self.shape.mesh.points
+
+    def model(self, patches: dict[str, Patch], n_modes: int) -> tuple[BodyModel, np.ndarray | None]:
+        """The body reduced to its patches; with the modes (m, n_nodes, 3) all over it where it is of finite elements."""
+        if isinstance(self.body, Matrices):
+            def refuse(allowed):
+                raise InputError(self.file, f"{self.key}.stiffness_file", self.body.stiffness_file, allowed)
+
+            return matrices_model(self.system, self.faces, patches, n_modes, refuse), None
+        if isinstance(self.body, Storeys):
+            mass = mass_properties(self.shape.mesh, self.material.density_kg_m3).mass
+            return storeys_model(self.body, mass, patches, self.material), None
+        if self.body.rigid:
+            return rigid_model(self.shape, self.faces, patches, self.material, self.body.contact_stiffness_n_m3), None
+        return elastic_model(self.shape, self.faces, patches, self.material, n_modes)
+
+
+def drawing(case, name: str, file, spots=()) -> Drawing:
+    """Drawing of a body of a case; spots as of `shapes.shape_of`.
+
+    Raises:
+        InputError: a file that cannot be used.
+    """
+    body, key = case.bodies[name], f"bodies.{name}"
+    if isinstance(body, Matrices):
+        system = read_system(key, body, file)
+        return Drawing(key, body, None, system, system.faces(), None, file)
+    shape = shape_of(key, body, file, spots)
+    material = material_of(body, case.materials)
+    if body.mass_kg is not None:
+        volume = mass_properties(shape.mesh, 1.0).volume
+        try:
+            material = dataclasses.replace(material, density_kg_m3=body.mass_kg / volume)
+        except InputError as error:
+            raise InputError(file, f"{key}.mass_kg", body.mass_kg, f"makes a density of {body.mass_kg / volume:.4g} kg/m3 in {volume:.4g} m3: {error.allowed}") from None
+    return Drawing(key, body, shape, None, plane_faces(shape.mesh), material, file)

@@ -1,0 +1,263 @@
+"""The case of a structure of many bodies: tables by name, validated, hashable by content, beside the short form of one column.
+
+    [bodies.column]            [interfaces.feet]         [interfaces.heads]        [initial.column]
+    kind = "cylinder"          slave = "column"          slave = "column"          tilt_rad = 0.05
+    ...                        on = "ground"             on = "slab"
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import hashlib
+import json
+import typing
+from dataclasses import dataclass
+from pathlib import Path
+
+from fecolumn.case import (FULL_ORDER_KEYS, DEFAULT, MOST_STEPS, Contact, Initial, Integration, Material, Motion, Output, Overturn, content,
+                           located, section_table)
+from fecolumn.files import is_file
+from fecolumn.schema import InputError, build, merge, stated
+from fecolumn.structures.keys import FILES, GROUND, KINDS, Interface, LinkKeys, Placed
+
+#: Tables of tables by name, and the class of each.
+NAMED = {"bodies": Placed, "materials": Material, "interfaces": Interface, "links": LinkKeys, "initial": Initial}
+#: Sections that a structure's case has in common with a column's.
+COMMON = {"contact": Contact, "integration": Integration, "motion": Motion, "overturn": Overturn, "output": Output}
+#: What holds where a structure's case says nothing else: a step takes all modes of all bodies.
+DEFAULTS = {"integration": {"engine": "reduced", "n_modes": 30}, "output": {"states_every_s": 0.0}}
+# Characters of a name that stand for something else in dotted keys, and in names of copies and marks
+_TAKEN = set('."\'[]/ ')
+
+
+@dataclass(frozen=True, slots=True)
+class StructureCase:
+    """One analysis of a structure. Tables of tables are dictionaries by the names that the user gave."""
+
+    bodies: dict[str, Placed]
+    materials: dict[str, Material]
+    interfaces: dict[str, Interface]
+    links: dict[str, LinkKeys]
+    initial: dict[str, Initial]
+    contact: Contact
+    integration: Integration
+    overturn: Overturn
+    output: Output
+    title: str = ""
+    observed: str = ""
+    motion: Motion | None = None
+
+    @property
+    def id(self) -> str:
+        """Twelve hexadecimal digits that name everything but title and output cadence; motions and meshes count by content."""
+        tables = {name: {key: identity(section) for key, section in getattr(self, name).items()} for name in NAMED}
+        tables |= {name: section_table(name, getattr(self, name)) for name in COMMON if name != "output"}
+        text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+    @property
+    def n_modes(self) -> int:
+        """Elastic modes of a body that does not state its own."""
+        return 0 if self.integration.engine == "rigid" else self.integration.n_modes
+
+    def modes_of(self, body: str) -> int:
+        """Elastic modes of a body that move with inertia."""
+        own = self.bodies[body].modes
+        return 0 if self.integration.engine == "rigid" else self.n_modes if own is None else own
+
+    def names_of(self, body: str) -> tuple[str, ...]:
+        """Names of the copies of a body: its own where it is one."""
+        copies = self.bodies[body].copies_m
+        return tuple(f"{body} {number}" for number in range(1, len(copies) + 1)) if copies else (body,)
+
+    def meant_by(self, name: str) -> tuple[str, tuple[int, ...]]:
+        """Body and copies, counted from 0, that `name` stands for: "column" for all, "column 2" for one.
+
+        Raises:
+            KeyError: none of this name.
+        """
+        if name in self.bodies:
+            return name, tuple(range(len(self.bodies[name].places)))
+        body, _, number = name.rpartition(" ")
+        if body in self.bodies and name in self.names_of(body):
+            return body, (int(number) - 1,)
+        raise KeyError(name)
+
+    def replace(self, changes: dict | None = None, **sections) -> StructureCase:
+        """This case with other values by dotted key, such as {"bodies.slab.length_m": 3.0}, checked as a file's would be; see `Case.replace`."""
+        tables = self.tables()
+        for key, value in {**(changes or {}), **sections}.items():
+            first, *rest = reversed(key.split("."))
+            own = {first: value}
+            for part in rest:
+                own = {part: own}
+            tables = merge(tables, own)
+        return structure_from_tables(_without(tables), "case")
+
+    def tables(self) -> dict:
+        """The case as the tables of its file."""
+        return stated(dataclasses.asdict(self))
+
+
+def identity(section) -> dict:
+    """What of a section tells one analysis from another, files by content."""
+    table = section_table("", section)
+    for key in FILES.get(table.get("kind", ""), ()):
+        table[key] = content(table[key])
+    return table
+
+
+def _without(tables: dict) -> dict:
+    """Tables without the keys that were set to None."""
+    return {key: _without(value) if isinstance(value, dict) else value for key, value in tables.items() if value is not None}
+
+
+def structure_from_tables(tables: dict, file) -> StructureCase:
+    """Case of a structure from TOML tables; relative paths are taken from the folder of `file`.
+
+    Raises:
+        InputError: every unknown or missing key, wrong type and value out of range, told at once; or parts that do not fit.
+    """
+    tables, errors, found = merge(DEFAULTS, stated(tables)), [], {}
+    for key in tables:
+        if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
+            near = difflib.get_close_matches(key, [*NAMED, *COMMON], 1, 0.6)
+            errors.append(InputError(file, key, None, f"says nothing of a structure of [bodies]{f'; did you mean {near[0]}?' if near else ''}; "
+                                     f"its tables: {', '.join([*NAMED, *COMMON])}"))
+    for name, kind in NAMED.items():
+        found[name] = _named(name, kind, tables.get(name, {}), file, errors)
+    for name, kind in COMMON.items():
+        table = tables.get(name, False)
+        try:
+            if name != "motion" or table is not False:
+                found[name] = located(name, build(kind, {} if table is False else table, file, f"{name}."), file)
+        except InputError as error:
+            errors.append(error)
+    for key in ("title", "observed"):
+        found[key] = tables.get(key, "")
+        if not isinstance(found[key], str):
+            errors.append(InputError(file, key, found[key], "must be text in quotes"))
+    if errors:
+        raise InputError.of_several(errors)
+    case = StructureCase(**found)
+    check(case, file)
+    return case
+
+
+def _named(name: str, kind, tables, file, errors: list) -> dict:
+    """Sections by name of one table of tables."""
+    if not isinstance(tables, dict):
+        errors.append(InputError(file, name, tables, f"must hold tables by name, such as [{name}.NAME]"))
+        return {}
+    found = {}
+    for key, table in tables.items():
+        if table is False:
+            continue
+        try:
+            if not isinstance(table, dict):
+                raise InputError(file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys")
+            if name != "initial" and (set(key) & _TAKEN or not key or name == "bodies" and key == GROUND):
+                raise InputError(file, f"{name}.{key}", None, f'must be named by another word: not "{GROUND}", without blanks, dots, slashes and quotes')
+            found[key] = _built(_kind_of(name, key, table, kind, file), table, file, f"{name}.{key}.")
+        except InputError as error:
+            errors.append(error)
+    return found
+
+
+def _kind_of(name: str, key: str, table: dict, kind, file):
+    """Class of a section: of a body that of its kind."""
+    if name != "bodies":
+        return kind
+    word = table.get("kind")
+    if word not in KINDS:
+        raise InputError(file, f"{name}.{key}.kind", word, f"{'missing; ' if word is None else ''}must be one of {', '.join(KINDS)}")
+    return KINDS[word]
+
+
+def _built(kind, table, file, prefix):
+    """A section with its relative paths taken from the folder of `file`."""
+    section, folder = build(kind, table, file, prefix), Path(file).resolve().parent
+    files = {key: getattr(section, key) for key in FILES.get(table.get("kind", ""), ())}
+    for key, path in files.items():
+        if not is_file(path if Path(path).is_absolute() else str(folder / path)):
+            raise InputError(file, prefix + key, path, "no such file")
+    return dataclasses.replace(section, **{key: str(folder / path) for key, path in files.items()}) if files else section
+
+
+def check(case: StructureCase, file) -> None:
+    """What no single key can know: names that tables use of one another, and keys of which only one may stand."""
+    from fecolumn.structures.check_keys import check_body, check_link
+
+    def refuse(key, value, allowed):
+        raise InputError(file, key, value, allowed)
+
+    if not case.bodies:
+        refuse("bodies", None, "missing; a structure needs a table [bodies.NAME] at least")
+    for name, body in case.bodies.items():
+        check_body(f"bodies.{name}", body, case.materials, refuse)
+    if not case.interfaces:
+        refuse("interfaces", None, "missing; a structure needs a table [interfaces.NAME] at least, for what stands on the ground")
+    for name, interface in case.interfaces.items():
+        _check_name(case, f"interfaces.{name}.slave", interface.slave, refuse, ground=False)
+        _check_name(case, f"interfaces.{name}.on", interface.on, refuse)
+    for name, link in case.links.items():
+        _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
+        _check_name(case, f"links.{name}.to", link.to, refuse)
+        check_link(f"links.{name}", link, refuse)
+        if link.to != GROUND and len(case.meant_by(link.to)[1]) > 1:
+            refuse(f"links.{name}.to", link.to, f'must be one of its copies, such as "{case.names_of(link.to)[0]}"')
+    for name, start in case.initial.items():
+        _check_name(case, f"initial.{name}", name, refuse, ground=False)
+        for key in ("velocity_m_s", "spin_rad_s"):
+            if len(value := getattr(start, key)) != 3:
+                refuse(f"initial.{name}.{key}", list(value), "must be three numbers: x, y, z")
+    if case.observed:
+        body = case.observed.partition(".")[0]
+        _check_name(case, "observed", body, refuse, ground=False)
+        if len(case.meant_by(body)[1]) > 1:
+            refuse("observed", case.observed, f'must be one of its copies, such as "{case.names_of(body)[0]}"')
+    _check_integration(case, refuse)
+
+
+def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
+    if ground and name == GROUND:
+        return
+    try:
+        case.meant_by(name)
+    except KeyError:
+        known = [GROUND] * ground + list(case.bodies) + [copy for body in case.bodies for copy in case.names_of(body) if copy != body]
+        near = difflib.get_close_matches(name, known, 1, 0.6)
+        refuse(key, name, f"no such body{f'; did you mean {near[0]}?' if near else ''}; known: {', '.join(known)}")
+
+
+def _check_integration(case, refuse) -> None:
+    plan = case.integration
+    if plan.engine not in ("reduced", "rigid"):
+        refuse("integration.engine", plan.engine, "must be reduced or rigid for a structure of [bodies]")
+    for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic"), ("contact", "rolling_resistance", 0.0)):
+        if (value := getattr(getattr(case, section), key)) != needed:
+            refuse(f"{section}.{key}", value, f"must be {needed} for a structure of [bodies]")
+    for key in ("fields_every_s", "states_every_s"):
+        if value := getattr(case.output, key):
+            refuse(f"output.{key}", value, "must be 0 for a structure of [bodies]: its history has bodies, interfaces and marks")
+    for key in FULL_ORDER_KEYS:
+        if (value := getattr(plan, key)) != DEFAULT[key]:
+            refuse(f"integration.{key}", value, f"has no effect where integration.engine = {plan.engine!r}: leave it out")
+    time = plan.duration_s or (case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0)
+    if time / plan.dt_s > MOST_STEPS:
+        refuse("integration.dt_s", plan.dt_s, f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} steps in {time:g} s")
+    if case.motion and (len(part := case.motion.strong_part) != 2 or not part[0] < part[1]):
+        refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
+
+
+
+
+def type_of(key: str):
+    """Type of a dotted key of a structure's case, whatever its bodies are called, or None: "bodies.slab.length_m" is a float."""
+    head, _, last = key.rpartition(".")
+    name = head.partition(".")[0]
+    classes = set(KINDS.values()) if name == "bodies" else {NAMED[name]} if name in NAMED else set()
+    hints = {field: kind for section in classes for field, kind in typing.get_type_hints(section).items()}
+    kind = hints.get(last) if head.count(".") == 1 else None
+    return next((one for one in (kind, *typing.get_args(kind)) if one in (int, float)), kind)

@@ -1,0 +1,168 @@
+"""Structures that cannot be, refused by name before anything is computed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.optimize import linprog
+from scipy.spatial import cKDTree
+
+from fecolumn.case import GRAVITY
+from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
+from fecolumn.schema import InputError
+from fecolumn.structures.model import GROUND
+from fecolumn.structures.place import touching
+
+#: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
+MOST_POINTS = 1000
+# Over the smaller body's size: how deep points of one body may lie in another, and how far a link's end may lie outside
+_DEPTH, _OUTSIDE = 1e-4, 1e-6
+# Over the weight: force by which a body may miss equilibrium
+_HELD = 1e-6
+# Directions of friction at a point: an inscribed pyramid, which forgives 4 % less than the cone
+_DIRECTIONS = 8
+
+
+def check_points(name: str, patches, file) -> None:
+    """Refuse a body with more contact points than an analysis can carry."""
+    count = sum(len(patch.positions) for patch in patches.values())
+    if count > MOST_POINTS:
+        most = max(patches, key=lambda one: len(patches[one].positions))
+        raise InputError(file, f"bodies.{name}.element_size_m", None, f'"{name}" has {count} contact points, most of them on its {most}; at most {MOST_POINTS}: '
+                         "make its elements larger, or contact.interior_points or allowance_m of the interface smaller")
+
+
+def check_layout(case, layout, file) -> None:
+    """Refuse copies without a path to the ground, and those that overlap."""
+    copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
+    held = {None}
+    while more := [contact for contact in layout.contacts if (contact.slave in held) != (contact.master in held)]:
+        held |= {copy for contact in more for copy in (contact.slave, contact.master)}
+    if loose := [f'"{case.names_of(name)[number]}"' for name, number in copies if (name, number) not in held]:
+        raise InputError(file, "interfaces", None, f"no contact path to the ground from {', '.join(loose)}")
+    places = [np.array(case.bodies[name].places[number]) for name, number in copies]
+    boxes = [(layout.drawings[name].points.min(axis=0) + place, layout.drawings[name].points.max(axis=0) + place) for (name, _), place in zip(copies, places)]
+    for i, one in enumerate(copies):
+        if boxes[i][0][2] < -_DEPTH * np.ptp(boxes[i], axis=0).max():
+            raise InputError(file, f"bodies.{one[0]}", None, f'"{case.names_of(one[0])[one[1]]}" reaches {-boxes[i][0][2]:.4g} m below the ground, z = 0')
+        for j in range(i):
+            other = copies[j]
+            size = min(np.ptp(boxes[i], axis=0).min(), np.ptp(boxes[j], axis=0).min())
+            if np.any(boxes[i][0] > boxes[j][1] - _DEPTH * size) or np.any(boxes[j][0] > boxes[i][1] - _DEPTH * size):
+                continue
+            for (a, at_a), (b, at_b) in (((one, places[i]), (other, places[j])), ((other, places[j]), (one, places[i]))):
+                if (depth := deepest(layout.drawings[a[0]], layout.drawings[b[0]], at_b - at_a)) > _DEPTH * size:
+                    raise InputError(file, f"bodies.{one[0]}", None, f'"{case.names_of(one[0])[one[1]]}" and "{case.names_of(other[0])[other[1]]}" overlap at the '
+                                     f"start, by {depth:.3g} m or more")
+
+
+def deepest(one, other, shift) -> float:
+    """How deep points [m] of a drawing lie within the elements of another that is shifted by (3,) [m]; 0 where none does, or there are no elements."""
+    if other.shape is None:
+        return 0.0
+    points = one.points if one.shape is None else np.concatenate([one.points, one.shape.mesh.points[one.shape.mesh.cells].mean(axis=1)])
+    points, mesh = points - shift, other.shape.mesh
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    points = points[np.all((points >= low) & (points <= high), axis=1)]
+    if not len(points):
+        return 0.0
+    corners = mesh.points[mesh.cells]
+    middles = corners.mean(axis=1)
+    reach = np.linalg.norm(corners - middles[:, None], axis=2).max()
+    faces = corners[:, TETRAHEDRON_FACES if mesh.is_tetrahedral else FACES]
+    normals = np.cross(faces[:, :, 1] - faces[:, :, 0], faces[:, :, -1] - faces[:, :, 0])
+    normals /= np.linalg.norm(normals, axis=2)[..., None]
+    deepest = 0.0
+    for point, cells in zip(points, cKDTree(middles).query_ball_point(points, reach)):
+        if cells:
+            depth = np.einsum("cfi,cfi->cf", normals[cells], faces[cells, :, 0] - point).min(axis=1)
+            if depth.max() > 0:
+                deepest = max(deepest, _to_surface(other, point))
+    return deepest
+
+
+def _to_surface(drawing, point) -> float:
+    """Distance [m] of a point inside a body from the nearest plane of its faces."""
+    return min((abs(face.normal @ point - face.offset) for face in drawing.faces), default=0.0)
+
+
+def check_joints(joints, standing, file) -> None:
+    """Refuse slaves that hardly have a node on their master."""
+    for joint in joints:
+        if len(touching(standing, joint)) < 3:
+            raise InputError(file, f"interfaces.{joint.name.partition(':')[0]}", None, f'fewer than three nodes of "{standing[joint.slave].name}" lie on '
+                             f'"{standing[joint.master].name}": exchange slave and on, or make its elements smaller')
+
+
+def check_structure(case, structure, standing, extents, file) -> None:
+    """Refuse links to nowhere, and bodies that nothing holds.
+
+    Args:
+        standing: as of `place`. extents: lowest and highest arm (3,) [m] of each part's points.
+    """
+    _check_links(case, structure, extents, file)
+    if not any(start.tilt_rad or start.moves for start in case.initial.values()):
+        _check_rest(structure, standing, file)
+
+
+def _check_links(case, structure, extents, file) -> None:
+    for link in structure.links:
+        for end, place, arm in (("point_m", link.a, link.arm_a), ("to_point_m", link.b, link.arm_b)):
+            if place == GROUND:  # anywhere: the ground may have a mast or a wall
+                continue
+            low, high = extents[place]
+            outside = np.linalg.norm(np.maximum(np.maximum(low - arm, arm - high), 0.0))
+            if outside > _OUTSIDE * np.linalg.norm(high - low):
+                name = link.name if link.name in case.links else link.name.rpartition(" ")[0]
+                raise InputError(file, f"links.{name}.{end}", list(getattr(case.links[name], end)),
+                                 f'must be a point of "{structure.parts[place].name}": it lies {outside:.3g} m outside')
+
+
+def _check_rest(structure, standing, file) -> None:
+    """Refuse bodies that no contact forces within their cones, and no forces of links, hold at rest: what is missing least is a linear programme."""
+    columns, bounds, rows = [], [], 6 * len(structure.parts)
+    weights = np.array([part.model.mass for part in structure.parts]) * GRAVITY
+    sizes = np.array([np.ptp(part.model.arms, axis=0).max() for part in structure.parts])
+
+    def act(column, place, force, point):
+        if place != GROUND:
+            column[6 * place:6 * place + 3] += force
+            column[6 * place + 3:6 * place + 6] += np.cross(point - standing[place].center, force) / sizes[place]
+
+    for joint in structure.joints:
+        slave = standing[joint.slave]
+        surface = slave.model.surfaces[joint.slave_surface]
+        for row in touching(standing, joint):
+            point = slave.center + slave.model.arms[surface.nodes[row]]
+            for angle in 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS if joint.friction else [None]:
+                along = np.zeros(3) if angle is None else joint.friction * (math.cos(angle) * surface.axes[:, 0] + math.sin(angle) * surface.axes[:, 1])
+                force, column = along - surface.normal, np.zeros(rows)
+                act(column, joint.slave, force, point)
+                act(column, joint.master, -force, point)
+                columns.append(column)
+                bounds.append((0, None))
+    for link in structure.links:
+        a = standing[link.a].center + link.arm_a
+        b = link.arm_b if link.b == GROUND else standing[link.b].center + link.arm_b
+        if not np.linalg.norm(b - a) or not link.stiffness or link.slack:
+            continue
+        pull, column = (b - a) / np.linalg.norm(b - a), np.zeros(rows)
+        act(column, link.a, pull, a)
+        act(column, link.b, -pull, b)
+        columns.append(column)
+        bounds.append((None if link.pushes else 0, None))
+    load = np.zeros(rows)
+    load[2::6] = weights
+    scale = np.repeat(weights, 6)
+    missing = np.eye(rows)
+    matrix = np.column_stack([np.array(columns).T / scale[:, None], missing, -missing])
+    cost = np.concatenate([np.zeros(len(columns)), np.ones(2 * rows)])
+    found = linprog(cost, A_eq=matrix, b_eq=load / scale, bounds=bounds + [(0, None)] * (2 * rows), method="highs")
+    if not found.success:
+        return  # the engine's own search for equilibrium has the last word
+    lacks = np.abs(found.x[len(columns):len(columns) + rows] - found.x[len(columns) + rows:]).reshape(-1, 6).sum(axis=1)
+    if lacks.max() > _HELD:
+        names = ", ".join(f'"{part.name}"' for part, lack in zip(structure.parts, lacks) if lack > _HELD)
+        raise InputError(file, "interfaces", None, f"{names} cannot rest: no contact forces within friction hold the weight as the bodies stand; "
+                         "give a start by [initial.NAME], or other places, friction or links")

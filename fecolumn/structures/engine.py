@@ -1,0 +1,50 @@
+"""The reduced engine of a structure, as its case says."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from fecolumn.case import GRAVITY
+from fecolumn.dynamics.hht import HHT
+from fecolumn.reduced.run import Engine
+from fecolumn.reduced.start import of_parts
+from fecolumn.reduced.structure import structure_of, view_of
+from fecolumn.schema import InputError
+from fecolumn.structures.model import StructureModel
+from fecolumn.structures.structure import standing_of
+
+
+def upright(case, model: StructureModel) -> StructureModel:
+    """The structure as it stands before any body leans or moves: displacements and links are measured from there."""
+    parts = (replace(part, center=there.center, rotation=np.eye(3), velocity=np.zeros(3), spin=np.zeros(3))
+             for part, there in zip(model.parts, standing_of(case, model)))
+    return replace(model, parts=tuple(parts))
+
+
+def leans(model: StructureModel) -> bool:
+    """Whether any body leans at the start, which is then unstrained."""
+    return any(part.rotation[2, 2] < 1 for part in model.parts)
+
+
+def engine_of(case, model: StructureModel, file) -> Engine:
+    """The engine at the start of `model`, or of `upright` in gravity equilibrium.
+
+    Raises:
+        InputError: a link too stiff for the step. NoEquilibrium: as of `start.standing`.
+    """
+    plan, gravity, stands = case.integration, np.array([0.0, 0.0, -GRAVITY]), not leans(model)
+    standing, hht = upright(case, model), HHT(plan.dt_s, plan.alpha_hht)
+
+    def build(step):
+        return structure_of(standing, step, gravity)
+
+    try:
+        structure, _ = build(hht)
+    except ValueError as error:
+        name, _, told = str(error).partition(": ")
+        raise InputError(file, name, None, told) from None
+    weight = float(structure.bodies.body["mass"].sum()) * GRAVITY
+    eye = view_of(standing, structure, weight, case.overturn.displacement_m)
+    return Engine(build, model.base, eye, hht, lambda engine: of_parts(engine, model.parts, stands), plan.max_cuts, model)

@@ -1,0 +1,99 @@
+"""Plane faces of a body's mesh, and which of them coincide with faces of another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from fecolumn.mesh.bricks import BrickMesh, outer_faces
+
+#: Over the size of a body: faces within it lie in one plane, and faces of two bodies coincide. What rounding of five digits leaves.
+SAME_PLANE = 1e-5
+# Sine of the angle between faces of one plane
+_PARALLEL = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Face:
+    """All outer faces of elements of one part of a body in one plane.
+
+    part: of the mesh. normal: (3,) out of the body; offset: of the plane along it [m]. cells: (n, 4 or 3) point numbers of the element faces,
+    counter-clockwise seen from outside; corners: (n, 4 or 3, 3) their places [m] in the drawing of the body.
+    """
+
+    part: int
+    normal: np.ndarray
+    offset: float
+    cells: np.ndarray
+    corners: np.ndarray
+
+    @property
+    def area(self) -> float:
+        """Area [m2]."""
+        return float(np.linalg.norm(_normals(self.corners), axis=1).sum() / 2)
+
+    @property
+    def axes(self) -> np.ndarray:
+        """Two tangents and the normal as columns (3, 3), right-handed; the first tangent is the x axis where the face is level."""
+        along = np.array([1.0, 0.0, 0.0]) if abs(self.normal[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
+        first = along - self.normal * (along @ self.normal)
+        first /= np.linalg.norm(first)
+        return np.stack([first, np.cross(self.normal, first), self.normal], axis=1)
+
+
+def plane_faces(mesh: BrickMesh) -> list[Face]:
+    """Every plane that outer faces of a mesh lie in, those of the largest area first."""
+    size, found = np.ptp(mesh.points, axis=0).max(), []
+    for part in sorted(set(mesh.part.tolist())):
+        cells = outer_faces(mesh, part)
+        corners = mesh.points[cells]
+        normals = _normals(corners)
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        offsets = np.einsum("ni,ni->n", normals, corners.mean(axis=1))
+        flat = np.abs(np.einsum("ni,nai->na", normals, corners) - offsets[:, None]).max(axis=1) < SAME_PLANE * size
+        for rows in _alike(np.column_stack([normals, offsets / size])[flat]):
+            rows = np.flatnonzero(flat)[rows]
+            normal = normals[rows].mean(axis=0)
+            normal[np.abs(normal) < _PARALLEL] = 0.0
+            found.append(Face(part, normal / np.linalg.norm(normal), float(offsets[rows].mean()), cells[rows], corners[rows]))
+    return sorted(found, key=lambda face: -face.area)
+
+
+def _normals(corners: np.ndarray) -> np.ndarray:
+    """Normals (n, 3) of twice the area of faces (n, 4 or 3, 3)."""
+    if corners.shape[1] == 3:
+        return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+
+
+def _alike(planes: np.ndarray) -> list[np.ndarray]:
+    """Rows of planes (n, 4), normals and offsets over the size, that are the same within SAME_PLANE."""
+    if not len(planes):
+        return []
+    rounded, group = np.unique(np.round(planes / (0.1 * SAME_PLANE)), axis=0, return_inverse=True)
+    pairs = cKDTree(rounded).query_pairs(10.0, output_type="ndarray")
+    links = coo_array((np.ones(len(pairs), np.int8), pairs.T), shape=(len(rounded),) * 2)
+    label = connected_components(links, directed=False)[1][group.ravel()]
+    return [np.flatnonzero(label == one) for one in range(label.max() + 1)]
+
+
+
+
+def over(points: np.ndarray, triangles: np.ndarray, tolerance: float) -> np.ndarray:
+    """Which points (n, 2) lie in any of the triangles (t, 3, 2) of a plane, or within `tolerance` [m] of one."""
+    inside = np.zeros(len(points), bool)
+    a, ab, ac = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    double = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+    # shares of the corners may be negative by the tolerance over the smallest height of the triangle
+    longest = np.linalg.norm(np.stack([ab, ac, ac - ab]), axis=2).max(axis=0)
+    slack = tolerance * longest / np.abs(double)
+    for first in range(0, len(points), 256):
+        offset = points[first:first + 256, None] - a
+        s = (offset[..., 0] * ac[:, 1] - offset[..., 1] * ac[:, 0]) / double
+        t = (offset[..., 1] * ab[:, 0] - offset[..., 0] * ab[:, 1]) / double
+        inside[first:first + 256] = ((s >= -slack) & (t >= -slack) & (s + t <= 1 + slack)).any(axis=1)
+    return inside

@@ -1,0 +1,94 @@
+"""How the bodies of a case meet: their meshes, the faces that touch, the contact points on these."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fecolumn.structures.bodies import Drawing, drawing
+from fecolumn.structures.faces import Face
+from fecolumn.structures.keys import Plate, Storeys
+from fecolumn.structures.meetings import Meeting, meetings_of, place_of
+from fecolumn.structures.patches import Patch, master_patch, slave_patch
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the copy), None of the ground."""
+
+    interface: str
+    slave: tuple[str, int]
+    slave_surface: str
+    master: tuple[str, int] | None
+    master_surface: str | None
+
+
+@dataclass(frozen=True)
+class Layout:
+    """drawings: by body. patches: of each body by the names of its surfaces. contacts: in the order of the interfaces."""
+
+    drawings: dict[str, Drawing]
+    patches: dict[str, dict[str, Patch]]
+    contacts: tuple[Contact, ...]
+
+
+def layout_of(case, file) -> Layout:
+    """Mesh the bodies of a case, plates finely where others meet them, and find their contacts.
+
+    Raises:
+        InputError: bodies that do not touch as the interfaces say, or cannot be meshed.
+    """
+    drawings = {name: drawing(case, name, file) for name in case.bodies}
+    meetings = meetings_of(case, {name: one.faces for name, one in drawings.items()}, file)
+    spots = _spots(case, drawings, meetings)
+    if spots:
+        drawings |= {name: drawing(case, name, file, places) for name, places in spots.items()}
+        meetings = meetings_of(case, {name: one.faces for name, one in drawings.items()}, file)
+    patches, contacts = {name: {} for name in case.bodies}, []
+    for body in case.bodies:
+        patches[body] = _patches(case, body, drawings[body], meetings)
+    for meeting in meetings:
+        slave = _surface_name(drawings[meeting.slave[0]].faces, meeting.slave_face, "slave")
+        master = meeting.master and _surface_name(drawings[meeting.master[0]].faces, meeting.master_face, "master")
+        contacts.append(Contact(meeting.interface, meeting.slave, slave, meeting.master, master))
+    return Layout(drawings, patches, tuple(contacts))
+
+
+def _spots(case, drawings, meetings: list[Meeting]) -> dict[str, list]:
+    """Where other bodies meet plates: (low x, high x, low y, high y, size) [m] in the drawing, twice the nodes' distance where those are midway, too."""
+    found = {}
+    for meeting in meetings:
+        for own, other in ((meeting.master, meeting.slave), (meeting.slave, meeting.master)):
+            if own is None or other is None or not isinstance(case.bodies[own[0]], (Plate, Storeys)):
+                continue
+            face = drawings[other[0]].faces[meeting.slave_face if other is meeting.slave else meeting.master_face]
+            corners = face.corners.reshape(-1, 3) + place_of(case, other) - place_of(case, own)
+            low, high = corners[:, :2].min(axis=0), corners[:, :2].max(axis=0)
+            side = (high - low).min()
+            allowance = side / 4 if case.interfaces[meeting.interface].allowance_m is None else case.interfaces[meeting.interface].allowance_m
+            size = side / 4 if drawings[own[0]].is_rigid or drawings[own[0]].order == 1 else side / 2
+            found.setdefault(own[0], []).append((low[0] - allowance, high[0] + allowance, low[1] - allowance, high[1] + allowance, size))
+    return found
+
+
+def _patches(case, body: str, one: Drawing, meetings: list[Meeting]) -> dict[str, Patch]:
+    """Contact points of a body by the names of its surfaces, all copies together."""
+    slaves, masters = {}, {}
+    for meeting in meetings:
+        interface = case.interfaces[meeting.interface]
+        if meeting.slave[0] == body:
+            interior = case.contact.interior_points if interface.interior_points is None else interface.interior_points
+            slaves[meeting.slave_face] = max(interior, slaves.get(meeting.slave_face, 0))
+        if meeting.master and meeting.master[0] == body:
+            masters.setdefault(meeting.master_face, set()).add(meeting.zone)
+    found = {_surface_name(one.faces, face, "slave"): slave_patch(one.faces[face], one.order, interior) for face, interior in slaves.items()}
+    found |= {_surface_name(one.faces, face, "master"): master_patch(one.faces[face], one.order, sorted(zones)) for face, zones in masters.items()}
+    return found
+
+
+def _surface_name(faces: list[Face], number: int, role: str) -> str:
+    """Name of a face: "foot", "head" or "face 3"; of a master with ", master", as its nodes are others."""
+    level = [k for k, face in enumerate(faces) if abs(face.normal[2]) > 1 - 1e-9]
+    bottom = min((k for k in level if faces[k].normal[2] < 0), key=lambda k: -faces[k].offset, default=None)
+    top = max((k for k in level if faces[k].normal[2] > 0), key=lambda k: faces[k].offset, default=None)
+    name = "foot" if number == bottom else "head" if number == top else f"face {number + 1}"
+    return f"{name}, master" if role == "master" else name

@@ -1,0 +1,225 @@
+"""Bodies from another program: mass and stiffness matrices, and the nodes at which they may touch."""
+
+from __future__ import annotations
+
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import scipy.sparse as sparse
+from scipy.linalg import eigh, qr
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
+from scipy.spatial import ConvexHull, Delaunay, QhullError
+
+from fecolumn.schema import InputError
+from fecolumn.structures.faces import SAME_PLANE, Face
+from fecolumn.structures.keys import Matrices
+from fecolumn.structures.model import BodyModel
+from fecolumn.structures.patches import Patch, face_weights
+from fecolumn.structures.reduction import top_face
+
+# Over the entries that it is measured by: how symmetric matrices must be, and how free of resistance to rigid motion
+_EXACT = 1e-6
+# Degrees of freedom up to which all modes are found at once
+_DENSE = 1000
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """mass, stiffness: (N, N) [kg, N/m]; dofs: (n, 3) rows of x, y, z of each contact node; coordinates: (n, 3) [m]; triangles: (t, 3) of nodes."""
+
+    mass: sparse.csc_matrix
+    stiffness: sparse.csc_matrix
+    dofs: np.ndarray
+    coordinates: np.ndarray
+    triangles: np.ndarray
+
+    def faces(self) -> list[Face]:
+        """Plane faces in which the contact nodes lie."""
+        corners = self.coordinates[self.triangles]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        offsets = np.einsum("ti,ti->t", normals, corners[:, 0])
+        size = np.ptp(self.coordinates, axis=0).max()
+        left, found = np.ones(len(normals), bool), []
+        while left.any():
+            first = np.argmax(left)
+            same = left & (np.linalg.norm(normals - normals[first], axis=1) < 10 * SAME_PLANE) & (np.abs(offsets - offsets[first]) < SAME_PLANE * size)
+            found.append(Face(0, normals[first], float(offsets[first]), self.triangles[same], corners[same]))
+            left &= ~same
+        return sorted(found, key=lambda face: -face.area)
+
+
+def read_system(key: str, body: Matrices, file) -> System:
+    """Matrices and nodes of a body's files.
+
+    Raises:
+        InputError: files that cannot be read, or whose matrices and nodes do not fit one another.
+    """
+    def refuse(name, allowed):
+        raise InputError(file, f"{key}.{name}", getattr(body, name), allowed)
+
+    found = {}
+    for name in ("mass", "stiffness"):
+        matrix = _matrix(getattr(body, f"{name}_file"), name, lambda allowed: refuse(f"{name}_file", allowed))
+        if matrix.shape[0] != matrix.shape[1] or abs(matrix - matrix.T).max() > _EXACT * abs(matrix).max():
+            refuse(f"{name}_file", f"must hold a symmetric matrix; has {matrix.shape[0]} rows and {matrix.shape[1]} columns, and entries that differ")
+        found[name] = matrix
+    if found["mass"].shape != found["stiffness"].shape:
+        refuse("stiffness_file", f"must have as many rows as mass_file, {found['mass'].shape[0]}, has {found['stiffness'].shape[0]}")
+    dofs, coordinates, triangles = _nodes(body.nodes_file, lambda allowed: refuse("nodes_file", allowed))
+    rows = found["mass"].shape[0]
+    if len(np.unique(dofs)) < dofs.size or dofs.min() < 0 or dofs.max() >= rows:
+        refuse("nodes_file", f"its dofs must be different rows of the matrices, from 0 to {rows - 1}")
+    if triangles is None:
+        triangles = _hull(coordinates, lambda allowed: refuse("nodes_file", allowed))
+    return System(found["mass"], found["stiffness"], dofs, coordinates, triangles)
+
+
+def _matrix(path: str, name: str, refuse) -> sparse.csc_matrix:
+    import scipy.io
+
+    try:
+        if Path(path).suffix == ".npz":
+            with np.load(path, allow_pickle=False) as arrays:
+                if name in arrays:
+                    return sparse.csc_matrix(np.asarray(arrays[name], float))
+            return sparse.csc_matrix(sparse.load_npz(path)).astype(float)
+        return sparse.csc_matrix(scipy.io.mmread(path)).astype(float)
+    except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
+        refuse(f"cannot be read as MatrixMarket or .npz: {error}")
+
+
+def _nodes(path: str, refuse):
+    try:
+        if Path(path).suffix == ".npz":
+            with np.load(path, allow_pickle=False) as arrays:
+                dofs, coordinates = arrays["dofs"], np.asarray(arrays["coordinates"], float)
+                triangles = arrays["triangles"].astype(np.int64) if "triangles" in arrays else None
+        else:
+            table = np.loadtxt(path, delimiter="," if Path(path).suffix == ".csv" else None, ndmin=2)
+            dofs, coordinates, triangles = table[:, :3], table[:, 3:6], None
+        if dofs.shape != coordinates.shape or dofs.shape[1:] != (3,) or not np.all(np.isfinite(coordinates)) or np.any(dofs != np.rint(dofs)):
+            refuse("must hold six numbers a node: three whole rows and three finite coordinates")
+        return dofs.astype(np.int64), coordinates, triangles
+    except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
+        refuse(f"cannot be read as nodes: {error}")
+
+
+def _hull(coordinates: np.ndarray, refuse) -> np.ndarray:
+    """Triangles (t, 3) of nodes: every plane face of their convex hull, with the nodes that lie inside it."""
+    try:
+        hull = ConvexHull(coordinates)
+    except QhullError:
+        refuse("its nodes must not lie in one plane: give the triangles of its faces")
+    size, found, done = np.ptp(coordinates, axis=0).max(), [], []
+    for *normal, offset in hull.equations:
+        if any(np.abs(np.array([*normal, offset / size]) - plane).max() < SAME_PLANE for plane in done):
+            continue
+        done.append(np.array([*normal, offset / size]))
+        nodes = np.flatnonzero(np.abs(coordinates @ normal + offset) < SAME_PLANE * size)
+        axes = Face(0, np.array(normal), -offset, None, None).axes
+        plane = coordinates[nodes] @ axes[:, :2]
+        triangles = Delaunay(plane).simplices
+        one, two = (plane[triangles[:, k]] - plane[triangles[:, 0]] for k in (1, 2))
+        clockwise = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] < 0
+        triangles[clockwise] = triangles[clockwise][:, ::-1]
+        found.append(nodes[triangles])
+    return np.concatenate(found)
+
+
+def matrices_model(system: System, faces: list[Face], patches: dict[str, Patch], n_modes: int, refuse) -> BodyModel:
+    """Reduce a body given by its matrices, as `reduction.elastic_model` does one of finite elements.
+
+    Six degrees of freedom of contact nodes are held, which no rigid motion leaves at rest: with them K has an inverse. Rigid motions are what K
+    answers to them; inertia relief frees the response again, and is the operator whose largest values are the lowest modes.
+
+    Args:
+        refuse: told what is wrong with the matrices.
+    """
+    mass, stiffness, dofs = system.mass, system.stiffness, system.dofs
+    size = mass.shape[0]
+    middle = system.coordinates.mean(axis=0)
+    known = _rigid(system.coordinates - middle)
+    held = dofs.ravel()[np.sort(qr(known.T, pivoting=True, mode="r")[1][:6])]
+    free = np.setdiff1d(np.arange(size), held)
+    try:
+        factor = splu(sparse.csc_matrix(stiffness[free][:, free]))
+    except RuntimeError:
+        refuse("its stiffness has more than six motions without resistance: a mechanism")
+    rigid = np.zeros((size, 6))
+    rows = np.argsort(dofs.ravel())
+    rigid[held] = known[rows[np.searchsorted(dofs.ravel()[rows], held)]]
+    rigid[free] = factor.solve(-(stiffness[free][:, held] @ rigid[held]))
+    scale = np.abs(known).max(axis=0)
+    if (np.abs(rigid[dofs.ravel()] - known) / scale).max() > _EXACT:
+        refuse("its stiffness resists rigid motion of the contact nodes: nothing may hold the body, and their coordinates must be in its unit of length")
+    masses = rigid.T @ (mass @ rigid)
+    total = np.trace(masses[:3, :3]) / 3
+    if np.abs(masses[:3, :3] - total * np.eye(3)).max() > 1e-3 * total:
+        refuse(f"its mass must be the same along x, y and z: {', '.join(f'{value:.6g}' for value in np.diag(masses)[:3])} kg")
+    # x cross y of the first moments: m (c x e_j) in the rows of rotation
+    first = masses[3:, :3] / total
+    center = np.array([first[2, 1] - first[1, 2], first[0, 2] - first[2, 0], first[1, 0] - first[0, 1]]) / 2
+    shift = np.eye(6)
+    shift[:3, 3:] = _cross(center)
+    rigid = rigid @ shift
+    masses = rigid.T @ (mass @ rigid)
+    shares, momentum = np.linalg.inv(masses), mass @ rigid
+
+    def elastic(columns):
+        return columns - rigid @ (shares @ (momentum.T @ columns))
+
+    def response(forces):
+        forces = forces - momentum @ (shares @ (rigid.T @ forces))
+        moved = np.zeros_like(forces)
+        moved[free] = factor.solve(np.ascontiguousarray(forces[free]))
+        return elastic(moved)
+
+    nodes = _rows(system.coordinates, np.concatenate([patch.positions for patch in patches.values()]))
+    kept, n = np.unique(nodes), len(np.unique(nodes))
+    loads = np.zeros((size, 3 * n))
+    loads[dofs[kept].ravel(), np.arange(3 * n)] = 1.0
+    flexibility = response(loads)[dofs[kept].ravel()]
+    squares, fields = _modes(mass, stiffness, response, min(n_modes, size - 6))
+    positions, weights = face_weights(top_face(faces), 1)
+    top = fields[dofs[_rows(system.coordinates, positions)]]
+    center = middle + center
+    return BodyModel(
+        total, masses[3:, 3:], center, np.sqrt(squares), np.ascontiguousarray(fields[dofs[kept]]),
+        ((flexibility + flexibility.T) / 2).reshape(n, 3, n, 3).transpose(0, 2, 1, 3).copy(), system.coordinates[kept] - center, size,
+        {name: patch.surface(np.searchsorted(kept, _rows(system.coordinates, patch.positions)), center) for name, patch in patches.items()},
+        {"top": (weights @ positions - center, np.einsum("i,iam->am", weights, top))})
+
+
+def _modes(mass, stiffness, response, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Squares (m,) [1/s2] of the lowest elastic frequencies and shapes (N, m) of unit modal mass."""
+    size = mass.shape[0]
+    if count <= 0:
+        return np.zeros(0), np.zeros((size, 0))
+    if size <= _DENSE or count > size // 3:
+        squares, shapes = eigh(stiffness.toarray(), mass.toarray())
+        return squares[6:6 + count], shapes[:, 6:6 + count]
+    inverse = LinearOperator((size, size), matvec=lambda force: response(force.reshape(-1, 1)).ravel(), dtype=float)
+    squares, shapes = eigsh(stiffness, count, mass, sigma=0.0, OPinv=inverse, which="LM")
+    order = np.argsort(squares)
+    return squares[order], shapes[:, order]
+
+
+def _rigid(arms: np.ndarray) -> np.ndarray:
+    """Rigid motions (3 n, 6) of points with arms (n, 3): translations, and rotations about the origin."""
+    return np.concatenate([np.tile(np.eye(3), (len(arms), 1)),
+                           np.stack([np.cross(axis, arms).ravel() for axis in np.eye(3)], axis=1)], axis=1)
+
+
+def _cross(center: np.ndarray) -> np.ndarray:
+    """Translations by which rotations about the origin become rotations about `center`: -e_j x center in column j."""
+    return -np.stack([np.cross(axis, center) for axis in np.eye(3)], axis=1)
+
+
+def _rows(coordinates: np.ndarray, positions: np.ndarray) -> np.ndarray:
+    """Nodes (k,) at positions (k, 3)."""
+    from scipy.spatial import cKDTree
+
+    return cKDTree(coordinates).query(positions)[1]

@@ -1,0 +1,150 @@
+"""Which faces of which bodies touch at the start: found by geometry, copies each with each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.schema import InputError
+from fecolumn.structures.faces import SAME_PLANE, Face, over
+from fecolumn.structures.keys import GROUND
+from fecolumn.structures.patches import plane_box
+
+# Over the slave's width: what faces a body across a smaller gap was meant to touch it
+_NEAR = 0.05
+# Cosine from which faces look at one another
+_OPPOSITE = 1e-5
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """A face of a slave on a face of a master.
+
+    interface: name of it. slave, master: body and number of its copy, master None for the ground. slave_face, master_face: places of the faces
+    in the lists of their bodies, master_face -1 of the ground. zone: rectangle (low 1, high 1, low 2, high 2) [m] of the master's face, along
+    its tangents in its drawing, in which the slave stands and may slide.
+    """
+
+    interface: str
+    slave: tuple[str, int]
+    slave_face: int
+    master: tuple[str, int] | None
+    master_face: int
+    zone: tuple[float, float, float, float]
+
+
+def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
+    """Meetings of all interfaces of a case, in its order.
+
+    Raises:
+        InputError: an interface whose bodies do not touch, or leave a gap or overlap.
+    """
+    return [meeting for name in case.interfaces for meeting in _of_interface(case, name, faces, file)]
+
+
+def _of_interface(case, name: str, faces, file) -> list[Meeting]:
+    interface = case.interfaces[name]
+    slaves = _copies(case, interface.slave)
+    masters = [None] if interface.on == GROUND else _copies(case, interface.on)
+    found, near, far = [], [], []
+    for slave in slaves:
+        for master in masters:
+            if master == slave:
+                continue
+            meetings, gaps = _of_pair(case, name, slave, master, faces)
+            found += meetings
+            if not meetings and gaps:
+                gap, width, face = min(gaps, key=lambda one: abs(one[0]))
+                (near if abs(gap) <= _NEAR * width else far).append((gap, slave, master, face))
+    touching = {(meeting.slave, meeting.slave_face) for meeting in found}
+    if near := [one for one in near if (one[1], one[3]) not in touching]:
+        gap, slave, master, _ = min(near, key=lambda one: abs(one[0]))
+        raise InputError(file, f"interfaces.{name}", None, f'"{_name(case, slave)}" and {_quoted(case, master)} {_gap_text(gap)}: their faces must coincide at the start')
+    if not found:
+        told = "no faces of theirs look at one another"
+        if far:
+            gap, slave, master, _ = min(far, key=lambda one: abs(one[0]))
+            told = f'the nearest faces, of "{_name(case, slave)}" and {_quoted(case, master)}, {_gap_text(gap)}'
+        raise InputError(file, f"interfaces.{name}", None, f'"{interface.slave}" does not touch "{interface.on}" at the start: {told}')
+    return found
+
+
+def _gap_text(gap: float) -> str:
+    return f"leave a gap of {gap:.4g} m" if gap > 0 else f"overlap by {-gap:.4g} m"
+
+
+def _name(case, copy: tuple[str, int]) -> str:
+    return case.names_of(copy[0])[copy[1]]
+
+
+def _quoted(case, copy) -> str:
+    return "the ground" if copy is None else f'"{_name(case, copy)}"'
+
+
+def _copies(case, name: str) -> list[tuple[str, int]]:
+    body, numbers = case.meant_by(name)
+    return [(body, number) for number in numbers]
+
+
+def place_of(case, copy: tuple[str, int]) -> np.ndarray:
+    """Place (3,) [m] of a copy: where the origin of its drawing is at the start."""
+    return np.array(case.bodies[copy[0]].places[copy[1]])
+
+
+def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list[tuple[float, float, int]]]:
+    """Meetings of two copies; and gap, slave's width [m] and slave's face of those faces that look at one another elsewhere."""
+    found, gaps, interface = [], [], case.interfaces[name]
+    place = place_of(case, slave)
+    for number, face in enumerate(faces[slave[0]]):
+        box = plane_box(face)
+        width = min(box[1] - box[0], box[3] - box[2])
+        if master is None:
+            if face.normal[2] < -1 + _OPPOSITE:
+                gap = place[2] - face.offset
+                if abs(gap) <= SAME_PLANE * width:
+                    found.append(Meeting(name, slave, number, None, -1, (0.0, 0.0, 0.0, 0.0)))
+                else:
+                    gaps.append((gap, width, number))
+            continue
+        offset = place - place_of(case, master)
+        for other_number, other in enumerate(faces[master[0]]):
+            if np.linalg.norm(face.normal + other.normal) > _OPPOSITE or (slave[0] == master[0] and not _is_upper(face, slave, master)):
+                continue
+            gap = -(face.offset + face.normal @ offset) - other.offset
+            corners = (face.corners + offset) @ other.axes[:, :2]
+            if not _overlap(face, corners, other):
+                continue
+            if abs(gap) <= SAME_PLANE * width:
+                allowance = width / 4 if interface.allowance_m is None else interface.allowance_m
+                low, high = corners.min(axis=(0, 1)) - allowance, corners.max(axis=(0, 1)) + allowance
+                found.append(Meeting(name, slave, number, master, other_number, (low[0], high[0], low[1], high[1])))
+            else:
+                gaps.append((gap, width, number))
+    return found, gaps
+
+
+def _is_upper(face: Face, slave, master) -> bool:
+    """Of two copies of one body the upper one is the slave; of two side by side the first."""
+    return face.normal[2] < -_OPPOSITE or abs(face.normal[2]) <= _OPPOSITE and slave < master
+
+
+def _overlap(face: Face, corners: np.ndarray, other: Face) -> bool:
+    """Whether a face, its corners (n, 4 or 3, 2) [m] in the plane of another, lies over part of that, more than an edge."""
+    plane = other.corners @ other.axes[:, :2]
+    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+    other_low, other_high = plane.min(axis=(0, 1)), plane.max(axis=(0, 1))
+    edge = -SAME_PLANE * min((high - low).min(), (other_high - other_low).min())
+    if np.any(low - edge > other_high) or np.any(high + edge < other_low):
+        return False
+
+    def tried(quads):
+        return np.concatenate([quads.reshape(-1, 2), quads.mean(axis=1)])
+
+    mine, theirs = (_triangles(quads) for quads in (corners, plane))
+    return bool(over(tried(corners), theirs, edge).any() or over(tried(plane), mine, edge).any())
+
+
+def _triangles(quads: np.ndarray) -> np.ndarray:
+    """Triangles (t, 3, 2) of faces (n, 4 or 3, 2)."""
+    return quads if quads.shape[1] == 3 else np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

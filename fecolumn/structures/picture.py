@@ -1,0 +1,160 @@
+"""Picture of a structure: its bodies in colours with their names, its interfaces and links."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.atomic import write_bytes
+from fecolumn.mesh.bricks import FACES, outer_faces
+from fecolumn.mesh.picture import view
+from fecolumn.structures.keys import Storeys
+from fecolumn.structures.model import GROUND
+from fecolumn.structures.storeys import building_of
+
+_COLOURS = ("#c67b5c", "#9fb2c1", "#d8c08a", "#7f9a75", "#b58fa8", "#8c8fb5", "#c9a27e", "#86aeb0")
+_GROUND, _EDGE, _LINK, _JOINT = "#dcded9", "#2f3437", "#1f4e79", "#a02020"
+_WIDTH_MM, _HEIGHT_MM, _LABELS_MM, _DPI = 120.0, 120.0, 62.0, 200
+# Over the structure's width: margin of the ground around it
+_MARGIN = 0.15
+
+
+def structure_picture(layout, structure, copies, path) -> Path:
+    """PNG of a structure at its start, in parallel projection; the bodies' names, and those of interfaces and links, stand beside it.
+
+    Args:
+        layout: with the drawings. copies: (body, number) of each part.
+    """
+    import io
+
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    right, up, toward = view()
+    solids = [_solid(layout.drawings[name], part) for (name, _), part in zip(copies, structure.parts)]
+    low, high = _ground(solids)
+    points = np.concatenate([*(points for points, _ in solids), np.array([[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])])])
+    plan, rise = points @ right, points @ up
+    centre = np.array([(plan.min() + plan.max()) / 2, (rise.min() + rise.max()) / 2])
+    half = np.array([np.ptp(plan), np.ptp(rise)]) / 2 * 1.03
+    millimetres = half * min(_WIDTH_MM / half[0], _HEIGHT_MM / half[1])
+    size = np.array([millimetres[0] + 2 * _LABELS_MM, max(millimetres[1], 60.0)])
+    figure = Figure(figsize=size / 25.4, dpi=_DPI, facecolor="white")
+    FigureCanvasAgg(figure)
+    axes = figure.add_axes([_LABELS_MM / size[0], 0.0, millimetres[0] / size[0], millimetres[1] / size[1]])
+    axes.set(xlim=centre[0] + half[0] * np.array([-1, 1]), ylim=centre[1] + half[1] * np.array([-1, 1]))
+    axes.set_axis_off()
+    names = list(layout.drawings)
+    colours = [_COLOURS[names.index(name) % len(_COLOURS)] for name, _ in copies]
+    image = _rendered(solids, colours, structure, (right, up, toward), right * centre[0] + up * centre[1], half[1], millimetres)
+    axes.imshow(image, extent=(*(centre[0] + half[0] * np.array([-1, 1])), *(centre[1] + half[1] * np.array([-1, 1]))), interpolation="antialiased", aspect="auto")
+    labels = [(part.name, part.center, _EDGE, "left") for part in structure.parts]
+    labels += [(link.name, _ends(structure, link).mean(axis=0), _LINK, "left") for link in structure.links]
+    labels += [(joint.name, _meeting_point(structure, joint), _JOINT, "right") for joint in structure.joints]
+    for side in ("left", "right"):
+        _write(axes, [label for label in labels if label[3] == side], (right, up), centre, half, millimetres, side)
+    content = io.BytesIO()
+    figure.savefig(content, format="png")
+    write_bytes(Path(path), content.getvalue())
+    return Path(path)
+
+
+def _ground(solids) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest corner (2,) [m] of the piece of ground that is drawn."""
+    points = np.concatenate([points for points, _ in solids])[:, :2]
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = _MARGIN * (high - low).max()
+    return low - margin, high + margin
+
+
+def _solid(drawing, part) -> tuple[np.ndarray, list]:
+    """Points (n, 3) [m] of a part where it is, and its outer faces."""
+    if drawing.shape is None:
+        points, faces = drawing.points, [drawing.system.triangles]
+    else:
+        mesh = drawing.shape.mesh
+        points, faces = mesh.points, [outer_faces(mesh, one) for one in sorted(set(mesh.part.tolist()))]
+    if isinstance(drawing.body, Storeys):
+        floors, quads = _floors(drawing.body)
+        points, faces = np.concatenate([points, floors]), [*faces, quads + len(points)]
+    return (points - part.model.center) @ part.rotation.T + part.center, faces
+
+
+def _floors(body: Storeys) -> tuple[np.ndarray, np.ndarray]:
+    """Corners (8 n, 3) [m] and faces (6 n, 4) of the floors of a building, drawn a tenth of their storey thick."""
+    top = building_of(body).heights
+    thick = np.diff(top, prepend=body.thickness_m) / 10
+    plan = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * [body.length_m / 2, body.width_m / 2]
+    boxes = [np.column_stack([plan, np.full(4, level)]) for high, depth in zip(top, thick) for level in (high - depth, high)]
+    return np.concatenate(boxes), np.concatenate([FACES + 8 * floor for floor in range(body.floors)])
+
+
+def _ends(structure, link) -> np.ndarray:
+    """Both ends (2, 3) [m] of a link."""
+    def at(place, arm):
+        return arm if place == GROUND else structure.parts[place].center + structure.parts[place].rotation @ arm
+
+    return np.array([at(link.a, link.arm_a), at(link.b, link.arm_b)])
+
+
+def _meeting_point(structure, joint) -> np.ndarray:
+    """Middle (3,) [m] of a joint's slave surface."""
+    part = structure.parts[joint.slave]
+    surface = part.model.surfaces[joint.slave_surface]
+    return part.center + part.rotation @ part.model.arms[surface.nodes].mean(axis=0)
+
+
+def _write(axes, labels, view_axes, centre, half, millimetres, side) -> None:
+    """Labels one below the other beside the picture, each with a line to what it names."""
+    if not labels:
+        return
+    right, up = view_axes
+    where = np.array([[point @ right, point @ up] for _, point, _, _ in labels])
+    order = np.argsort(-where[:, 1])
+    line = 3.6 * 2 * half[1] / millimetres[1]  # data units of 3.6 mm
+    heights = where[order, 1].copy()
+    for k in range(1, len(heights)):
+        heights[k] = min(heights[k], heights[k - 1] - line)
+    heights += max(0.0, centre[1] - half[1] + line - heights[-1])
+    for k in range(len(heights) - 2, -1, -1):
+        heights[k] = max(heights[k], heights[k + 1] + line)
+    sign = -1 if side == "left" else 1
+    for height, place in zip(heights, order):
+        text, _, colour, _ = labels[place]
+        axes.annotate(text, where[place], (centre[0] + sign * half[0] * 1.02, height), fontsize=6.5, color=_EDGE, va="center", annotation_clip=False,
+                      ha="right" if side == "left" else "left", arrowprops=dict(arrowstyle="-", color=colour, linewidth=0.7, shrinkA=1, shrinkB=0))
+        axes.plot(*where[place], "o", markersize=2.2, color=colour, clip_on=False)
+
+
+def _rendered(solids, colours, structure, axes, focus, half_height, millimetres):
+    """(height, width, 3) image of the structure at twice the figure's resolution."""
+    if not os.environ.get("DISPLAY"):
+        os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+    import pyvista
+
+    right, up, toward = axes
+    pixels = [max(2, round(2 * _DPI * side / 25.4)) for side in millimetres]
+    plotter = pyvista.Plotter(off_screen=True, window_size=pixels, lighting="none")
+    try:
+        plotter.set_background("white")
+        low, high = _ground(solids)
+        plotter.add_mesh(pyvista.Plane(center=(*(low + high) / 2, -1e-3 * half_height), i_size=high[0] - low[0], j_size=high[1] - low[1],
+                                       i_resolution=1, j_resolution=1), color=_GROUND, ambient=0.7, diffuse=0.3)
+        for (nodes, faces), colour in zip(solids, colours):
+            for quads in faces:
+                plotter.add_mesh(pyvista.PolyData.from_regular_faces(nodes, quads), color=colour, show_edges=True, edge_color=_EDGE, line_width=1.0, ambient=0.5,
+                                 diffuse=0.55, specular=0.05, smooth_shading=False, opacity=0.85 if structure.links else 1.0)
+        for link in structure.links:
+            plotter.add_mesh(pyvista.Line(*_ends(structure, link)), color=_LINK, line_width=5.0)
+        reach = 10 * (np.linalg.norm(high - low) + half_height)
+        for direction, strength in ((toward + 0.8 * up - 0.5 * right, 0.95), (toward + right, 0.25)):
+            plotter.add_light(pyvista.Light(position=tuple(focus + reach * direction), focal_point=tuple(focus), intensity=strength, light_type="scene light"))
+        plotter.enable_parallel_projection()
+        plotter.camera_position = [tuple(focus + reach * toward), tuple(focus), tuple(up)]
+        plotter.camera.parallel_scale = half_height
+        plotter.camera.clipping_range = (0.5 * reach, 1.5 * reach)
+        return plotter.screenshot(None, return_img=True)
+    finally:
+        plotter.close()

@@ -1,0 +1,156 @@
+"""Meshes of single bodies, each in its own drawing: the middle of its foot at the origin, z up."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fecolumn.mesh.bricks import CAP, FLANGE, UPPER, BrickMesh, merge
+from fecolumn.mesh.column import divisions
+from fecolumn.mesh.gmsh_section import extruded, swept_grid
+from fecolumn.mesh.imported import own_mesh
+from fecolumn.mesh.section import Annulus, Disc
+from fecolumn.mesh.tie import Tie, adjust, tie
+from fecolumn.schema import InputError
+from fecolumn.structures.keys import Block, Meshed, Plate, Storeys, Tube
+from fecolumn.structures.lines import fine_at_ends, fine_at_spots
+
+# Elements around a round body, and along the geometric mean of a block's sides
+AROUND, ALONG = 24, 8
+# Length of linear elements along a bar over its depth d: a length l makes bending stiffer by (l / d)^2 / 2
+_LONG = 0.2
+# Elements along the longer side of a plate, away from what stands on it
+ACROSS = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A body's elements: mesh, ties between its parts, polynomial order of the elements, and element size at its foot [m]."""
+
+    mesh: BrickMesh
+    ties: tuple[Tie, ...]
+    order: int
+    size: float
+
+
+def shape_of(key: str, body, file, spots=()) -> Shape:
+    """Mesh of a body that is none of matrices.
+
+    Args:
+        key: of the body in its case, for messages.
+        spots: (low x, high x, low y, high y, size) [m] in the drawing where other bodies meet a plate.
+
+    Raises:
+        InputError: a mesh file that cannot be used, or parts that cannot be tied.
+    """
+    if isinstance(body, Meshed):
+        return _own(key, body, file)
+    if isinstance(body, (Plate, Storeys)):
+        return _plate(body, spots)
+    if isinstance(body, Block):
+        return _block(body)
+    return _round(key, body, file)
+
+
+def element_size(body) -> float:
+    """Element size at feet and heads [m], as stated or as it follows from the body's dimensions."""
+    if body.element_size_m is not None:
+        return body.element_size_m
+    if isinstance(body, (Plate, Storeys)):
+        return max(body.length_m, body.width_m) / ACROSS
+    if isinstance(body, Block):
+        return min(math.sqrt(body.length_m * body.width_m) / ALONG, min(body.length_m, body.width_m) / 4)
+    return math.pi * (body.outer_diameter_m - (body.wall_m if isinstance(body, Tube) else 0.0)) / AROUND
+
+
+def _own(key: str, body: Meshed, file) -> Shape:
+    try:
+        own = own_mesh(body.mesh_file)
+    except InputError as error:
+        raise InputError(file, f"{key}.mesh_file", error.value, f"{body.mesh_file}: {error.allowed}") from None
+    if own.is_tetrahedral and body.element_order == 1 and not body.rigid:
+        raise InputError(file, f"{key}.element_order", 1, "must be 2 for tetrahedra: those of first order are far too stiff in bending")
+    return Shape(own.mesh, (), 1 if body.rigid else body.element_order or (2 if own.is_tetrahedral else 1), own.foot_edge)
+
+
+def _plate(body: Plate | Storeys, spots) -> Shape:
+    """Tensor grid, fine where other bodies meet it, one layer of second order through the thickness unless it is thick."""
+    coarse = getattr(body, "coarse_size_m", None) or max(element_size(body), max(body.length_m, body.width_m) / ACROSS)
+    own = body.element_size_m
+    x, y = (fine_at_spots(length, [(spot[2 * axis], spot[2 * axis + 1], own or spot[4]) for spot in spots], coarse)
+            for axis, length in enumerate((body.length_m, body.width_m)))
+    z = np.linspace(0.0, body.thickness_m, divisions(body.thickness_m, coarse) + 1)
+    rigid = isinstance(body, Storeys) or body.rigid
+    return Shape(swept_grid(x, y, z, UPPER), (), 1 if rigid else body.element_order or 2, min([own or spot[4] for spot in spots], default=coarse))
+
+
+def _block(body: Block) -> Shape:
+    size = element_size(body)
+    x, y = (np.linspace(-side / 2, side / 2, divisions(side, size) + 1) for side in (body.length_m, body.width_m))
+    z = fine_at_ends(body.height_m, size, body.coarse_size_m or max(size, _LONG * min(body.length_m, body.width_m)))
+    return Shape(swept_grid(x, y, z, UPPER), (), body.element_order or 1, size)
+
+
+def _round(key: str, body, file) -> Shape:
+    """Tube or cylinder, on its flange and below its cap if it has them, tied; element sizes are those of the body's ends."""
+    size = element_size(body)
+    radius, wall = body.outer_diameter_m / 2, getattr(body, "wall_m", None)
+    n_around = 4 * max(3, round(2 * math.pi * (radius - (wall or 0.0) / 2) / (4 * size)))
+    plane = Annulus(radius - wall, radius, n_around, divisions(wall, size)) if wall else Disc(radius, n_around, divisions(radius / 2, size))
+    levels = fine_at_ends(body.height_m, size, body.coarse_size_m or max(size, 2 * _LONG * radius))
+    seat = body.flange.thickness_m if body.flange else 0.0
+    parts, planes, joints = [_swept(plane, seat + levels, UPPER, (not body.flange, not body.cap))], [plane], []
+    if body.flange:
+        outer, inner = body.flange.outer_diameter_m / 2, body.flange.inner_diameter_m / 2
+        n_flange = 4 * max(3, round(2 * math.pi * outer / (4 * size)))
+        ring = Annulus(inner, outer, n_flange, divisions(outer - inner, size)) if inner else Disc(outer, n_flange, divisions(outer / 2, size))
+        parts.insert(0, _swept(ring, np.linspace(0.0, seat, max(2, divisions(seat, size)) + 1), FLANGE, (True, False)))
+        planes.append(ring)
+        joints.append((FLANGE, seat, f"{key}.flange, {key}.element_size_m"))
+    if body.cap:
+        top = seat + body.height_m
+        x, y = (np.linspace(-side / 2, side / 2, divisions(side, size) + 1) for side in (body.cap.length_m, body.cap.width_m))
+        parts.append(swept_grid(x, y, top + np.linspace(0.0, body.cap.thickness_m, divisions(body.cap.thickness_m, size) + 1), CAP))
+        joints.append((CAP, top, f"{key}.cap, {key}.element_size_m"))
+    mesh = merge(parts)
+    # how far a slave may be moved: the sagittas of the chords, and a tenth of an element
+    reach = sum(one.equal_area * _outer(one) * (1 - math.cos(math.pi / one.n_around)) for one in planes) + 0.1 * size
+    flat = 1e-6 * np.ptp(mesh.points[:, 2])
+    try:
+        ties = tuple(tie(mesh, UPPER, part, level, flat, reach, names) for part, level, names in joints)
+    except InputError as error:
+        raise InputError(file, error.key, None, error.allowed) from None
+    return Shape(adjust(mesh, ties), ties, body.element_order or 1, size)
+
+
+def _outer(plane: Annulus | Disc) -> float:
+    return plane.radius if isinstance(plane, Disc) else plane.outer_radius
+
+
+def _swept(plane, levels: np.ndarray, part: int, true_ends: tuple[bool, bool]) -> BrickMesh:
+    """Bricks of a round section between levels (n,) [m].
+
+    The section is a polygon. At ends that touch other bodies its corners lie on the true circles, since the body rolls on them; between, they
+    lie so far outside that the volume is that of the circle.
+    """
+    layers = len(levels) - 1
+    mesh = extruded(plane, 0.0, float(layers), layers, part)
+    level = np.rint(mesh.points[:, 2]).astype(int)
+    factors = np.full(len(levels), _spread(plane.equal_area, np.diff(levels), true_ends))
+    for end, true in zip((0, -1), true_ends):
+        if true:
+            factors[end] = 1.0
+    points = np.column_stack([mesh.points[:, :2] * factors[level][:, None], levels[level]])
+    return replace(mesh, points=points)
+
+
+def _spread(equal_area: float, heights: np.ndarray, true_ends: tuple[bool, bool]) -> float:
+    """Factor s on the radii of all levels but those true ends whose factor is 1, by which the volume is that of the circle.
+
+    A layer of height h between factors p, q has the share h (p^2 + p q + q^2) / 3.
+    """
+    ends = sum(height for height, true in zip((heights[0], heights[-1]), true_ends) if true)
+    a, b, c = heights.sum() - 2 * ends / 3, ends / 3, ends / 3 - heights.sum() * equal_area**2
+    return (-b + math.sqrt(b * b - 4 * a * c)) / (2 * a)

@@ -1,0 +1,128 @@
+"""Reduced bodies and layouts on disk: made once, opened in milliseconds by every analysis of the same structure.
+
+A body is a folder named after the content it was made from, as `reduced.cache` has them for columns: body.npz and, of finite elements, fields.npy
+with the mode shapes (m, n_nodes, 3) all over it. A layout is a JSON file that names the bodies and their contacts.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import importlib.metadata
+import json
+import os
+import shutil
+import tempfile
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn._compiled import cache_folder
+from fecolumn.atomic import write_json
+from fecolumn.lock import alone
+from fecolumn.sources import digest_of, files_of
+from fecolumn.structures.model import BodyModel, Storeys, Surface
+
+# Sources that bodies and layouts are made from
+SOURCES = (
+    "_dolfinx.py", "material", "fem/body.py", "fem/effective.py", "fem/free_body.py", "fem/modes.py", "fem/rayleigh.py",
+    "mesh/base_plate.py", "mesh/bricks.py", "mesh/gmsh_section.py", "mesh/imported.py", "mesh/jacobian.py", "mesh/quality.py", "mesh/section.py",
+    "mesh/surface.py", "mesh/tie.py", "contact/footprint.py", "contact/tolerances.py", "dynamics/assembly.py", "reduced/build.py",
+    *(f"structures/{name}.py" for name in ("bodies", "faces", "layout", "lines", "matrices", "meetings", "model", "patches", "reduction",
+                                           "shapes", "store", "storeys")))
+#: Modes that a body keeps at least, so that analyses with fewer share it.
+KEPT_MODES = 30
+
+
+def key_of(what) -> str:
+    """Name of what is made from `what`, anything that JSON takes, and from the present code."""
+    return hashlib.sha256(json.dumps([what, _code()], sort_keys=True).encode()).hexdigest()[:16]
+
+
+@functools.cache
+def _code() -> list[str]:
+    try:
+        dolfinx = importlib.metadata.version("fenics-dolfinx")
+    except importlib.metadata.PackageNotFoundError:
+        from dolfinx import __version__ as dolfinx
+    return [digest_of(files_of(SOURCES)), f"dolfinx {dolfinx}"]
+
+
+def body_folder(key: str) -> Path:
+    """Where a reduced body is kept."""
+    return cache_folder() / f"body-{key}"
+
+
+def keep_body(key: str, make) -> None:
+    """Have a reduced body on disk; `make` returns the model and its fields, or None for these, where there is none yet."""
+    folder = body_folder(key)
+    if folder.is_dir():
+        return
+    with alone(folder):  # of the workers of a study that start at once, one makes it
+        if folder.is_dir():
+            return
+        model, shapes = make()
+        partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+        partial.chmod(0o755)
+        try:
+            with open(partial / "body.npz", "wb") as file:
+                np.savez(file, **_arrays(model))
+            if shapes is not None:
+                np.save(partial / "fields.npy", shapes)
+            os.replace(partial, folder)
+        finally:
+            shutil.rmtree(partial, ignore_errors=True)
+
+
+@functools.lru_cache(maxsize=32)
+def kept_body(key: str) -> BodyModel:
+    """The reduced body of a key, all its modes; equal bodies are one object."""
+    with np.load(body_folder(key) / "body.npz") as file:
+        arrays = {name: file[name] for name in file.files}
+    plain, surfaces, marks, storeys = {}, {}, {}, {}
+    for name, values in arrays.items():
+        group, *rest = name.split("/")
+        if group == "surfaces":
+            surfaces.setdefault(rest[0], {})[rest[1]] = values
+        elif group == "marks":
+            marks.setdefault(rest[0], {})[rest[1]] = values
+        elif group == "storeys":
+            storeys[rest[0]] = values
+        else:
+            plain[name] = values if values.ndim else values.item()
+    return BodyModel(**plain, surfaces={name: Surface(**values) for name, values in surfaces.items()},
+                     marks={name: (values["arm"], values["shape"]) for name, values in marks.items()}, storeys=Storeys(**storeys) if storeys else None)
+
+
+def _arrays(model: BodyModel) -> dict[str, np.ndarray]:
+    """A model as arrays by names such as "surfaces/foot/areas"."""
+    arrays = {field.name: getattr(model, field.name) for field in fields(model) if field.name not in ("surfaces", "marks", "storeys")}
+    arrays = {name: values for name, values in arrays.items() if values is not None}
+    for name, surface in model.surfaces.items():
+        arrays |= {f"surfaces/{name}/{field.name}": getattr(surface, field.name) for field in fields(surface)}
+    for name, (arm, shape) in model.marks.items():
+        arrays |= {f"marks/{name}/arm": arm, f"marks/{name}/shape": shape}
+    if model.storeys:
+        arrays |= {f"storeys/{field.name}": getattr(model.storeys, field.name) for field in fields(model.storeys)}
+    return arrays
+
+
+def layout_file(key: str) -> Path:
+    """Where a layout is kept."""
+    return cache_folder() / "layouts" / f"{key}.json"
+
+
+def keep_layout(key: str, what: dict) -> None:
+    """Write a layout."""
+    layout_file(key).parent.mkdir(parents=True, exist_ok=True)
+    write_json(layout_file(key), what)
+
+
+def kept_layout(key: str) -> dict | None:
+    """The layout of a key, whose bodies are all on disk; None where it has to be made."""
+    try:
+        found = json.loads(layout_file(key).read_text())
+    except (OSError, ValueError):
+        return None
+    return found if all(body_folder(one).is_dir() for one in found["models"].values()) else None

@@ -1,0 +1,182 @@
+"""From the case of a structure to what an engine needs of it."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+
+from fecolumn.case import Initial
+from fecolumn.contact.law import interface_compliance
+from fecolumn.contact.rim import Rim
+from fecolumn.contact.unbounded_base import rigid_base
+from fecolumn.schema import InputError
+from fecolumn.structures import model as models
+from fecolumn.structures.case import identity
+from fecolumn.structures.check import check_joints, check_layout, check_points, check_structure
+from fecolumn.structures.check_keys import material_of
+from fecolumn.structures.keys import GROUND, Matrices, Storeys
+from fecolumn.structures.layout import Layout, layout_of
+from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
+from fecolumn.structures.place import Standing, placed
+from fecolumn.structures.store import KEPT_MODES, keep_body, keep_layout, kept_body, kept_layout, key_of
+
+# Keys of a body that no operator has
+_LOOSE = ("at_m", "copies_m", "modes", "damping_ratio", "material")
+
+
+def structure_model(case, file="case", say=lambda text: None) -> StructureModel:
+    """The structure of a case at its start; bodies that are on disk are not made again.
+
+    Args:
+        file: of the case, for messages. say: told what takes long.
+
+    Raises:
+        InputError: a structure that cannot be, told by the names of its bodies, interfaces and links.
+    """
+    key = key_of(_geometry(case))
+    found = kept_layout(key)
+    if found is None:
+        found = keep_models(case, layout_of(case, file), file, say)
+        keep_layout(key, found)
+    wanted = {name: kept_body(one) for name, one in found["models"].items()}
+    return assembled(case, wanted, found, file)
+
+
+def _geometry(case) -> dict:
+    """What of a case decides its layout and the reduced bodies."""
+    bodies = {name: _made_of(case, name) | {"places": body.places} for name, body in case.bodies.items()}
+    keys = ("slave", "on", "interior_points", "allowance_m")
+    return {"bodies": bodies, "interfaces": {name: [getattr(one, key) for key in keys] for name, one in case.interfaces.items()},
+            "interior": case.contact.interior_points}
+
+
+def _made_of(case, name: str) -> dict:
+    """What of a body's keys decides its reduced model."""
+    body = case.bodies[name]
+    table = {key: value for key, value in identity(body).items() if key not in _LOOSE or isinstance(body, Storeys) and key == "damping_ratio"}
+    if not isinstance(body, Matrices):
+        material = dataclasses.asdict(material_of(body, case.materials))
+        if not isinstance(body, Storeys):
+            del material["damping_ratio"]
+        table["material"] = material
+    return table | {"modes": max(case.modes_of(name), KEPT_MODES)}
+
+
+def keep_models(case, layout: Layout, file, say) -> dict:
+    """Check a layout and have its bodies on disk; what `store.keep_layout` keeps of it."""
+    check_layout(case, layout, file)
+    keys = {}
+    for name, one in layout.drawings.items():
+        patches = layout.patches[name]
+        check_points(name, patches, file)
+        said = {surface: [patch.positions.tolist(), patch.axes.tolist(), len(patch.triangles)] for surface, patch in patches.items()}
+        keys[name] = key_of([_made_of(case, name), said])
+        count = max(case.modes_of(name), KEPT_MODES)
+
+        def make():
+            say(f'making the reduced model of "{name}" (once)')
+            return one.model(patches, count)
+
+        keep_body(keys[name], make)
+    sizes = {name: one.shape.size for name, one in layout.drawings.items() if one.shape}
+    extents = {name: [one.points.min(axis=0).tolist(), one.points.max(axis=0).tolist()] for name, one in layout.drawings.items()}
+    return {"models": keys, "sizes": sizes, "extents": extents, "contacts": [dataclasses.asdict(contact) for contact in layout.contacts]}
+
+
+def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> StructureModel:
+    """Structure of the reduced `bodies` by name, put together as a `layout` of `keep_models` says.
+
+    Raises:
+        InputError: as of `structure_model`.
+    """
+    copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
+    places = {copy: place for place, copy in enumerate(copies)}
+    kept = {name: model.with_modes(case.modes_of(name)) for name, model in bodies.items()}
+    standing = _standing(case, copies, [kept[name] for name, _ in copies])
+    joints = [_joint(case, contact, kept, places, layout["sizes"], file) for contact in layout["contacts"]]
+    check_joints(joints, standing, file)
+    parts = tuple(Part(one.name, one.model, there.center, there.rotation, _damping(case, name, one.model), there.velocity, there.spin)
+                  for (name, _), one, there in zip(copies, standing, placed(standing, joints, file)))
+    links = tuple(link for name in case.links for link in _links(case, name, places, standing))
+    structure = StructureModel(parts, tuple(joints), links, rigid_base(np.concatenate([one.center + one.model.arms for one in standing])), _observed(case, parts, places, file))
+    extents = [np.array(layout["extents"][name]) - one.model.center for (name, _), one in zip(copies, standing)]
+    check_structure(case, structure, standing, extents, file)
+    return structure
+
+
+def standing_of(case, structure: StructureModel) -> list[Standing]:
+    """The parts of a structure as they stand before any is tilted."""
+    copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
+    return _standing(case, copies, [part.model for part in structure.parts])
+
+
+def _standing(case, copies, bodies: list[BodyModel]) -> list[Standing]:
+    starts = _starts(case)
+    return [Standing(case.names_of(name)[number], model, np.array(case.bodies[name].places[number]) + model.center, starts.get((name, number)))
+            for (name, number), model in zip(copies, bodies)]
+
+
+def _starts(case) -> dict[tuple[str, int], Initial]:
+    """Start of each copy that has one; "column 2" goes before "column"."""
+    found = {}
+    for name in sorted(case.initial, key=lambda one: one not in case.bodies):
+        body, numbers = case.meant_by(name)
+        found |= {(body, number): case.initial[name] for number in numbers}
+    return found
+
+
+def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
+    name, (body, number) = contact["interface"], contact["slave"]
+    keys, model, master = case.interfaces[name], bodies[body], contact["master"]
+    own = {key: getattr(keys, key) for key in ("friction_coefficient", "law", "penalty_factor", "restitution")}
+    contact_keys = dataclasses.replace(case.contact, **{key: value for key, value in own.items() if value is not None})
+    surface = model.surfaces[contact["slave_surface"]]
+    if contact_keys.law == "penalty" and body not in sizes:
+        raise InputError(file, f"interfaces.{name}.law", contact_keys.law, f'must be augmented_lagrange where the slave, "{body}", has no elements')
+    youngs = 0.0 if body not in sizes else material_of(case.bodies[body], case.materials).youngs_modulus_pa
+    law = interface_compliance(contact_keys, youngs, sizes.get(body, 1.0), surface.areas)
+    round_rim = Rim.find(surface.plane(model.arms[surface.nodes])) is not None
+    title = case.names_of(body)[number]
+    where = GROUND if master is None else case.names_of(master[0])[master[1]]
+    return Joint(f"{name}: {title} on {where}", places[body, number], contact["slave_surface"], models.GROUND if master is None else places[tuple(master)],
+                 contact["master_surface"], contact_keys.friction_coefficient, law, round_rim, contact_keys.restitution)
+
+
+def _damping(case, name: str, model: BodyModel):
+    if model.damping is not None:
+        return model.damping
+    body = case.bodies[name]
+    if body.damping_ratio is not None:
+        return body.damping_ratio
+    return 0.0 if isinstance(body, Matrices) else material_of(body, case.materials).damping_ratio
+
+
+def _links(case, name: str, places, standing: list[Standing]):
+    """The links of a name, one at each copy of its body; points as the bodies stand."""
+    keys = case.links[name]
+    body, numbers = case.meant_by(keys.body)
+    for number in numbers:
+        a = places[body, number]
+        origin = np.array(case.bodies[body].places[number])
+        other = models.GROUND
+        if keys.to != GROUND:
+            other_body, (other_number,) = case.meant_by(keys.to)
+            other = places[other_body, other_number]
+        end = origin + keys.to_point_m
+        both = keys.kind in ("spring", "restrainer")
+        yield Link(name if len(numbers) == 1 else f"{name} {number + 1}", keys.kind, a, origin + keys.point_m - standing[a].center,
+                   other, end if other == models.GROUND else end - standing[other].center, keys.stiffness_n_m, keys.damping_n_s_m, keys.prestress_n,
+                   keys.slack_m, both, both or keys.kind == "tendon", keys.yield_n or math.inf, keys.breaking_n or math.inf)
+
+
+def _observed(case, parts, places, file) -> tuple[int, str]:
+    if case.observed:
+        name, _, mark = case.observed.partition(".")
+        body, (number,) = case.meant_by(name)
+        place, mark = places[body, number], mark or "top"
+        if mark not in (known := parts[place].model.marks):
+            raise InputError(file, "observed", case.observed, f'"{name}" has no such mark; its marks: {", ".join(known)}')
+        return place, mark
+    return max(range(len(parts)), key=lambda place: parts[place].center[2] + parts[place].model.marks["top"][0][2]), "top"

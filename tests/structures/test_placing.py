@@ -1,0 +1,63 @@
+"""Where bodies are at the start when some of them lean."""
+
+import numpy as np
+import pytest
+from small_structures import block, frame, stack, structure
+
+from fecolumn.schema import InputError
+from fecolumn.structures.structure import structure_model
+
+
+def _lowest(part):
+    return (part.center + part.model.arms @ part.rotation.T)[:, 2].min()
+
+
+@pytest.mark.parametrize("direction", [0.0, 30.0, 45.0])
+def test_leaning_block_stands_on_its_lowest_point(direction):
+    part = structure_model(structure(**block(rigid=True), initial=dict(block=dict(tilt_rad=0.1, direction_deg=direction)))).parts[0]
+    assert _lowest(part) == pytest.approx(0.0, abs=1e-12)
+    up = part.rotation[:, 2]
+    assert np.arccos(up[2]) == pytest.approx(0.1) and np.degrees(np.arctan2(up[1], up[0])) == pytest.approx(direction, abs=1e-9)
+
+
+def test_frame_leans_as_a_parallelogram():
+    """All columns alike: the slab stays level, on the highest points of the heads, 2 R cos(alpha - tilt) above the ground."""
+    tilt, direction = 0.05, 37.0
+    parts = structure_model(structure(**frame(), initial=dict(column=dict(tilt_rad=tilt, direction_deg=direction)))).parts
+    slab = parts[4]
+    assert slab.rotation == pytest.approx(np.eye(3))
+    size, alpha = np.hypot(1.5, 0.2), np.arctan(0.2 / 1.5)
+    assert slab.center[2] - 0.15 == pytest.approx(size * np.cos(alpha - tilt), abs=1e-9)
+    ahead = np.array([np.cos(np.radians(direction)), np.sin(np.radians(direction))])
+    # the pivot of the foot ahead, the pivot of the head behind
+    assert slab.center[:2] == pytest.approx(ahead * (0.2 - size * np.sin(alpha - tilt)), abs=1e-9)
+
+
+def test_block_on_a_leaning_block_stays_level_or_leans_with_it():
+    level = structure_model(structure(**stack(), initial=dict(lower=dict(tilt_rad=0.1)))).parts
+    assert level[1].rotation == pytest.approx(np.eye(3))
+    # the upper block's foot, 0.4 m wide, is met by the lower one's head behind, at x = -0.2
+    behind = level[0].center + level[0].rotation @ [-0.2, 0.0, 0.4]
+    assert _lowest(level[1]) == pytest.approx(behind[2], abs=1e-12)
+    both = structure_model(structure(**stack(), initial=dict(lower=dict(tilt_rad=0.1), upper=dict(tilt_rad=0.1)))).parts
+    assert both[0].rotation == pytest.approx(both[1].rotation)
+    assert both[0].rotation.T @ (both[1].center - both[0].center) == pytest.approx([0.0, 0.0, 0.7], abs=1e-12)
+
+
+def test_upper_block_leans_alone_about_its_own_edge():
+    lower, upper = structure_model(structure(**stack(), initial=dict(upper=dict(tilt_rad=0.1)))).parts
+    assert lower.center == pytest.approx([0, 0, 0.4]) and _lowest(upper) == pytest.approx(0.8, abs=1e-12)
+    assert upper.center + upper.rotation @ [0.2, 0.0, -0.3] == pytest.approx([0.2, 0.0, 0.8])
+
+
+def test_slab_on_columns_that_lean_differently_is_refused():
+    with pytest.raises(InputError, match="cannot stand on bodies that lean differently"):
+        structure_model(structure(**frame(), initial={"column": dict(tilt_rad=0.05), "column 2": dict(tilt_rad=0.02)}))
+
+
+def test_spin_tips_a_standing_block_over_its_edge():
+    part = structure_model(structure(**block(rigid=True), initial=dict(block=dict(spin_rad_s=[0.0, 0.5, 0.0], velocity_m_s=[0.1, 0.0, 0.0])))).parts[0]
+    edge = np.array([0.2, 0.0, 0.0])
+    assert part.velocity + np.cross(part.spin, edge - part.center) == pytest.approx([0.1, 0.0, 0.0])
+    turning = structure_model(structure(**block(rigid=True), initial=dict(block=dict(spin_rad_s=[0.0, 0.0, 2.0])))).parts[0]
+    assert turning.velocity == pytest.approx(np.zeros(3), abs=1e-12) and turning.spin == pytest.approx([0, 0, 2.0])

@@ -1,0 +1,77 @@
+"""Analyses of structures from case to summary: what they say of bodies and interfaces, and that they go on where they stopped."""
+
+import warnings
+
+import numpy as np
+import pytest
+from small_structures import stack, structure
+
+from fecolumn.dynamics.history import read_history
+from fecolumn.simulation import read_folder_case, run
+
+# A light block, four points on each face, that leans on a heavy one
+LEANING = stack(bodies=dict(lower=dict(element_size_m=0.3), upper=dict(element_size_m=0.2)), initial=dict(upper=dict(tilt_rad=0.1)),
+                contact=dict(friction_coefficient=0.7, interior_points=0), integration=dict(dt_s=1e-3, duration_s=0.4))
+
+
+@pytest.fixture(scope="module")
+def leaning(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("leaning") / "run"
+    return folder, run(structure(**LEANING), folder, quiet=True)
+
+
+def test_summary_and_history_name_bodies_and_interfaces(leaning):
+    folder, summary = leaning
+    rows = read_history(folder / "history.h5")
+    assert summary["energy_closure_rel"] < 1e-9 and summary["bodies"]["upper"]["tilt_max_rad"] == pytest.approx(0.1, rel=0.01)
+    assert summary["bodies"]["lower"]["tilt_max_rad"] < 1e-3
+    tilt = rows["interface/joint: upper on lower/tilt"]
+    assert tilt[0] == pytest.approx(0.1) and tilt.min() < 0.02
+    # what the upper block stands on carries it and the lower one: of 259.2 and 777.6 kg
+    assert rows["interface/foot: lower on ground/force"].mean() == pytest.approx(9.80665 * (259.2 + 777.6), rel=0.2)
+    # displacements are from where the structure stands upright
+    assert rows["mark/upper.top/displacement"][0] == pytest.approx(rows["u_top"][0]) and rows["u_top"][0, 0] == pytest.approx(0.6 * np.sin(0.1) + 0.2 * (1 - np.cos(0.1)), rel=1e-6)
+
+
+def test_units_of_the_columns_are_stated(leaning):
+    import h5py
+
+    with h5py.File(leaning[0] / "history.h5") as file:
+        units = {name: file[name].attrs["unit"] for name in ("body/upper/displacement", "body/upper/tilt", "interface/foot: lower on ground/force",
+                                                             "interface/foot: lower on ground/slide", "energy/kinetic")}
+    assert list(units.values()) == ["m", "rad", "N", "m", "J"]
+
+
+def test_stopped_analysis_goes_on_to_the_same_motion(leaning, tmp_path):
+    asked = []
+
+    def stop():
+        asked.append(0)
+        return len(asked) == 1
+
+    case = structure(**LEANING | dict(integration=dict(dt_s=1e-3, duration_s=0.8)))
+    with pytest.raises(KeyboardInterrupt):
+        run(case, tmp_path / "run", quiet=True, stop=stop)
+    again, file = read_folder_case(tmp_path / "run")
+    assert again.id == case.id
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # of a checkpoint that cannot be used
+        run(again, tmp_path / "run", file=file, quiet=True)
+    run(case, tmp_path / "whole", quiet=True)
+    stopped, whole = (read_history(tmp_path / name / "history.h5") for name in ("run", "whole"))
+    assert stopped["u_top"] == pytest.approx(whole["u_top"], abs=1e-10) and len(whole["time"]) == 801
+
+
+def test_drift_of_a_pushed_building_is_shear_over_stiffness(tmp_path):
+    """Ground that accelerates slowly by a: storeys carry the mass above them times a."""
+    building = dict(kind="storeys", length_m=4.0, width_m=4.0, thickness_m=0.5, mass_kg=2e4, floors=2, floor_masses_kg=[1e4], storey_heights_m=[3.0], period_s=0.2,
+                    damping_ratio=0.3, element_size_m=2.0, youngs_modulus_pa=30e9)
+    t = np.arange(0, 1.5, 0.01)
+    (tmp_path / "ramp.csv").write_text("t,x\n" + "\n".join(f"{time:.3f},{0.5 * min(time, 1.0):.6f}" for time in t))
+    case = structure(bodies=dict(building=building), interfaces=dict(foot=dict(slave="building", on="ground")), integration=dict(duration_s=1.5),
+                     contact=dict(friction_coefficient=0.7, interior_points=0), motion=dict(source=str(tmp_path / "ramp.csv"), units="m/s2"))
+    summary = run(case, tmp_path / "run", quiet=True)
+    rows = read_history(tmp_path / "run" / "history.h5")
+    first, second = (rows[f"storey/building {number}/shear"][1300:1400, 0].mean() for number in (1, 2))
+    assert (first, second) == pytest.approx((-0.5 * 2e4, -0.5 * 1e4), rel=0.02)
+    assert set(summary["storeys"]) == {"building 1", "building 2"} and summary["storeys"]["building 1"]["shear_max_n"] == pytest.approx(1e4, rel=0.1)

@@ -1,0 +1,141 @@
+"""Bodies of a structure have the mass, inertia, frequencies and statics of what they stand for."""
+
+import numpy as np
+import pytest
+from small_structures import BLOCK, STONE, block, frame, structure
+
+from fecolumn.contact.rim import Rim
+from fecolumn.fem.modes import elastic_modes
+from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
+from fecolumn.structures.bodies import drawing
+from fecolumn.structures.reduction import body_of
+from fecolumn.structures.structure import structure_model
+
+
+def _masses(**body):
+    """Mass [kg], centre and inertia of a body, reduced rigidly: its mesh alone."""
+    case = structure(bodies=dict(body=body | STONE | dict(rigid=True)), interfaces=dict(foot=dict(slave="body", on="ground")))
+    model = structure_model(case).parts[0].model
+    return model.mass, model.center, model.inertia, model
+
+
+@pytest.mark.parametrize("wall", [0.02, None])
+def test_round_body_has_the_mass_and_inertia_of_the_circle(wall):
+    outer, height = 0.25, 1.6
+    inner = outer - wall if wall else 0.0
+    mass, center, inertia, model = _masses(outer_diameter_m=2 * outer, height_m=height, **(dict(kind="tube", wall_m=wall) if wall else dict(kind="cylinder")))
+    exact = 2700 * np.pi * (outer**2 - inner**2) * height
+    assert mass == pytest.approx(exact, rel=1e-12) and center == pytest.approx([0, 0, height / 2], abs=1e-12)
+    across = exact * ((outer**2 + inner**2) / 4 + height**2 / 12)
+    assert np.diag(inertia) == pytest.approx([across, across, exact * (outer**2 + inner**2) / 2], rel=2e-3)
+    foot = model.surfaces["foot"]
+    assert Rim.find(foot.plane(model.arms[foot.nodes])).radius == pytest.approx(outer, rel=1e-10)
+
+
+def test_body_of_a_stated_mass_has_it_flange_included():
+    mass, center, _, model = _masses(kind="tube", outer_diameter_m=0.2, wall_m=0.02, height_m=1.0, flange=dict(outer_diameter_m=0.4, thickness_m=0.05))
+    tube, plate = np.pi * (0.1**2 - 0.08**2) * 1.0, np.pi * 0.2**2 * 0.05
+    assert mass == pytest.approx(2700 * (tube + plate), rel=1e-3)
+    assert center[2] == pytest.approx((tube * 0.55 + plate * 0.025) / (tube + plate), rel=1e-3)
+    assert model.surfaces["foot"].areas.sum() == pytest.approx(np.pi * 0.2**2, rel=0.03)
+    case = structure(bodies=dict(body=dict(kind="cylinder", outer_diameter_m=0.2, height_m=1.0, mass_kg=77.0, rigid=True)), interfaces=dict(foot=dict(slave="body", on="ground")))
+    assert structure_model(case).parts[0].model.mass == pytest.approx(77.0, rel=1e-12)
+
+
+@pytest.fixture(scope="module")
+def pillar():
+    """A block between the ground and a rigid block of its own section, so that all nodes of both ends are contact points."""
+    top = dict(kind="block", length_m=0.4, width_m=0.2, height_m=0.2, at_m=[0, 0, 1.2], rigid=True)
+    case = structure(**block(dict(head=dict(slave="block", on="top"))) | dict(bodies=dict(block=BLOCK | dict(element_order=2, coarse_size_m=0.3), top=top)))
+    return structure_model(case).parts[0].model
+
+
+def test_block_has_its_mass_inertia_and_bending_frequency(pillar):
+    mass = 2700 * 0.4 * 0.2 * 1.2
+    assert pillar.mass == pytest.approx(mass, rel=1e-12)
+    assert np.diag(pillar.inertia) == pytest.approx(mass / 12 * np.array([0.2**2 + 1.2**2, 0.4**2 + 1.2**2, 0.4**2 + 0.2**2]), rel=1e-12)
+    assert pillar.frequencies[0] / 2 / np.pi == pytest.approx(rectangle_bending_frequency(0.2, 0.4, 1.2, 50e9, 0.0, 2700), rel=0.01)
+
+
+@pytest.mark.parametrize("body, exact", [
+    (dict(kind="block", length_m=0.4, width_m=0.4, height_m=2.0), lambda *material: rectangle_bending_frequency(0.4, 0.4, 2.0, *material)),
+    (dict(kind="cylinder", outer_diameter_m=0.3, height_m=2.0), lambda *material: free_free_bending_frequency(0.15, 0.0, 2.0, *material)),
+    (dict(kind="tube", outer_diameter_m=0.3, wall_m=0.02, height_m=2.0), lambda *material: free_free_bending_frequency(0.15, 0.13, 2.0, *material))])
+def test_bodies_bend_as_beams_do_at_the_sizes_they_are_given(body, exact):
+    case = structure(bodies=dict(body=body | STONE | dict(poissons_ratio=0.2)), interfaces=dict(foot=dict(slave="body", on="ground")))
+    one = drawing(case, "body", "small.toml")
+    assert elastic_modes(body_of(one.shape, one.material), 1)[0][0] / 2 / np.pi == pytest.approx(exact(50e9, 0.2, 2700.0), rel=0.02)
+
+
+def test_pressed_pillar_shortens_by_hookes_law(pillar):
+    """Equal pressure p on both ends of a bar with Poisson's ratio 0 shortens it by p L / E, whatever its mesh."""
+    foot, head = pillar.surfaces["foot"], pillar.surfaces["head"]
+    force = np.zeros((len(pillar.arms), 3))
+    force[foot.nodes, 2], force[head.nodes, 2] = 1e6 * foot.areas, -1e6 * head.areas
+    moved = np.einsum("ijab,jb->ia", pillar.flexibility, force)
+    assert foot.areas.sum() == pytest.approx(0.08, rel=1e-12)
+    assert moved[foot.nodes, 2] - moved[head.nodes, 2][:, None] == pytest.approx(np.full((len(foot.nodes),) * 2, 1e6 * 1.2 / 50e9), rel=1e-6)
+
+
+def test_pushed_pillar_is_compressed_as_a_rocket_is(pillar):
+    """Pressure on one end accelerates the bar; it falls linearly to 0 at the other, and shortens the bar by half as much."""
+    foot, head = pillar.surfaces["foot"], pillar.surfaces["head"]
+    force = np.zeros((len(pillar.arms), 3))
+    force[foot.nodes, 2] = 1e6 * foot.areas
+    moved = np.einsum("ijab,jb->ia", pillar.flexibility, force)[:, 2]
+    assert foot.areas @ moved[foot.nodes] / 0.08 - head.areas @ moved[head.nodes] / 0.08 == pytest.approx(1e6 * 1.2 / 50e9 / 2, rel=1e-5)
+
+
+def test_modes_are_part_of_the_flexibility(pillar):
+    """What the modes kept leave of the flexibility is that of the others: no direction is stiffer than nothing."""
+    modal = np.einsum("iam,jbm,m->ijab", pillar.shapes, pillar.shapes, 1 / pillar.frequencies**2)
+    rest = (pillar.flexibility - modal).transpose(0, 2, 1, 3).reshape(3 * len(pillar.arms), -1)
+    assert np.linalg.eigvalsh((rest + rest.T) / 2).min() > -1e-8 * np.abs(pillar.flexibility).max()
+
+
+def test_rigid_body_gives_as_a_punch_does():
+    case = structure(**block(rigid=True))
+    model = structure_model(case).parts[0].model
+    springs = 1 / np.array([model.flexibility[i, i, 2, 2] for i in range(len(model.arms))])
+    assert springs.sum() == pytest.approx(2 * 50e9 * np.sqrt(0.4 * 0.2 / np.pi), rel=1e-12)
+    assert len(model.frequencies) == 0 and model.dofs == 0 and model.mass == pytest.approx(2700 * 0.4 * 0.2 * 1.2)
+    stated = structure_model(structure(**block(rigid=True, contact_stiffness_n_m3=1e9))).parts[0].model
+    assert (1 / np.array([stated.flexibility[i, i, 0, 0] for i in range(len(stated.arms))])).sum() == pytest.approx(1e9 * 0.08, rel=1e-12)
+
+
+def test_copies_and_equal_bodies_share_one_model():
+    tables = frame()
+    parts = structure_model(structure(**tables)).parts
+    assert [part.name for part in parts] == ["column 1", "column 2", "column 3", "column 4", "slab"]
+    assert all(part.model is parts[0].model for part in parts[:4])
+    twin = dict(block(rigid=True)["bodies"]["block"], at_m=[1.0, 0.0, 0.0])
+    case = structure(**block(dict(other=dict(slave="twin", on="ground")), rigid=True) | dict(bodies=dict(block=BLOCK | dict(rigid=True), twin=twin)))
+    block_part, twin_part = structure_model(case).parts
+    assert block_part.model is twin_part.model or np.array_equal(block_part.model.arms, twin_part.model.arms)
+
+
+def test_slab_has_contact_points_only_around_its_columns():
+    structured = structure_model(structure(**frame()))
+    model = structured.parts[4].model
+    surface = model.surfaces["foot, master"]
+    plane = surface.plane(model.arms[surface.nodes])
+    assert np.abs(plane[:, 2]).max() < 1e-12 and surface.axes[:, 2] == pytest.approx([0, 0, -1])
+    # heads of 0.2 m, and a quarter of that to each side
+    assert np.all(np.abs(np.abs(model.arms[surface.nodes][:, :2]) - [1.0, 0.8]).max(axis=1) < 0.1 + 0.05 + 1e-9)
+    a, b, c = (plane[surface.triangles[:, k], :2] for k in range(3))
+    areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+    assert areas.min() > 0 and areas.sum() == pytest.approx(4 * 0.3**2, rel=1e-9)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_triangles_cover_a_face_of_any_order(order):
+    case = structure(**block(element_order=order, rigid=False))
+    from fecolumn.structures.patches import master_patch
+
+    one = drawing(case, "block", "small.toml")
+    face = next(face for face in one.faces if face.normal[2] > 0.5)
+    patch = master_patch(face, order, [(-1, 1, -1, 1)])
+    a, b, c = (patch.positions[patch.triangles[:, k], :2] for k in range(3))
+    areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+    assert areas.min() > 0 and areas.sum() == pytest.approx(0.08) and patch.areas.sum() == pytest.approx(0.08)
+    assert patch.outlines.sum() == 2 * order * (4 + 2)
