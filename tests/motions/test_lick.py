@@ -5,12 +5,12 @@ import pytest
 
 from fecolumn.case import Motion
 from fecolumn.motions.lick import COUNT
+from fecolumn.motions.chosen import chosen_motions
 from fecolumn.motions.load import read_motion
 from fecolumn.motions.processing import scale_time
 from fecolumn.motions.record import GroundMotion
 from fecolumn.motions.seeded import LICK, read_model, seeded_acceleration
 from fecolumn.schema import InputError
-from fecolumn.study.axes import _members
 
 
 def test_motion_by_name_is_that_of_the_recipe_at_test_scale():
@@ -29,4 +29,4 @@ def test_number_the_ensemble_does_not_have_is_refused(number):
 
 
 def test_all_motions_of_it_are_an_axis(tmp_path):
-    assert _members("lick:*", "axes", tmp_path / "study.toml") == [f"lick:{number}" for number in range(1, COUNT + 1)]
+    assert chosen_motions("lick:*", "axes", tmp_path / "study.toml") == [f"lick:{number}" for number in range(1, COUNT + 1)]
