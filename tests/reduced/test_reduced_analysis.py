@@ -40,7 +40,8 @@ def history(folder):
 
 
 def test_interrupted_analysis_goes_on_to_the_last_digit(tmp_path):
-    asked = iter([False, True])
+    # asked each time that a state is kept, every 40 steps
+    asked = iter([False] * 24 + [True])
     with pytest.raises(KeyboardInterrupt):
         simulation.run(case_of(), tmp_path / "two", quiet=True, stop=lambda: next(asked))
     assert (tmp_path / "two" / "checkpoint.npz").is_file()
