@@ -9,6 +9,7 @@ import numpy as np
 from fecolumn._compiled import interpreted, njit
 from fecolumn.contact.bodies import node_matrix
 from fecolumn.contact.points import BASE, POINT
+from fecolumn.contact.pose import into_frame
 from fecolumn.contact.tolerances import EDGE
 
 # Answers of `project`
@@ -89,6 +90,46 @@ def project_on_body(bodies, interface, point, x, y):
     _shares_of(bodies.facets[first + nearest], x, y, margin, shares)
     _take(bodies.facets[first + nearest], nearest, shares, point)
     return OFF
+
+
+@njit
+def find_seat(bodies, interface, point, pose, place):
+    """Bring the place (3,) of a point [m] from the table frame into that of its interface, and find its seat and the nodes below it on the moving master: ON or OFF."""
+    axes, origin = interface.axes, interface.origin
+    into_frame(pose, place)
+    for a in range(3):
+        point.seat[a] = origin[a] + axes[a, 0] * place[0] + axes[a, 1] * place[1] + axes[a, 2] * place[2]
+    return project_on_body(bodies, interface, point, place[0], place[1])
+
+
+@njit
+def take_surface(interface, point, q, moved, place):
+    """Take from a place (3,) in the frame of the interface what displacement or velocity `moved` (3,) of node q below it, in the master's frame, gives the surface."""
+    w, axes = point.shares[q], interface.axes
+    for a in range(3):
+        place[a] -= w * (axes[0, a] * moved[0] + axes[1, a] * moved[1] + axes[2, a] * moved[2])
+
+
+@njit
+def place_on_masters(bodies, interfaces, points, poses, moved, starts, places):
+    """Bring the places (P, 3) [m] of the points that stand on moving masters from the table frame to the masters' surfaces.
+
+    Args:
+        moved: (N, 3) displacement of all nodes in the frames of their bodies [m]. starts: whether at the start of a step, within which no point comes or goes
+            over an outline: one that is beyond it then is put high above the surface.
+    """
+    for i in range(len(points)):
+        if points[i].master == BASE:
+            continue
+        interface = interfaces[points[i].interface]
+        on = find_seat(bodies, interface, points[i], poses[points[i].interface], places[i]) == ON
+        if starts:
+            points[i].beyond = not on
+        if points[i].beyond:
+            places[i, 2] = interface.width
+            continue
+        for q in range(3):
+            take_surface(interface, points[i], q, moved[points[i].below[q]], places[i])
 
 
 @njit

@@ -82,7 +82,7 @@ class FullAnalysis(Analysis):
 
         system, state = self.system, self.state
         interface, column, R = system.interface, system.column, state.rotation
-        at_nodes, local = interface.at_nodes(state.forces), system.kinematics.local_displacement(state.x)
+        at_nodes, local = interface.at_nodes(state.forces, R), system.kinematics.local_displacement(state.x)
         rest = np.zeros_like(local)
         if interface.foot.filtered:
             # what the filter keeps from the body it bears statically: the part of the stress that a step does not resolve
@@ -90,7 +90,7 @@ class FullAnalysis(Analysis):
             forces = at_nodes @ R
             unresolved = column.spread(system.foot_nodes, forces) - interface.foot.load(forces)
             rest = self.free.response(unresolved.reshape(-1, 1)).reshape(-1, 3)
-        self.fields.write(state.time, state.x + rest @ R.T, local + rest, interface.positions(state.x, R), state.forces, at_nodes)
+        self.fields.write(state.time, state.x + rest @ R.T, local + rest, interface.positions(state.x, R, interface.poses(state.x, R)), state.forces, at_nodes)
 
     def run(self, stop) -> dict:
         from fecolumn.dynamics.overturning import STANDS

@@ -15,7 +15,7 @@ from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.damping import ModalDamping
 from fecolumn.contact.footprint import Footprint, footprint
 from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.system import System
+from fecolumn.dynamics.system import System, one_column
 from fecolumn.mesh.base_plate import levels
 from fecolumn.mesh.bricks import boundary_faces, outline_edges
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
@@ -116,7 +116,7 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
     law = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas)
     damping = ModalDamping(column, case.integration.n_modes, ratio) if (ratio := case.material.damping_ratio) else None
     pad = pad_of(case, foot.areas, column.total_mass)
-    return System(column, kinematics, base, foot, case.contact.friction_coefficient,
+    return one_column(column, kinematics, base, foot, case.contact.friction_coefficient,
                   law, [0.0, 0.0, -GRAVITY], HHT(case.integration.dt_s, case.integration.alpha_hht),
                   filtered=case.contact.impact == "plastic", rim=None if pad else Rim.find(column.all_X[foot.nodes]), damping=damping,
                   restitution=case.contact.restitution, rolling=case.contact.rolling_resistance, pad=pad)

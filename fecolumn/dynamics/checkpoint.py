@@ -14,7 +14,7 @@ from fecolumn.files import read_bytes
 _FIELDS = ("x", "v", "a", "contact_a", "internal")
 # arrays and fields with the angle of the rim's lowest point, nan while the foot touches with its nodes only
 _WITH_RIM = {"angle", "stick.key", "stick.angles"}
-_SHARED = ("time", "strain", "rotation", "contact", "static", "ground", "rims")
+_SHARED = ("time", "strain", "rotation", "contact", "static", "ground", "rims", "ties")
 
 
 def node_order(body) -> np.ndarray:
@@ -33,12 +33,12 @@ def gather_all(body, values: np.ndarray) -> np.ndarray | None:
 def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
     """Write state and `extra` arrays atomically on rank 0; called on every rank."""
     column = system.column
-    order = node_order(column)
+    orders = {part: node_order(part) for part in set(column.parts)}
     arrays = {name: getattr(state, name) for name in _SHARED}
     for name in _FIELDS:
-        values = gather_all(column, getattr(state, name))
-        if values is not None:
-            arrays[name] = values[order]
+        values = [gather_all(part, getattr(state, name)[rows]) for part, rows in zip(column.parts, column.rows)]
+        if column.comm.rank == 0:
+            arrays[name] = np.concatenate([one[orders[part]] for part, one in zip(column.parts, values)])
     if column.comm.rank == 0:
         content = io.BytesIO()
         np.savez(content, **arrays, **{f"extra.{name}": value for name, value in extra.items()})
@@ -63,13 +63,17 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
 
 def read_state(arrays: dict[str, np.ndarray], system) -> tuple[State, dict]:
     """State on this rank and the `extra` arrays of a checkpoint of the full-order engine."""
-    column = system.column
-    order, mine = node_order(column), slice(system.column.first, column.first + column.n_owned)
+    parts = system.column.parts
+    orders = {part: node_order(part) for part in set(parts)}
     values = {name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name] for name in _SHARED}
+    ends = np.cumsum([part.n_nodes for part in parts])
     for name in _FIELDS:
-        by_node = np.empty((len(order), *arrays[name].shape[1:]))
-        by_node[order] = arrays[name]
-        values[name] = by_node[mine].copy()
+        mine = []
+        for part, kept in zip(parts, np.split(arrays[name], ends[:-1]), strict=True):
+            by_node = np.empty((part.n_nodes, *kept.shape[1:]))
+            by_node[orders[part]] = kept
+            mine.append(by_node[part.first:part.first + part.n_owned])
+        values[name] = np.concatenate(mine)
     return State(**values), {name[6:]: value for name, value in arrays.items() if name.startswith("extra.")}
 
 

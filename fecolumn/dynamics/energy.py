@@ -30,7 +30,7 @@ class Ledger:
         weight = np.einsum("c,cna->na", system.gravity, column.unit_loads)
         return dict(kinetic=0.5 * column.dot(state.v, column.apply(column.mass, state.v)),
                     strain=state.strain + state.static,
-                    gravity=-column.dot(weight, state.x - column.X))
+                    gravity=-column.dot(weight, state.x - column.placed))
 
     def open(self, state) -> None:
         """Take the energy now as the start."""

@@ -14,6 +14,10 @@ from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import rotation_matrix
 
 
+# Inertia of the iteration to equilibrium over the square of the fastest frequency of a link between the bodies it holds
+LINKS_FIRM = 4.0
+
+
 class NoEquilibrium(RuntimeError):
     """The column does not stand: its centre of mass is not over its foot, or contact does not converge."""
 
@@ -55,27 +59,46 @@ def standing(system, tolerance: float = 1e-9) -> State:
     Raises:
         NoEquilibrium: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
-    column, interface = system.column, system.interface
-    state = system.unstrained(column.X)
-    depth = column.center[2] - interface.reference[:, 2].mean()
-    factors = pseudo_inertia(system.weight, depth, rigid_fields(column)[2][3:, 3:]), 1.0
-    load = system.load(np.zeros(3))
+    column, interface, links = system.column, system.interface, system.links
+    state = system.unstrained(column.placed)
+    # a single column is drawn as it stands
+    firmness, height, turned = *_firmness_and_height(system), np.eye(3) if state.rotation.ndim == 2 else state.rotation
+    factors, load, pulls = (firmness, 1.0), system.load(np.zeros(3)), None
 
     def proximal_step():
-        nonlocal state
-        stage = Stage(target=state.x, load=load, start=state.x, scale=1.0, before=state.contact, dt=np.inf, rotation=np.eye(3))
+        nonlocal state, pulls
+        stage = Stage(target=state.x, load=load, start=state.x, scale=1.0, before=state.contact, dt=np.inf, rotation=turned,
+                      centers=column.centers(state.x) if links else None, ties=state.ties)
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
         if outcome.stop is not Stop.CONVERGED:
             raise NoEquilibrium(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
         moved = column.max(np.abs(outcome.x - state.x).max(initial=0.0))
         outcome.contact["anchor"] = state.contact["anchor"]
         state = replace(state, x=outcome.x, internal=outcome.internal, strain=outcome.strain, rotation=outcome.rotation, contact=outcome.contact, static=outcome.static)
+        if links:
+            pulls, state.ties = links.pulls(stage, state.x, state.rotation), links.ties(column.centers(state.x), state.rotation)
         return moved
 
-    iterate_to_rest(proximal_step, 2 * depth)
+    iterate_to_rest(proximal_step, height)
     system.forget(*factors)
     push = interface.acceleration(state.forces, state.rotation) if interface.foot.filtered else np.zeros_like(state.x)
+    if links:
+        push = push + links.acceleration(pulls, state.rotation)
+        state.static += links.stored(state)
     return replace(state, a=-push, contact_a=push)
+
+
+def _firmness_and_height(system) -> tuple[float, float]:
+    """Inertia factor [1/s2] of the proximal steps of a system, and its height [m]."""
+    column, interface = system.column, system.interface
+    if column.unturned.ndim == 2:
+        depth = column.center[2] - interface.reference[:, 2].mean()
+        return pseudo_inertia(system.weight, depth, rigid_fields(column)[2][3:, 3:]), 2 * depth
+    depths = column.of_each(lambda part, _: np.ptp(part.all_X[:, 2]) / 2)
+    inertias = column.of_each(lambda part, _: rigid_fields(part)[2][3:, 3:])
+    firmness = max(pseudo_inertia(system.weight, depth, inertia) for depth, inertia in zip(depths, inertias))
+    # links answer the motion of a step at once: the motion must not answer them as strongly
+    return max(firmness, LINKS_FIRM * system.links.stiffest if system.links else 0.0), column.extent
 
 
 def leaning(foot, round_rim: bool, tilt: float, direction: float) -> tuple[np.ndarray, np.ndarray, float]:

@@ -1,4 +1,4 @@
-"""The foot of a full-order column on its base: what `contact` is given of it, and what it gives back."""
+"""Contact of full-order bodies with the base and with one another: what `contact` is given of them, and what it gives back."""
 
 from __future__ import annotations
 
@@ -7,138 +7,241 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn._compiled import compile_for, compiled, interpreted
-from fecolumn.contact.projection import base_for_steps, project
-from fecolumn.contact.bodies import node_matrix, one_body
+from fecolumn.contact.projection import base_for_steps, place_on_masters, project
+from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact
-from fecolumn.contact.interface import interface_of, rims_at_rest
+from fecolumn.contact.interface import rims_at_rest
+from fecolumn.contact.joints import Joints
 from fecolumn.contact.pad import springs_of
-from fecolumn.contact.points import CONTACT, node_points
+from fecolumn.contact.points import BASE, CONTACT
 from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, begin_problem, near_points, room, solve_linear, stored_energy
-from fecolumn.contact.pose import poses_on_base
-from fecolumn.contact.rim import Rim
+from fecolumn.contact.pose import POSE, SLAVE, find_poses, frames_at, poses_on_base
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
 from fecolumn.contact.stick import no_stick
-from fecolumn.contact.tolerances import ITERATIONS
+from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.dynamics.cuts import Stop
+from fecolumn.fem.rotation import into_frames, out_of_frames
 
 _STOPS = {CONTACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.CONTACT, OFF_BASE: Stop.OFF_BASE}
 
 
 @dataclass(slots=True)
 class Nodal:
-    """Compliance of the foot's nodes (3 n, 3 n) [m/N] in the column's frame within a stage: `elastic` that of the factored matrix, `dynamic` with the static part."""
+    """Compliance of the surface nodes [m/N] in the frames of their bodies within a stage, as of `contact.bodies.Bodies`: `elastic` that of the factored matrix,
+    `dynamic` with the static part."""
 
     elastic: np.ndarray
     dynamic: np.ndarray
 
 
 class Interface:
-    """Contact points of the column's foot on the top of the base, in the table frame.
+    """Contact points of bodies on the top of the base, in the table frame, and on one another, in the frames of their interfaces.
 
-    The points are the foot's nodes, but for those of a round rim, which may have turned along it.
+    The points are surface nodes, but for those of a round rim, which may have turned along it.
 
     Args:
-        foot: FilteredFoot or PlainFoot: what the time integration shows of the column.
-        reference: (n, 3) reference positions of its nodes [m].
+        column: Body or Composite. foot: of `fem.composite.foot_of`: what the time integration shows of its surface nodes.
         base: BasePlate, or what answers as it does.
-        friction: Coulomb coefficient.
-        law: (n, 3) compliance of the contact law [m/N].
-        rim: the foot's round rim, None to take it as the polygon of its nodes.
-        restitution, rolling: coefficients, see `contact.restitution` and `contact.rolling`.
-        pad: Pad below its points, None for a base without.
+        joints: points, interfaces, rims and facets.
+        laws: of the single column of `reduced.model.structure_of`; none of a structure of bodies.
     """
 
-    def __init__(self, foot, reference, base, friction: float, law: np.ndarray, rim: Rim | None = None, restitution: float = 0.0,
-                 rolling: float = 0.0, pad=None):
-        self.foot, self.reference, self.base, self.rim, self.pad = foot, reference, base, rim, pad
-        #: As of `reduced.model.structure_of`.
-        self.laws = dict(friction=friction, law=law, rim=rim, restitution=restitution, rolling=rolling, pad=pad)
-        self.size = len(reference)
-        #: (1,) of INTERFACE, and it alone; points (n,) of POINT.
-        self.interfaces = interface_of(reference, rim, restitution, rolling, pad)
-        self.record = self.interfaces[0]
-        self.points = node_points(reference, friction, law, pad.stiffness if pad else None)
-        self.width = float(self.record["width"])
-        mobility = node_matrix(foot.mobility) if foot.filtered else np.zeros((3 * self.size, 3 * self.size))
-        #: The column as `contact.bodies` has it: its rigid motion is part of the nodal mobility.
-        self.bodies = one_body(reference, node_matrix(foot.static), mobility)
+    def __init__(self, column, foot, base, joints: Joints, laws: dict | None = None):
+        self.column, self.foot, self.base, self.joints, self.laws = column, foot, base, joints, laws or {}
+        self.rim, self.pad = self.laws.get("rim"), self.laws.get("pad")
+        #: (P,) of POINT; interfaces (ni,) of INTERFACE, the first of them the record of a single column.
+        self.points, self.interfaces = joints.points.copy(), joints.interfaces.copy()
+        self.size, self.record = len(self.points), self.interfaces[0]
+        self.width, self.moving = float(self.record["width"]), bool((self.points["master"] != BASE).any())
+        several = isinstance(foot.static, list)
+        nodes, static, mobility = (getattr(foot, name, None) if several else [getattr(foot, name, None)] for name in ("nodes", "static", "mobility"))
+        #: Reference positions (N, 3) of the surface nodes, each body as it is drawn [m].
+        self.reference = np.concatenate([part.all_X[own] for part, own in zip(column.parts, nodes)])
+        mobility = mobility if foot.filtered else [np.zeros_like(one) for one in static]
+        centers = np.repeat([part.center for part in column.parts], [len(own) for own in nodes], axis=0)
+        #: Arms of the surface nodes: from the centres of mass, of a single column from where it is drawn.
+        self.arms = self.reference - centers if self.moving else self.reference
+        rows = np.cumsum([0] + [len(own) for own in nodes])
+        parts = [one_body(self.arms[first:last], node_matrix(one), node_matrix(own)) for first, last, one, own in zip(rows, rows[1:], static, mobility)]
+        #: As `contact.bodies` has them: their rigid motion is part of the nodal mobility.
+        self.bodies = Bodies(*joined(parts)[:4], joints.facets)
+        self._first = [slice(first, last) for first, last in zip(rows, rows[1:])]
         self.surface, self.counts = base_for_steps(base), np.zeros(N_COUNTS, np.int64)
         self._problem, self._stick = room(self.size), no_stick(0)
+        #: Nodes and shares of the masters below the points at the start of the step.
+        self._below, self._shares = self.points["below"].copy(), self.points["shares"].copy()
 
     def prepare(self, say=lambda text: None) -> None:
         """Have compiled what the steps call, so that the first landing costs what all cost; `say` is told why it takes long, if it does."""
         if not (compiled(solve_linear) and compiled(find_impact)):
             say("compiling the contact of the full-order engine, once on this machine: a minute")
         before, values, mask = np.zeros(self.size, CONTACT), np.zeros((self.size, 3)), np.zeros(self.size, bool)
-        static, springs = self.bodies.static, springs_of(self.points, self.record, 1.0)
+        static, springs, poses = self.bodies.static, springs_of(self.points, self.record, 1.0), poses_on_base(np.eye(3)[None])
         compile_for(solve_linear, (self._problem, self.bodies, self.surface, self.points, self.interfaces, springs, static, static, self._stick, rims_at_rest(),
-                                   poses_on_base(np.eye(3)[None]), values, ITERATIONS, before, before, self.counts))
-        compile_for(find_impact, (self.bodies, self.surface, self.points, self.interfaces, springs, self.near, values, poses_on_base(np.eye(3)[None]), before, before, values, values,
+                                   poses, values, ITERATIONS, before, before, self.counts))
+        compile_for(find_impact, (self.bodies, self.surface, self.points, self.interfaces, springs, self.near, values, poses, before, before, values, values,
                                   mask, mask, True, 1.0, 1.0, self.counts))
+        if self.moving:
+            compile_for(find_poses, (self.interfaces, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses))
+            compile_for(place_on_masters, (self.bodies, self.interfaces, self.points, poses, values, True, values))
 
     def at_points(self, values: np.ndarray) -> np.ndarray:
-        """Values (n, ...) at the points from those at the nodes."""
+        """Values (P, ...) at the points from those at the nodes (N, ...) of their slaves."""
         return np.einsum("pq,pqa->pa", self.points["weights"], values[self.points["carriers"]])
 
-    def at_nodes(self, forces: np.ndarray) -> np.ndarray:
-        """Forces (n, 3) on the nodes from those on the points."""
-        shared = np.zeros_like(forces)
-        loaded = np.flatnonzero(forces.any(axis=1))
-        np.add.at(shared, self.points["carriers"][loaded], self.points["weights"][loaded, :, None] * forces[loaded, None])
+    def at_nodes(self, forces: np.ndarray, rotation: np.ndarray, within: bool = False) -> np.ndarray:
+        """Forces (N, 3) on the nodes, in the table frame, from those (P, 3) on the points: on slaves, and the opposite on moving masters.
+
+        Args:
+            rotation: of the bodies, with which the frames of the interfaces turn. within: whether the forces act throughout a step, in which the points may move
+                over the masters: they act where a point was at the start and where it is, half at each; else they act where it is.
+        """
+        shared, loaded = np.zeros_like(self.reference), np.flatnonzero(forces.any(axis=1))
+        pushes = forces[loaded]
+        if self.moving:
+            pushes = np.einsum("pab,pb->pa", self._frames(rotation)[self.points["interface"][loaded]], pushes)
+        np.add.at(shared, self.points["carriers"][loaded], self.points["weights"][loaded, :, None] * pushes[:, None])
+        if self.moving:
+            under = self.points["master"][loaded] != BASE
+            rows, pushes, ends = loaded[under], pushes[under], [(self.points["below"], self.points["shares"])]
+            if within:
+                ends.append((self._below, self._shares))
+            for below, shares in ends:
+                np.add.at(shared, below[rows], -shares[rows, :, None] * pushes[:, None] / len(ends))
         return shared
 
-    def node_positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Positions (n, 3) of the foot's nodes from the column's positions x (n_owned, 3), without the static part."""
-        return (self.reference + self.foot.position(x @ rotation - self.foot.body.X)) @ rotation.T
+    def _frames(self, rotation: np.ndarray) -> np.ndarray:
+        """Axes (ni, 3, 3) of the interfaces in the table frame."""
+        frames, masters = np.tile(np.eye(3), (len(self.interfaces), 1, 1)), self.interfaces["master"]
+        frames[masters != BASE] = rotation[masters[masters != BASE]] @ self.interfaces["axes"][masters != BASE]
+        return frames
 
-    def positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Positions (n, 3) of the points from the column's positions x (n_owned, 3), without the static part."""
-        positions = self.at_points(self.node_positions(x, rotation))
+    def poses(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """(ni,) of POSE of bodies at positions x (n_owned, 3) turned by `rotation`."""
+        if not self.moving:
+            return poses_on_base(rotation.reshape(-1, 3, 3)[self.interfaces["slave"]])
+        poses = np.zeros(len(self.interfaces), POSE)
+        find_poses(self.interfaces, frames_at(self.column.centers(x)), rotation, poses)
+        return poses
+
+    def node_positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """Positions (N, 3) of the surface nodes from the bodies' positions x (n_owned, 3), without the static part."""
+        return self._out_of_frames(self.reference + self._displacement(x, rotation), rotation)
+
+    def _displacement(self, x, rotation) -> np.ndarray:
+        """Filtered displacement (N, 3) of the surface nodes in the frames of their bodies, from where these are drawn."""
+        return self.foot.position(into_frames(x, rotation, self.column.rows) - self.column.X)
+
+    def _into_frames(self, values, rotation):
+        return into_frames(values, rotation, self._first)
+
+    def _out_of_frames(self, values, rotation):
+        return out_of_frames(values, rotation, self._first)
+
+    def start_positions(self, x: np.ndarray, rotation: np.ndarray, poses: np.ndarray) -> np.ndarray:
+        """`positions` at the start of a step, to which the nodes below the points are kept."""
+        positions = self.positions(x, rotation, poses, True)
+        self._below, self._shares = self.points["below"].copy(), self.points["shares"].copy()
+        return positions
+
+    def positions(self, x: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False) -> np.ndarray:
+        """Positions (P, 3) of the points, without the static part: in the table frame, or relative to the surface of the moving master in the frame of the interface.
+
+        starts: at the start of a step, for all of which it decides what points are beyond an outline.
+        """
+        if not self.moving:
+            positions = self.at_points(self.node_positions(x, rotation))
+        else:
+            moved = self._displacement(x, rotation)
+            positions = self.at_points(self._out_of_frames(self.reference + moved, rotation))
+            # of the centre of mass, which the frames of the interfaces follow
+            drawn = self._into_frames(np.repeat(self.column.centers(x), self.bodies.body["count"], axis=0), rotation) - (self.reference - self.arms)
+            place_on_masters(self.bodies, self.interfaces, self.points, poses, moved - drawn, starts, positions)
         positions[:, 2] += self.points["lift"]
         return positions
 
-    def velocities(self, v: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Velocities (n, 3) of the points from the column's velocities."""
-        return self.at_points(self.foot.position(v @ rotation) @ rotation.T)
+    def velocities(self, v: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False) -> np.ndarray:
+        """Velocities (P, 3) of the points from the bodies' velocities, relative to the master in the frame of the interface; starts: with the nodes that were below them
+        at the start of the step."""
+        nodes = self._out_of_frames(self.foot.position(into_frames(v, rotation, self.column.rows)), rotation)
+        velocities = self.at_points(nodes)
+        if self.moving:
+            under = np.flatnonzero(self.points["master"] != BASE)
+            below, shares = (self._below, self._shares) if starts else (self.points["below"], self.points["shares"])
+            relative = velocities[under] - np.einsum("pq,pqa->pa", shares[under], nodes[below[under]])
+            velocities[under] = np.einsum("pba,pb->pa", poses["frame"][self.points["interface"][under]], relative)
+        return velocities
 
     def load(self, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Nodal forces (n_owned, 3) of contact forces (n, 3) on the column turned by `rotation`."""
-        return self.foot.load(self.at_nodes(forces) @ rotation) @ rotation.T
+        """Nodal forces (n_owned, 3) of contact forces (P, 3) in a step on bodies turned by `rotation`."""
+        at_nodes = self._into_frames(self.at_nodes(forces, rotation, True), rotation)
+        return out_of_frames(self.foot.load(at_nodes), rotation, self.column.rows)
 
-    def acceleration(self, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Accelerations (n_owned, 3) of contact forces, or velocity jumps of contact impulses (n, 3)."""
-        return self.foot.acceleration(self.at_nodes(forces) @ rotation) @ rotation.T
+    def acceleration(self, forces: np.ndarray, rotation: np.ndarray, within: bool = True) -> np.ndarray:
+        """Accelerations (n_owned, 3) of contact forces in a step; within False: velocity jumps of contact impulses (P, 3) at its end."""
+        at_nodes = self._into_frames(self.at_nodes(forces, rotation, within), rotation)
+        return out_of_frames(self.foot.acceleration(at_nodes), rotation, self.column.rows)
 
-    def nodal(self, compliance: np.ndarray, scale: float, frame: np.ndarray) -> Nodal:
-        """Compliance of a stage from that of its response (n, n, 3, 3), found with the column turned by `frame`."""
-        elastic = node_matrix(scale * np.einsum("ab,ijac,cd->ijbd", frame, compliance, frame))
+    def displacement(self, response, scale: float, forces: np.ndarray, rotation: np.ndarray, frame: np.ndarray) -> np.ndarray:
+        """Displacement (n_owned, 3) [m] of `scale` times contact forces (P, 3) in a step on bodies turned by `rotation`; response: of `fem.composite.response_of`,
+        found with the bodies turned by `frame`."""
+        along = rotation @ frame.swapaxes(-1, -2)
+        at_nodes = self._into_frames(self.at_nodes(forces, rotation, True), along)
+        return out_of_frames(scale * response.displacement(at_nodes), along, self.column.rows)
+
+    def nodal(self, compliance, scale: float, frame: np.ndarray) -> Nodal:
+        """Compliance of a stage from that of its response (n, n, 3, 3), of several bodies a list, found with them turned by `frame`."""
+        if frame.ndim == 2:
+            elastic = _turned(compliance, scale, frame)
+        else:
+            elastic = np.zeros_like(self.bodies.static)
+            for one, R, rows in zip(compliance, frame, self._first):
+                elastic[3 * rows.start:3 * rows.stop, :3 * len(one)] = _turned(one, scale, R)
         return Nodal(elastic, elastic + self.bodies.static)
 
     def begin_step(self, state, halfway: np.ndarray, rolls: bool) -> tuple[np.ndarray, np.ndarray, bool]:
-        """Place the points of a step: what the State brings to them (n,) of CONTACT, its rim (1,) of RIM, whether it rolled.
+        """Place the points of a step: what the State brings to them (P,) of CONTACT, its rims (ni,) of RIM, whether any rolled.
 
         Args:
-            halfway: (3, 3) rotation in the middle of the step. rolls: False: the points stay in any case.
+            halfway: (3, 3) rotation in the middle of the step, (nb, 3, 3) of several bodies. rolls: False: the points stay in any case.
         """
         before, rims, rolled = state.contact.copy(), state.rims.copy(), False
-        if self.rim is None:
+        if not (self.interfaces["rim_count"].any() or self.moving):
             return before, rims, rolled
-        arms, nodes = self.reference, np.asarray(self.rim.nodes, np.int64)
-        rolled, tilt, roll = plan_roll(self.record, nodes, rims[0], state.contact, state.rotation, halfway, rolls)
-        if not rolled:
-            stay(roll, nodes, rims[0], tilt, arms, self.points)
-            return before, rims, rolled
-        roll_points(roll, nodes, rims[0], arms, self.node_positions(state.x, state.rotation), state.contact, self.points, before)
-        elsewhere = ~before["located"]
-        before["relative"][elsewhere] = self.positions(state.x, state.rotation)[elsewhere]
-        before["anchor"][elsewhere], before["located"] = before["relative"][elsewhere, :2], True
+        now, then = self.poses(state.x, state.rotation), self.poses(state.x, halfway)
+        for interface, rim, pose, turned in zip(self.interfaces, rims, now, then):
+            if interface["rim_count"]:
+                rolled |= self._roll(interface, rim, pose, turned["turned"][SLAVE], state, before, rolls)
+        if self.moving or rolled:
+            positions = self.start_positions(state.x, state.rotation, now)
+            # one that was found by nothing but its place, or beyond an outline
+            elsewhere = ~before["located"] | (self.points["master"] != BASE) & (before["relative"][:, 2] > CLOSE * self.interfaces["width"][self.points["interface"]])
+            before["relative"][elsewhere] = positions[elsewhere]
+            before["anchor"][elsewhere], before["located"] = before["relative"][elsewhere, :2], True
         return before, rims, rolled
+
+    def _roll(self, interface, rim, pose, halfway, state, before, rolls) -> bool:
+        """Place the points of a rim; whether they rolled."""
+        points = self.joints.rim[interface["rim_first"]:interface["rim_first"] + interface["rim_count"]]
+        rolled, tilt, roll = plan_roll(interface, points, rim, state.contact, pose["turned"][SLAVE], halfway, rolls)
+        if not rolled:
+            stay(roll, points, rim, tilt, self.arms, self.points)
+            return False
+        places = self.node_positions(state.x, state.rotation)
+        if interface["master"] != BASE:
+            places = (places - pose["origin"]) @ pose["frame"]
+        roll_points(roll, points, rim, self.arms, places, state.contact, self.points, before)
+        return True
+
+    def ways_down(self, poses: np.ndarray) -> np.ndarray:
+        """Ways down (k, 2) to the master's surface along the slave's axes x and y, of those with a round rim."""
+        return -poses["turned"][self.interfaces["rim_count"] > 0, SLAVE, 2, :2]
 
     def take_rim_as_polygon(self) -> None:
         """Let the foot roll from node to node."""
         self.rim = self.laws["rim"] = None
-        self.record["rim_count"] = 0
+        self.interfaces["rim_count"] = 0
 
     def static_compliance(self, listed: np.ndarray) -> np.ndarray:
         """Compliance (3 k, 3 k) [m/N] of some points that follows their forces at once, in the reference configuration."""
@@ -148,21 +251,21 @@ class Interface:
         interpreted(assemble)(self.bodies, self.surface, self.points, self.reference, listed, poses_on_base(np.eye(3)[None]), 0.0, self.bodies.static, 1.0, own, W)
         return W
 
-    def solve(self, nodal: Nodal, rotation, positions, dt: float, before, after, times: int = ITERATIONS) -> tuple[Stop, float]:
-        """Find forces in `after` that obey the laws at points that move from `positions` (n, 3) along with them: why it ended, violation over
+    def solve(self, nodal: Nodal, poses, positions, dt: float, before, after, times: int = ITERATIONS) -> tuple[Stop, float]:
+        """Find forces in `after` that obey the laws at points that move from `positions` (P, 3) along with them: why it ended, violation over
         what is allowed.
 
         times: 0 only looks how well they do.
         """
         springs = springs_of(self.points, self.record, dt)
-        # the column's compliance has changed with its place
+        # the bodies' compliance has changed with their places
         begin_problem(self._problem, False, False)
         while True:
             answer, residual = solve_linear(self._problem, self.bodies, self.surface, self.points, self.interfaces, springs, nodal.dynamic, nodal.elastic,
-                                            self._stick, rims_at_rest(), poses_on_base(rotation[None]), positions, times, before, after, self.counts)
+                                            self._stick, rims_at_rest(), poses, positions, times, before, after, self.counts)
             if answer != FAR_BASE:
                 return _STOPS.get(answer, Stop.CONVERGED), residual
-            self._extend_base(positions[self.near])
+            self._extend_base(positions[self.near[self.points["master"][self.near] == BASE]])
 
     def _extend_base(self, positions) -> None:
         """Make the base's compliance known under positions (k, 3) and one row of its nodes around."""
@@ -182,3 +285,8 @@ class Interface:
         """Iterations of contact problems since the last call."""
         count, self.counts[N_CONTACT] = int(self.counts[N_CONTACT]), 0
         return count
+
+
+def _turned(compliance, scale, frame) -> np.ndarray:
+    """Node blocks (n, n, 3, 3) found in a frame (3, 3), in the body's, as a matrix (3 n, 3 n)."""
+    return node_matrix(scale * np.einsum("ab,ijac,cd->ijbd", frame, compliance, frame))

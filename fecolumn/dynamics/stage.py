@@ -1,4 +1,4 @@
-"""One implicit stage: positions of the column and contact forces in equilibrium at the end of a step."""
+"""One implicit stage: positions of the bodies and contact forces in equilibrium at the end of a step."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.dynamics.cuts import Stop
-from fecolumn.fem.rotation import polar_rotation
+from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation
 
 
 @dataclass(slots=True)
@@ -19,9 +19,10 @@ class Stage:
     start: (n_owned, 3) first guess of the positions [m].
     scale: effective force per contact force.
     before: (n,) of CONTACT, what the points bring to the stage; the forces are the first guess. dt: length of the step [s], inf at rest.
-    rotation: (3, 3) of the column at the start. Contact forces act on the column in the rotation halfway, so that their
+    rotation: (3, 3) of the column at the start, (nb, 3, 3) of several bodies. Contact forces act on the column in the rotation halfway, so that their
         work over a turn of the column by t is that of the foot's path up to t^3.
     velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target [m/s]; None where nothing is damped.
+    centers: (nb, 3) of mass at the start [m], ties: (nl,) of TIE there; None of a structure without links.
     """
 
     target: np.ndarray
@@ -32,6 +33,8 @@ class Stage:
     dt: float
     rotation: np.ndarray
     velocity: np.ndarray | None = None
+    centers: np.ndarray | None = None
+    ties: np.ndarray | None = None
 
 
 @dataclass(slots=True)
@@ -63,7 +66,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         tolerance: largest unbalanced nodal force allowed, relative to the larger of weight and contact forces;
             never below the rounding of the internal forces.
     """
-    interface, column, scale = system.interface, system.column, stage.scale
+    interface, column, links, scale = system.interface, system.column, system.links, stage.scale
     x, contact, static = np.array(stage.start), stage.before.copy(), 0.0
     first = previous = size = np.inf
 
@@ -71,7 +74,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         # a point that is far from the base was found by nothing but its place, and would stick there
         far = ~contact["located"]
         if iteration and far.any():
-            contact["relative"][far] = interface.positions(x, rotation)[far]
+            contact["relative"][far] = interface.positions(x, rotation, poses)[far]
             contact["anchor"][far] = contact["relative"][far, :2]
         contact["located"] = True
         return Outcome(stop, x, internal, strain, rotation, halfway, contact, static, iteration, size, message)
@@ -82,12 +85,14 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         residual = operators.mass_factor * column.apply(column.mass, stage.target - x) + stage.load - operators.stiffness_factor * internal
         if stage.velocity is not None:
             residual -= operators.stiffness_factor * system.damping.force(stage.velocity + operators.rate_factor * (x - stage.target), rotation)
+        if links:
+            residual += scale * links.load(links.pulls(stage, x, rotation), halfway)
         total = residual + scale * interface.load(contact["force"], halfway)
         reference = max(system.weight, scale * np.abs(contact["force"]).max(initial=0.0))
         size = column.max(np.abs(total).max(initial=0.0)) / reference
-        nodal, violation = _nodal(interface, operators, scale), np.inf
+        nodal, poses, violation = _nodal(interface, operators, scale), interface.poses(x, rotation), np.inf
         if iteration:
-            stop, violation = interface.solve(nodal, rotation, interface.positions(x, rotation), stage.dt, stage.before, contact, 0)
+            stop, violation = interface.solve(nodal, poses, interface.positions(x, rotation, poses), stage.dt, stage.before, contact, 0)
             if stop is not Stop.CONVERGED:
                 return ended(stop)
             static = interface.stored(stage.dt, stage.before, contact)
@@ -104,13 +109,14 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         previous = size
 
         # Newton about the present forces, so that a slightly turned compliance does not matter at convergence
-        turn, along = rotation @ operators.rotation.T, halfway @ operators.rotation.T
-        x = system.kinematics.moved(x, operators.factor.solve(total @ turn) @ turn.T)
+        turn = rotation @ operators.rotation.swapaxes(-1, -2)
+        x = system.kinematics.moved(x, out_of_frames(operators.factor.solve(into_frames(total, turn, column.rows)), turn, column.rows))
         old = contact["force"].copy()
-        stop, violation = interface.solve(nodal, rotation, interface.positions(x, rotation), stage.dt, stage.before, contact)
+        poses = interface.poses(x, rotation)
+        stop, violation = interface.solve(nodal, poses, interface.positions(x, rotation, poses), stage.dt, stage.before, contact)
         if stop is not Stop.CONVERGED:
             return ended(stop, "" if stop is Stop.OFF_BASE else f"contact residual {violation:.2e} of what is allowed")
-        x = system.kinematics.moved(x, scale * operators.response.displacement(interface.at_nodes(contact["force"] - old) @ along) @ along.T)
+        x = system.kinematics.moved(x, interface.displacement(operators.response, scale, contact["force"] - old, halfway, operators.rotation))
     return ended(Stop.ITERATIONS)
 
 

@@ -7,13 +7,14 @@ import numpy as np
 from fecolumn._compiled import interpreted
 from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, what_happens
 from fecolumn.contact.pad import springs_of
-from fecolumn.contact.pose import poses_on_base
+from fecolumn.contact.pose import frames_at
 from fecolumn.contact.problem import OK
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import losses, move_anchors
 from fecolumn.dynamics.cuts import StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
 from fecolumn.dynamics.stage import Stage, equilibrate
 from fecolumn.dynamics.system import State
@@ -69,12 +70,14 @@ class Stepper:
 
     def _to_make_at_once(self, state, done) -> int:
         """As `rolling.part_of_step`."""
-        if not self.plastic or self.system.interface.rim is None:
+        interface, kinematics, dt = self.system.interface, self.system.kinematics, self.system.hht.dt
+        if not self.plastic or not interface.interfaces["rim_count"].any():
             return PARTS
-        half = self.system.hht.dt / 2
-        down = -state.rotation[2, :2]
-        rate = (-self.system.kinematics.rotation(state.x + half * state.v)[2, :2] - down) / half
-        return interpreted(part_of_step)(*down, *rate, self.system.hht.dt, done)
+        half = dt / 2
+        later = state.x + half * state.v
+        downs = interface.ways_down(interface.poses(state.x, state.rotation))
+        rates = (interface.ways_down(interface.poses(later, kinematics.rotation(later))) - downs) / half
+        return min(interpreted(part_of_step)(*down, *rate, dt, done) for down, rate in zip(downs, rates))
 
     def _part(self, state, ground, hht) -> State:
         """A step of `hht`, in halves where it fails."""
@@ -91,7 +94,7 @@ class Stepper:
         dt, al, be, ga = hht.dt, hht.alpha, hht.beta, hht.gamma
         before, rims, rolled = interface.begin_step(start, system.kinematics.rotation(start.x + dt / 2 * start.v), rolls)
         F0, F1 = system.load(start.ground), system.load(ground)
-        damping, resistance = system.damping, system.resistance
+        damping, resistance, links = system.damping, system.resistance, system.links
         damped = damping.force(start.v, start.rotation) if damping else 0.0
         turned = resistance.acceleration(start, dt) if resistance else 0.0
         resisted = column.apply(column.mass, turned) if resistance else 0.0
@@ -100,7 +103,8 @@ class Stepper:
             load=(1 + al) * F1 - al * F0 + al * (start.internal + damped) + resisted / (2 * be),
             start=system.kinematics.predicted(start.x, dt * start.v + dt**2 / 2 * (start.a + start.contact_a)),
             scale=1 / (2 * be) if self.plastic else 1.0, before=before, dt=dt, rotation=start.rotation,
-            velocity=start.v + dt * (1 - ga) * start.a if damping else None)
+            velocity=start.v + dt * (1 - ga) * start.a if damping else None,
+            centers=column.centers(start.x) if links else None, ties=start.ties)
         operators = system.operators(hht.mass_factor, hht.stiffness_factor, hht.rate_factor)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
         self.record.iterations += outcome.iterations
@@ -112,10 +116,13 @@ class Stepper:
         R, springs = outcome.halfway, springs_of(interface.points, interface.record, dt)
         move_anchors(interface.points, interface.interfaces, springs, interface.near, before, outcome.contact)
         after = State(time=start.time + dt, x=outcome.x, v=start.v, a=start.a, contact_a=start.contact_a, internal=outcome.internal, strain=outcome.strain,
-                      rotation=outcome.rotation, contact=outcome.contact, static=outcome.static, ground=np.array(ground, float), rims=rims)
+                      rotation=outcome.rotation, contact=outcome.contact, static=outcome.static, ground=np.array(ground, float), rims=rims, ties=start.ties.copy())
         push = interface.load(after.forces, R)
         if self.plastic:
             w = interface.acceleration(after.forces, R) + turned
+            if links:
+                pulls = links.pulls(stage, after.x, after.rotation)
+                push, w = push + links.load(pulls, R), w + links.acceleration(pulls, R)
             worked = push + resisted
         else:
             w = np.zeros_like(start.x)
@@ -154,10 +161,14 @@ class Stepper:
         carried = column.sum(np.einsum("cna,na->c", column.unit_loads, step))
         damping = -column.dot(step, damped) / 2 if self.system.damping else 0.0
         rolling = column.dot(step, resisted) if self.system.resistance else 0.0
-        contact = column.dot(step, worked) - rolling + after.static - start.static
+        dashed = lost = 0.0
+        if self.system.links:
+            dashed, tied, lost = end_links(self.system.links.links, frames_at(column.centers(after.x)), after.rotation, start.ties, after.ties, hht.dt)
+            after.static += tied
+        contact = column.dot(step, worked) - rolling + after.static - start.static + lost + dashed
         friction, landed, dashpots = losses(interface.points, interface.interfaces, springs, interface.near, before, after.contact)
         self.ledger.add(base_work=-np.dot((start.ground + after.ground) / 2, carried), algorithmic=algorithmic - damping,
-                        friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots, rolling=rolling)
+                        friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots - dashed - lost, rolling=rolling)
         return contact
 
     def _collide(self, start, before, after, hht, springs, contact_work) -> None:
@@ -172,19 +183,20 @@ class Stepper:
         if not mark_turning(interface.points, interface.near, before, after.contact, turning) and not lands:
             return
         # each in the frame of its own time: turned by another one a rotation looks like a strain, which the foot's filter takes away
-        early, late = interface.velocities(start.v, start.rotation), interface.velocities(after.v, R)
+        poses = interface.poses(after.x, R)
+        early, late = interface.velocities(start.v, start.rotation, interface.poses(start.x, start.rotation), True), interface.velocities(after.v, R, poses)
         happens = what_happens(interface.interfaces, interface.points, interface.near, before, after.contact, hht.dt, early, late, landing, turning)
         if happens == NOTHING:
             return
         answer, pushed, impulses = find_impact(
-            interface.bodies, interface.surface, interface.points, interface.interfaces, springs, interface.near, interface.points["arm"].copy(), poses_on_base(R[None]), before,
+            interface.bodies, interface.surface, interface.points, interface.interfaces, springs, interface.near, interface.points["arm"].copy(), poses, before,
             after.contact, early, late, landing, turning, happens == LANDS, hht.dt, contact_work, interface.counts)
         self.record.contact_iterations += interface.spent()
         if answer != OK:
             raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: the impulses of an impact")
         if not pushed:
             return
-        jump = interface.acceleration(impulses, R)
+        jump = interface.acceleration(impulses, R, False)
         gained = column.dot(after.v + jump / 2, column.apply(column.mass, jump))
         self.ledger.add(**{"impact" if happens == LANDS else "friction": gained})
         after.v = after.v + jump

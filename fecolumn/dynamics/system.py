@@ -7,25 +7,30 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fecolumn.contact.interface import rims_at_rest
+from fecolumn.contact.joints import Joints, joint_on_base
 from fecolumn.contact.points import CONTACT
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.interface import Interface, Nodal
+from fecolumn.dynamics.linkage import Linkage
+from fecolumn.dynamics.links import TIE
 from fecolumn.dynamics.resistance import Resistance
+from fecolumn.fem.composite import CompositeFactor, CompositeResponse, factor_of, foot_of, response_of
 from fecolumn.fem.damping import DampedFactor
-from fecolumn.fem.effective import Factor, effective_factor
-from fecolumn.fem.foot import FilteredFoot, PlainFoot, Response
+from fecolumn.fem.effective import Factor
+from fecolumn.fem.foot import Response
 
 
 @dataclass(slots=True)
 class State:
     """Everything the next step needs, in the table frame.
 
-    x, v: (n_owned, 3) positions [m] and velocities [m/s] of the column.
+    x, v: (n_owned, 3) positions [m] and velocities [m/s] of the column, or of several bodies one below the other.
     a: (n_owned, 3) acceleration that HHT remembers [m/s2]; with the plastic impact law it is that of all forces but the
         contact's. contact_a: (n_owned, 3) that of the contact forces.
-    internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (3, 3) mean rotation.
-    contact: (n,) of CONTACT, what the foot's points carry. static: strain energy of base, foot's static rest, penalty springs and pad [J].
-    ground: (3,) acceleration of the base [m/s2]. rims: (1,) of RIM.
+    internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (3, 3) mean rotation,
+        (nb, 3, 3) of several bodies.
+    contact: (P,) of CONTACT, what the points carry. static: strain energy of base, static rest of the bodies, penalty springs, pad and links [J].
+    ground: (3,) acceleration of the base [m/s2]. rims: (ni,) of RIM. ties: (nl,) of TIE.
     """
 
     time: float
@@ -40,24 +45,25 @@ class State:
     static: float
     ground: np.ndarray
     rims: np.ndarray = field(default_factory=rims_at_rest)
+    ties: np.ndarray = field(default_factory=lambda: np.zeros(0, TIE))
 
     @property
     def forces(self) -> np.ndarray:
-        """Contact forces (n, 3) on the foot [N]."""
+        """Contact forces (P, 3) on the slaves [N], in the frames of their interfaces."""
         return self.contact["force"]
 
     @property
     def anchors(self) -> np.ndarray:
-        """Positions (n, 2) at which the foot's points stick [m]."""
+        """Positions (P, 2) at which the points stick [m]."""
         return self.contact["anchor"]
 
     @property
     def relative(self) -> np.ndarray:
-        """Positions (n, 3) of the foot's points relative to the base, the third column the gap [m]."""
+        """Positions (P, 3) of the points relative to base or master, the third column the gap [m]."""
         return self.contact["relative"]
 
     def copy(self) -> "State":
-        return replace(self, **{name: getattr(self, name).copy() for name in ("x", "v", "a", "contact_a", "internal", "rotation", "contact", "ground", "rims")})
+        return replace(self, **{name: getattr(self, name).copy() for name in ("x", "v", "a", "contact_a", "internal", "rotation", "contact", "ground", "rims", "ties")})
 
 
 @dataclass(slots=True)
@@ -68,69 +74,72 @@ class Operators:
     mass_factor: float
     stiffness_factor: float
     rate_factor: float
-    factor: Factor | DampedFactor
-    response: Response
+    factor: Factor | DampedFactor | CompositeFactor
+    response: Response | CompositeResponse
     rotation: np.ndarray
     nodal: Nodal | None = None
 
 
 class System:
-    """Column, its kinematics, its contact with the base, and the operators of each step size.
+    """Bodies, their kinematics, their contact with the base and one another, and the operators of each step size.
 
     Args:
-        column: Body.
-        kinematics: Corotated or TotalLagrangian of the column.
-        base: BasePlate.
-        foot: Footprint, the column nodes that may touch.
-        friction, law, pad: of the Interface.
+        column: Body, or Composite of several.
+        kinematics: Corotated or TotalLagrangian of the column, CompositeKinematics of several bodies.
+        base: BasePlate, or what answers as it does.
+        nodes: (n,) surface nodes of the column that may touch; of several bodies a list of each one's.
+        joints: where they touch what.
         gravity: (3,) [m/s2].
         hht: time integration whose step decides the filter of the contact.
         filtered: contact by FilteredFoot, as the plastic impact law needs it, or PlainFoot.
-        rim, restitution: of the Interface.
-        damping: ModalDamping of the column, or None. rolling: coefficient of the rim's Resistance [-].
+        damping: ModalDamping of the column, CompositeDamping, or None.
+        links: (nl,) of LINK between several bodies. laws: of the Interface of a single column; its `rolling` is the coefficient of the rim's Resistance [-].
     """
 
-    def __init__(self, column, kinematics, base, foot, friction, law, gravity, hht: HHT, filtered=True,
-                 rim=None, damping=None, restitution: float = 0.0, rolling: float = 0.0, pad=None):
+    def __init__(self, column, kinematics, base, nodes, joints: Joints, gravity, hht: HHT, filtered=True, damping=None, links=None, laws=None):
         self.column, self.kinematics, self.base, self.damping = column, kinematics, base, damping
-        self.footprint, self.foot_nodes, self.areas = foot, foot.nodes, foot.areas
+        #: Footprint of a single column, its nodes and areas.
+        self.footprint = self.foot_nodes = self.areas = None
         self.gravity, self.hht = np.asarray(gravity, float), hht
         self.weight = column.total_mass * np.linalg.norm(self.gravity)
         self.factorizations = 1  # the base's
         self._operators: dict[tuple, Operators] = {}
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)
-        response = FilteredFoot(column, foot.nodes, factor, hht.mass_factor, hht.stiffness_factor) if filtered \
-            else PlainFoot(column, foot.nodes)
-        self.interface = Interface(response, column.all_X[foot.nodes], base, friction, law, rim, restitution, rolling, pad)
-        self._add(hht.mass_factor, hht.stiffness_factor, hht.rate_factor, factor, np.eye(3))
-        self.rolling, self.resistance = rolling, Resistance(column, rim, rolling) if rim and rolling else None
+        foot = foot_of(column, nodes, factor, hht.mass_factor, hht.stiffness_factor, filtered)
+        self.interface = Interface(column, foot, base, joints, laws)
+        self.links = Linkage(column, links) if links is not None and len(links) else None
+        self._add(hht.mass_factor, hht.stiffness_factor, hht.rate_factor, factor, self.column.unturned)
+        rim, self.rolling = self.interface.rim, (laws or {}).get("rolling", 0.0)
+        self.resistance = Resistance(column, rim, self.rolling) if rim and self.rolling else None
 
     def unstrained(self, x: np.ndarray) -> State:
-        """The column at rest at positions x (n_owned, 3) to which a rigid motion has carried it; nothing touches yet."""
+        """The bodies at rest at positions x (n_owned, 3) to which rigid motions have carried them; nothing touches yet."""
         interface = self.interface
         rotation, internal, strain = self.kinematics.internal(x)
         contact = np.zeros(interface.size, CONTACT)
-        contact["relative"], contact["located"] = interface.node_positions(x, rotation), True
+        places = interface.start_positions(x, rotation, interface.poses(x, rotation)) if interface.moving else interface.node_positions(x, rotation)[interface.points["node"]]
+        contact["relative"], contact["located"] = places, True
         contact["anchor"] = contact["relative"][:, :2]
         zero = np.zeros_like(x)
+        ties = self.links.ties(self.column.centers(x), rotation) if self.links else np.zeros(0, TIE)
         return State(time=0.0, x=x.copy(), v=zero, a=zero.copy(), contact_a=zero.copy(), internal=internal, strain=strain, rotation=rotation, contact=contact,
-                     static=0.0, ground=np.zeros(3))
+                     static=0.0, ground=np.zeros(3), rims=rims_at_rest(len(interface.interfaces)), ties=ties)
 
-    def _factor(self, mass_factor, stiffness_factor, tangent=None) -> Factor:
-        self.factorizations += 1
-        return effective_factor(self.column, mass_factor, stiffness_factor, tangent)
+    def _factor(self, mass_factor, stiffness_factor, tangent=None) -> Factor | CompositeFactor:
+        self.factorizations += len(set(self.column.parts))
+        return factor_of(self.column, mass_factor, stiffness_factor, tangent)
 
     def _add(self, mass_factor, stiffness_factor, rate_factor, factor, rotation) -> Operators:
         if self.damping and rate_factor:
             factor = self.damping.damped(factor, mass_factor, stiffness_factor, rate_factor)
-        operators = Operators(mass_factor, stiffness_factor, rate_factor, factor, Response(self.interface.foot, factor), rotation)
+        operators = Operators(mass_factor, stiffness_factor, rate_factor, factor, response_of(self.interface.foot, factor), rotation)
         self._operators[mass_factor, stiffness_factor, rate_factor] = operators
         return operators
 
     def operators(self, mass_factor: float, stiffness_factor: float, rate_factor: float = 0.0) -> Operators:
         """Operators of mass_factor M + stiffness_factor (K + rate_factor C), C the damping, built once."""
         factors = mass_factor, stiffness_factor, rate_factor
-        return self._operators.get(factors) or self._add(*factors, self._factor(mass_factor, stiffness_factor), np.eye(3))
+        return self._operators.get(factors) or self._add(*factors, self._factor(mass_factor, stiffness_factor), self.column.unturned)
 
     def refresh(self, old: Operators, x: np.ndarray) -> Operators:
         """Operators with the column's tangent at positions x; only where the kinematics has one."""
@@ -149,8 +158,21 @@ class System:
         """Nodal force [N] that rounding leaves: internal and inertial forces are matrix times (position - position)."""
         column = self.column
         scale = column.stiffness_scale + mass_factor * column.mass_scale
-        return 4 * np.finfo(float).eps * scale * np.ptp(column.all_X, axis=0).max()
+        return 4 * np.finfo(float).eps * scale * column.extent
 
     def load(self, ground: np.ndarray) -> np.ndarray:
         """Gravity and base-motion forces (n_owned, 3) on the column for a ground acceleration (3,)."""
         return np.einsum("c,cna->na", self.gravity - ground, self.column.unit_loads)
+
+
+def one_column(column, kinematics, base, foot, friction, law, gravity, hht: HHT, filtered=True, rim=None, damping=None, restitution: float = 0.0,
+               rolling: float = 0.0, pad=None) -> System:
+    """System of a single column on the base.
+
+    Args:
+        foot: Footprint, the column nodes that may touch. friction, law, rim, restitution, rolling, pad: as of `contact.joints.joint_on_base`; the others of System.
+    """
+    laws = dict(friction=friction, law=law, rim=rim, restitution=restitution, rolling=rolling, pad=pad)
+    system = System(column, kinematics, base, foot.nodes, joint_on_base(column.all_X[foot.nodes], **laws), gravity, hht, filtered, damping, laws=laws)
+    system.footprint, system.foot_nodes, system.areas = foot, foot.nodes, foot.areas
+    return system

@@ -58,6 +58,13 @@ class Body:
         self.node_mass = self.unit_loads[2, :, 2]
         self.total_mass = self.sum(self.node_mass.sum())
         self.center = self.sum(self.node_mass @ self.X) / self.total_mass
+        #: As of `fem.composite.Composite`: one body, all rows its own, where it is drawn.
+        self.rows, self.placed, self.extent, self.unturned = [slice(0, self.n_owned)], self.X, np.ptp(self.all_X, axis=0).max(), np.eye(3)
+
+    @property
+    def parts(self) -> list:
+        """As of `fem.composite.Composite`."""
+        return [self]
 
     def _node_parts(self) -> np.ndarray:
         """Part of each owned node."""

@@ -17,7 +17,9 @@ def rotation_matrix(vector) -> np.ndarray:
 
 
 def polar_rotation(moment: np.ndarray) -> np.ndarray:
-    """Rotation R (3, 3) nearest to `moment` = sum m x X^T, so that x ~ R X in the mass-weighted mean."""
+    """Rotation R (3, 3) nearest to `moment` = sum m x X^T, so that x ~ R X in the mass-weighted mean; (nb, 3, 3) of as many moments."""
+    if moment.ndim == 3:
+        return np.stack([polar_rotation(one) for one in moment])
     left, _, right = np.linalg.svd(moment)
     flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
     return left @ flip @ right
@@ -31,3 +33,19 @@ def tilt_angle(rotation: np.ndarray) -> float:
 def twist_angle(rotation: np.ndarray) -> float:
     """Rotation about the vertical left when the tilt is undone the short way [rad]."""
     return float(np.arctan2(rotation[1, 0] - rotation[0, 1], rotation[0, 0] + rotation[1, 1]))
+
+
+def into_frames(values: np.ndarray, rotation: np.ndarray, rows=None) -> np.ndarray:
+    """Vectors (n, 3) in the table frame as vectors in the frame of their body.
+
+    Args:
+        rotation: (3, 3) body to table; or (nb, 3, 3) of several bodies, whose rows are the slices `rows`.
+    """
+    if rotation.ndim == 2:
+        return values @ rotation
+    return np.concatenate([values[own] @ R for own, R in zip(rows, rotation, strict=True)])
+
+
+def out_of_frames(values: np.ndarray, rotation: np.ndarray, rows=None) -> np.ndarray:
+    """Vectors (n, 3) in the frame of their body as vectors in the table frame; arguments as of `into_frames`."""
+    return into_frames(values, rotation.swapaxes(-1, -2), rows)

@@ -8,7 +8,8 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.points import BASE
-from fecolumn.contact.projection import ON, project_on_body
+from fecolumn.contact.pose import into_frame
+from fecolumn.contact.projection import ON, find_seat, take_surface
 
 # Rows of Motion.modal: coordinate, rate, and the acceleration that HHT remembers, without contact
 COORDINATE, RATE, ACCELERATION = range(3)
@@ -94,7 +95,7 @@ def find_places(structure, points, motion, pose, elastic, wanted, places):
             x[a] = arms[node, a] + moved[node, a]
         _into_table(motion, b, x[0], x[1], x[2], places[node])
         if points[i].master != BASE:
-            _into_frame(pose, places[node])
+            into_frame(pose, places[node])
 
 
 @njit
@@ -102,14 +103,6 @@ def _into_table(motion, b, x, y, z, target):
     """target (3,): position of the place x, y, z of body b in its frame."""
     for a in range(3):
         target[a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
-
-
-@njit
-def _into_frame(pose, place):
-    """A position (3,) in the table frame as one in that of an interface, in place."""
-    x, y, z, Q = place[0] - pose.origin[0], place[1] - pose.origin[1], place[2] - pose.origin[2], pose.frame
-    for a in range(3):
-        place[a] = Q[0, a] * x + Q[1, a] * y + Q[2, a] * z
 
 
 @njit
@@ -129,24 +122,18 @@ def find_on_master(structure, points, i, motion, poses, elastic, when, target):
 
     A point that is beyond the surface at the START of a step is put high above it: within a step none comes or goes over an outline.
     """
-    b, interface, seat = points[i].master, structure.interfaces[points[i].interface], elastic.seat[when, i]
-    axes = interface.axes
-    _into_frame(poses[points[i].interface], target)
+    b, interface = points[i].master, structure.interfaces[points[i].interface]
+    on = find_seat(structure.bodies, interface, points[i], poses[points[i].interface], target) == ON
     for a in range(3):
-        seat[a] = interface.origin[a] + axes[a, 0] * target[0] + axes[a, 1] * target[1] + axes[a, 2] * target[2]
-        points[i].seat[a] = seat[a]
-    on = project_on_body(structure.bodies, interface, points[i], target[0], target[1]) == ON
+        elastic.seat[when, i, a] = points[i].seat[a]
     if when == START:
         points[i].beyond = not on
     if points[i].beyond:
         target[2] = interface.width
     elif motion.modal.shape[2] > 0:
         for q in range(3):
-            node, w = points[i].below[q], points[i].shares[q]
-            _find_node(structure, node, b, motion, elastic, when)
-            moved = elastic.node[when, node]
-            for a in range(3):
-                target[a] -= w * (axes[0, a] * moved[0] + axes[1, a] * moved[1] + axes[2, a] * moved[2])
+            _find_node(structure, points[i].below[q], b, motion, elastic, when)
+            take_surface(interface, points[i], q, elastic.node[when, points[i].below[q]], target)
     target[2] += points[i].lift
 
 

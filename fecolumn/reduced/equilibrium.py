@@ -28,7 +28,7 @@ from fecolumn.contact.stick import Stick, holds, no_stick
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_on_master, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, begin_frames, follow, no_action
-from fecolumn.reduced.pose import find_poses
+from fecolumn.contact.pose import find_poses
 
 
 class Work(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fecolumn._compiled import njit
 from fecolumn.contact.problem import near_points
 from fecolumn.contact.work import losses
-from fecolumn.reduced.links import end_links
+from fecolumn.dynamics.links import end_links
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
 
 # Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS [J]

@@ -8,10 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.bodies import Bodies, node_matrix, one_body
-from fecolumn.contact.interface import interface_of
+from fecolumn.contact.joints import joint_on_base
 from fecolumn.contact.pad import Springs, springs_of
-from fecolumn.contact.points import node_points
-from fecolumn.reduced.links import LINK
+from fecolumn.dynamics.links import LINK
 
 
 @dataclass(frozen=True)
@@ -99,12 +98,11 @@ def structure_of(model: ColumnModel, hht, gravity, friction: float, law: np.ndar
     pushes = model.shapes * (2 * shrink - shrink**2)
     static = node_matrix(model.flexibility) - modal_sum(pushes, 1 / squares)
     bodies = one_body(model.arms, static, modal_sum(pushes, np.ones_like(squares)), float(model.mass), model.inertia)
-    points = node_points(model.arms, friction, law, pad.stiffness if pad else None)
+    joint = joint_on_base(model.arms, friction, law, rim, restitution, rolling, pad)
     reach = np.sqrt((pushes**2 / squares).sum(axis=(1, 2)))
     structure = Structure(bodies, pushes, squares[None], 2 * damping_ratio * model.frequencies[None], reach,
-                          interface_of(model.arms, rim, restitution, rolling, pad),
-                          np.asarray(rim.nodes, np.int64) if rim else np.zeros(0, np.int64), np.zeros(0, LINK), np.array(gravity, float))
-    return structure, points
+                          joint.interfaces, joint.rim, np.zeros(0, LINK), np.array(gravity, float))
+    return structure, joint.points
 
 
 def scheme(structure: Structure, points: np.ndarray, hht) -> Scheme:

@@ -11,7 +11,7 @@ from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.points import BASE, CONTACT
 from fecolumn.contact.record import record
-from fecolumn.reduced.links import TIE, pull, span
+from fecolumn.dynamics.links import TIE, pull_links
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
 from fecolumn.reduced.rotation import turn_by, turning
 
@@ -127,21 +127,6 @@ def _turn_frames(structure, action):
 
 
 @njit
-def _pull_links(structure, dt, start, end, action):
-    """Find the forces of the links; the largest change over the largest force."""
-    begin, way, force, change, largest = np.empty(3), np.empty(3), np.empty(3), 0.0, 0.0
-    for n in range(len(structure.links)):
-        link = structure.links[n]
-        span(link, start.frames, start.rotation, begin)
-        length = span(link, end.frames, end.rotation, way)
-        pull(link, start.ties[n], begin, way, length, dt, force)
-        for a in range(3):
-            change, largest = max(change, abs(force[a] - action.pulls[n, a])), max(largest, abs(force[a]))
-            action.pulls[n, a] = force[a]
-    return change / largest if largest > 0.0 else 0.0
-
-
-@njit
 def follow(structure, scheme, points, listed, start, free_center, free_modal, advance, elastic, end, action):
     """Carry the bodies to the end of the step under the forces of `end` at the listed points (k,), which has all that carry, and of the links.
 
@@ -154,7 +139,7 @@ def follow(structure, scheme, points, listed, start, free_center, free_modal, ad
         free_center: (nb, 3), free_modal: (nb, m): the end of the step without contact. advance: (nb, 3) dt times the spins at the start.
     """
     for sweep in range(SWEEPS):
-        change = max(_turn_frames(structure, action), _pull_links(structure, scheme.dt, start, end, action))
+        change = max(_turn_frames(structure, action), pull_links(structure.links, start.ties, start.frames, start.rotation, end.frames, end.rotation, scheme.dt, action.pulls))
         if sweep > 0 and change <= SETTLED:
             break
         _carry_bodies(structure, scheme, points, listed, start, free_center, advance, elastic, end, action)

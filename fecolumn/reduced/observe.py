@@ -14,7 +14,7 @@ from fecolumn.dynamics.energy import TERMS
 from fecolumn.dynamics.overturning import CAPPED, NO_RETURN, STANDS, Stance, fallen, stance
 from fecolumn.reduced.ledger import kinetic, strain, weight_energy
 from fecolumn.reduced.elastic import COORDINATE
-from fecolumn.reduced.pose import find_poses
+from fecolumn.contact.pose import find_poses
 
 #: Columns of a row: name in the history file and how many numbers.
 COLUMNS = (("time", 1), ("u_top", 3), ("tilt", 1), ("twist", 1), ("slide", 2), ("contact_force", 3), ("active_nodes", 1), ("penetration", 1),

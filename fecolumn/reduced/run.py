@@ -31,11 +31,11 @@ from fecolumn.dynamics.record import Record
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.equilibrium import equilibrate, work_of
 from fecolumn.reduced.ledger import N_PLACES
-from fecolumn.reduced.links import end_links, span
+from fecolumn.dynamics.links import end_links, span
 from fecolumn.reduced.model import scheme, structure_of
 from fecolumn.reduced.elastic import COORDINATE, END, START
 from fecolumn.reduced.observe import ENERGY, lost, observe
-from fecolumn.reduced.pose import frames_at, poses_of
+from fecolumn.contact.pose import frames_at, poses_of
 from fecolumn.reduced.step import step
 
 # step lengths from a whole step to its smallest part

@@ -16,7 +16,7 @@ from fecolumn.reduced.equilibrium import equilibrate
 from fecolumn.reduced.ledger import FRICTION, HIT, book, kinetic
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START, find_elastic, find_places, find_velocity
 from fecolumn.reduced.motion import push_bodies
-from fecolumn.reduced.pose import find_poses
+from fecolumn.contact.pose import find_poses
 from fecolumn.reduced.rotation import orthonormal, turn_by
 
 

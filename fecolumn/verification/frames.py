@@ -67,7 +67,7 @@ class MovingInterface(Interface):
     """
 
     def __init__(self, still: Interface):
-        super().__init__(still.foot, still.reference, still.base, **still.laws)
+        super().__init__(still.column, still.foot, still.base, still.joints, still.laws)
         self.position, self.first, self.known_velocities = np.zeros(3), np.zeros(3), []
 
     def begin_step(self, *args):
@@ -77,12 +77,12 @@ class MovingInterface(Interface):
         finally:
             self.position = end
 
-    def positions(self, x, rotation):
-        return super().positions(x, rotation) - self.position
+    def positions(self, x, *args):
+        return super().positions(x, *args) - self.position
 
-    def velocities(self, v, rotation):
+    def velocities(self, v, *args):
         base = next((base for known, base in self.known_velocities if known is v), self.known_velocities[-1][1])
-        return super().velocities(v, rotation) - base
+        return super().velocities(v, *args) - base
 
 
 class MovingStepper(Stepper):

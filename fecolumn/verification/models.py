@@ -13,7 +13,7 @@ from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.damping import ModalDamping
 from fecolumn.contact.footprint import Footprint
 from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.system import System
+from fecolumn.dynamics.system import System, one_column
 from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
@@ -89,5 +89,5 @@ def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, mat
         return {}, np.flatnonzero(plate.all_X[:, 2] < bottom + 1e-9 * np.ptp(plate.all_X[:, 2]))
 
     plate = BasePlate(Body(comm, base, base_material or material or steel, 1, held))
-    return System(body, kinematics, plate, Footprint.of_all(body.find_nodes(mesh.points[points]), areas), friction, np.zeros((len(points), 3)),
+    return one_column(body, kinematics, plate, Footprint.of_all(body.find_nodes(mesh.points[points]), areas), friction, np.zeros((len(points), 3)),
                   gravity, hht, filtered=filtered, damping=ModalDamping(body, DAMPED, damping_ratio) if damping_ratio else None, restitution=restitution)

@@ -15,6 +15,29 @@ LINK = record(("a", "i8"), ("b", "i8"), ("arm_a", "f8", 3), ("arm_b", "f8", 3), 
               ("pulls", "?"), ("pushes", "?"), ("yields", "f8"), ("breaks", "f8"))
 #: What a link carries from step to step: its length now and the part of it that has flowed [m], force [N], pull > 0; whether it is broken.
 TIE = record(("length", "f8"), ("flowed", "f8"), ("force", "f8"), ("broken", "?"))
+# Share of the change of a link's force that the motion within a step may answer at once: beyond it the step is too long for the link
+STIFFEST = 0.5
+
+
+def links_of(model, hht) -> np.ndarray:
+    """Links (nl,) of LINK."""
+    links = np.zeros(len(model.links), LINK)
+    for row, link in zip(links, model.links):
+        sides = [(model.parts[b] if b != BASE else None, np.asarray(arm, float)) for b, arm in ((link.a, link.arm_a), (link.b, link.arm_b))]
+        ends = [arm if part is None else part.center + part.rotation @ arm for part, arm in sides]
+        length = np.linalg.norm(ends[1] - ends[0])
+        along = (ends[1] - ends[0]) / length
+        # how far a force along the link moves its ends apart: by which the fixed point of a step contracts
+        turns = [(part, np.cross(arm, part.rotation.T @ along)) for part, arm in sides if part is not None]
+        gives = sum(1 / part.model.mass + turn @ np.linalg.solve(part.model.inertia, turn) for part, turn in turns)
+        if link.stiffness * gives * hht.dt**2 / 2 > STIFFEST:
+            longest = np.sqrt(2 * STIFFEST / (link.stiffness * gives))
+            raise ValueError(f"links.{link.name}: a stiffness of {link.stiffness:g} N/m between such light bodies needs steps of at most {longest:.2g} s")
+        held = link.slack + link.prestress / link.stiffness if link.prestress else 0.0
+        row["a"], row["b"], row["arm_a"], row["arm_b"] = link.a, link.b, link.arm_a, link.arm_b
+        row["length"], row["play"], row["stiffness"], row["damping"] = length - held, link.slack, link.stiffness, link.damping
+        row["pulls"], row["pushes"], row["yields"], row["breaks"] = link.pulls, link.pushes, link.yield_n, link.breaking_n
+    return links
 
 
 @njit
@@ -79,6 +102,21 @@ def pull(link, tie, begin, way, length, dt, target):
     for a in range(3):
         target[a] = total * (begin[a] + way[a]) / (before + length)
     return total
+
+
+@njit
+def pull_links(links, ties, frames, rotation, later_frames, later_rotation, dt, pulls):
+    """pulls (nl, 3): forces [N] of links with `ties` (nl,) on their ends a, in a step that brings the bodies from the first frames and rotations to the later
+    ones; the largest change over the largest force."""
+    begin, way, force, change, largest = np.empty(3), np.empty(3), np.empty(3), 0.0, 0.0
+    for n in range(len(links)):
+        span(links[n], frames, rotation, begin)
+        length = span(links[n], later_frames, later_rotation, way)
+        pull(links[n], ties[n], begin, way, length, dt, force)
+        for a in range(3):
+            change, largest = max(change, abs(force[a] - pulls[n, a])), max(largest, abs(force[a]))
+            pulls[n, a] = force[a]
+    return change / largest if largest > 0.0 else 0.0
 
 
 @njit

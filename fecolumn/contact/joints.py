@@ -1,0 +1,77 @@
+"""Where bodies meet: points, interfaces, rims and facets, from the plain numbers of a `structures.model.StructureModel` or of one foot on the base."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn.contact.bodies import FACET
+from fecolumn.contact.interface import interface_of
+from fecolumn.contact.points import BASE, node_points
+from fecolumn.contact.rim import Rim
+
+
+class Joints(NamedTuple):
+    """points: (P,) of POINT; interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; facets: of FACET."""
+
+    points: np.ndarray
+    interfaces: np.ndarray
+    rim: np.ndarray
+    facets: np.ndarray
+
+
+def joint_on_base(arms: np.ndarray, friction: float, law: np.ndarray, rim: Rim | None = None, restitution: float = 0.0, rolling: float = 0.0, pad=None) -> Joints:
+    """The only foot, with nodes at arms (n, 3) [m], on the base.
+
+    Args:
+        law: (n, 3) compliance of the contact law [m/N]. rim: of a round foot. restitution, rolling, pad: see `contact.interface`.
+    """
+    return Joints(node_points(arms, friction, law, pad.stiffness if pad else None), interface_of(arms, rim, restitution, rolling, pad),
+                  np.asarray(rim.nodes if rim else [], np.int64), np.zeros(0, FACET))
+
+
+def joints_of(parts, joints) -> Joints:
+    """Points and interfaces of the joints (`structures.model.Joint`) of parts (`structures.model.Part`), whose nodes come one after another."""
+    first, facets, found = np.cumsum([0] + [len(part.model.arms) for part in parts]), np.zeros(0, FACET), {}
+    points, interfaces, rims = [], [], []
+    for k, joint in enumerate(joints):
+        slave = parts[joint.slave].model
+        touching = slave.surfaces[joint.slave_surface]
+        arms = slave.arms[touching.nodes]
+        rim = Rim.find(arms) if joint.round else None
+        interface = interface_of(arms, rim, joint.restitution, slave=joint.slave, master=joint.master)
+        interface["width"] = np.ptp(arms @ touching.axes[:, :2], axis=0).max()
+        interface["rim_first"] = sum(map(len, rims))
+        rims.append(sum(map(len, points)) + np.asarray(rim.nodes if rim else [], np.int64))
+        if joint.master != BASE:
+            surface = parts[joint.master].model.surfaces[joint.master_surface]
+            key = joint.master, joint.master_surface
+            if key not in found:
+                found[key] = len(facets)
+                facets = np.concatenate([facets, facets_of(surface, parts[joint.master].model.arms, first[joint.master])])
+            interface["facet_first"], interface["facet_count"] = found[key], len(surface.triangles)
+            interface["origin"], interface["axes"] = surface.origin, surface.axes
+        own = node_points(arms, joint.friction, joint.law, slave=joint.slave, master=joint.master, interface=k)
+        own["node"] = first[joint.slave] + touching.nodes
+        own["carriers"] = own["node"][:, None]
+        points.append(own)
+        interfaces.append(interface)
+    return Joints(np.concatenate(points), np.concatenate(interfaces), np.concatenate(rims), facets)
+
+
+def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
+    """Triangles (t,) of FACET of a Surface of a body with nodes at `arms` (n, 3), in rows from `first` on."""
+    facets, sides = np.zeros(len(surface.triangles), FACET), {}
+    facets["nodes"] = first + surface.nodes[surface.triangles]
+    facets["corners"] = ((arms[surface.nodes] - surface.origin) @ surface.axes[:, :2])[surface.triangles]
+    facets["neighbours"] = -1
+    for number, triangle in enumerate(surface.triangles):
+        for q in range(3):
+            side = frozenset((triangle[(q + 1) % 3], triangle[(q + 2) % 3]))
+            if side in sides:
+                other, place = sides.pop(side)
+                facets["neighbours"][number, q], facets["neighbours"][other, place] = other, number
+            else:
+                sides[side] = number, q
+    return facets

@@ -1,0 +1,206 @@
+"""Several bodies that answer as one: whatever is asked of a body is asked of each, rows of one below those of the other.
+
+Copies of a body are the same `fem.body.Body` object. What is made of it, a factor, the filter of its surface, is made once for all of them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.fem.damping import ModalDamping
+from fecolumn.fem.effective import effective_factor
+from fecolumn.fem.foot import FilteredFoot, PlainFoot, Response
+
+
+class Composite:
+    """Bodies, each in its place.
+
+    Owned arrays (n_owned, 3) hold the owned nodes of this rank, body by body.
+
+    Args:
+        parts: of Body, copies the same object. centers: (nb, 3) [m] their centres of mass, rotations: (nb, 3, 3) their turns, in the table frame, unstrained.
+    """
+
+    def __init__(self, parts: list, centers: np.ndarray, rotations: np.ndarray):
+        self.parts, self.comm = list(parts), parts[0].comm
+        self.rows = slices([part.n_owned for part in parts])
+        self.n_owned, self.n_nodes = (sum(getattr(part, name) for part in parts) for name in ("n_owned", "n_nodes"))
+        self.X, self.unturned = np.concatenate([part.X for part in parts]), np.tile(np.eye(3), (len(parts), 1, 1))
+        #: Unstrained positions (n_owned, 3) in the table frame [m].
+        self.placed = np.concatenate([center + (part.X - part.center) @ R.T for part, center, R in zip(parts, centers, rotations)])
+        places = np.concatenate([center + (part.all_X - part.center) @ R.T for part, center, R in zip(parts, centers, rotations)])
+        #: Largest extent along an axis [m].
+        self.extent = np.ptp(places, axis=0).max()
+        self.mass, self.stiffness = ([getattr(part, name) for part in parts] for name in ("mass", "stiffness"))
+        self.stiffness_scale, self.mass_scale = (max(getattr(part, name) for part in parts) for name in ("stiffness_scale", "mass_scale"))
+        self.unit_loads = np.concatenate([part.unit_loads for part in parts], axis=1)
+        self.node_mass = np.concatenate([part.node_mass for part in parts])
+        self.total_mass = sum(part.total_mass for part in parts)
+        self.sum, self.max, self.dot = parts[0].sum, parts[0].max, parts[0].dot
+
+    def apply(self, matrices, values: np.ndarray) -> np.ndarray:
+        """Product of each body's matrix with its rows of an owned array (n_owned, 3)."""
+        return np.concatenate([part.apply(matrix, values[rows]) for part, matrix, rows in zip(self.parts, matrices, self.rows)])
+
+    def centers(self, x: np.ndarray) -> np.ndarray:
+        """Centres of mass (nb, 3) of positions x (n_owned, 3) [m]."""
+        return self.sum(np.stack([part.node_mass @ x[rows] for part, rows in zip(self.parts, self.rows)])) / np.array([[part.total_mass] for part in self.parts])
+
+    def of_each(self, make) -> list:
+        """What `make` gives of each body (and its first rows), made once for all copies."""
+        made = {}
+        for part, rows in zip(self.parts, self.rows):
+            if part not in made:
+                made[part] = make(part, rows)
+        return [made[part] for part in self.parts]
+
+
+def slices(counts) -> list[slice]:
+    """Rows of bodies with so many rows each."""
+    ends = np.cumsum([0, *counts]).tolist()
+    return [slice(first, last) for first, last in zip(ends, ends[1:])]
+
+
+class CompositeKinematics:
+    """Kinematics of each body by itself.
+
+    Args:
+        column: Composite. make: function of a Body that returns its kinematics.
+    """
+
+    #: The stiffness of the reference serves, turned with each body.
+    has_tangent = False
+
+    def __init__(self, column: Composite, make):
+        self._rows, self.each = column.rows, column.of_each(lambda part, _: make(part))
+        self.name = self.each[0].name
+
+    def _rowwise(self, name: str, *arrays) -> np.ndarray:
+        return np.concatenate([getattr(one, name)(*(array[rows] for array in arrays)) for one, rows in zip(self.each, self._rows)])
+
+    def rotation(self, x: np.ndarray) -> np.ndarray:
+        """(nb, 3, 3)."""
+        return np.stack([one.rotation(x[rows]) for one, rows in zip(self.each, self._rows)])
+
+    def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+        """Rotations (nb, 3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions x."""
+        rotations, forces, strains = zip(*(one.internal(x[rows]) for one, rows in zip(self.each, self._rows)))
+        return np.stack(rotations), np.concatenate(forces), sum(strains)
+
+    def moved(self, x, step):
+        return self._rowwise("moved", x, step)
+
+    def predicted(self, x, step):
+        return self._rowwise("predicted", x, step)
+
+    def local_displacement(self, x):
+        return self._rowwise("local_displacement", x)
+
+
+class CompositeFactor:
+    """Factors of each body's effective matrix, one of each different body."""
+
+    def __init__(self, column: Composite, each: list):
+        self.column, self.each = column, each
+
+    def solve(self, forces: np.ndarray) -> np.ndarray:
+        """Displacements (n_owned, 3), rows in the frames of their bodies."""
+        return np.concatenate([factor.solve(forces[rows]) for factor, rows in zip(self.each, self.column.rows)])
+
+    def destroy(self) -> None:
+        for factor in dict.fromkeys(self.each):
+            factor.destroy()
+
+
+class CompositeFoot:
+    """Surface nodes of all bodies: `fem.foot` of each, found once for all copies.
+
+    `static` and `mobility` are lists of each body's: nothing is ever made of the size of all together.
+
+    Args:
+        nodes: of each body, node numbers (n,) of its surfaces; those of the first serve all copies.
+    """
+
+    def __init__(self, column: Composite, nodes: list, make):
+        self.column, self.nodes = column, nodes
+        known = dict(zip(reversed(column.parts), reversed(nodes)))
+        self.each = column.of_each(lambda part, _: make(part, known[part]))
+        self.rows, self.filtered = slices([len(one) for one in nodes]), self.each[0].filtered
+        self.static = [one.static for one in self.each]
+        self.mobility = [one.mobility for one in self.each] if self.filtered else None
+
+    def position(self, displacement: np.ndarray) -> np.ndarray:
+        """As of each body's, rows in the frames of their bodies."""
+        return np.concatenate([one.position(displacement[rows]) for one, rows in zip(self.each, self.column.rows)])
+
+    def load(self, forces: np.ndarray) -> np.ndarray:
+        return np.concatenate([one.load(forces[rows]) for one, rows in zip(self.each, self.rows)])
+
+    def acceleration(self, forces: np.ndarray) -> np.ndarray:
+        return np.concatenate([one.acceleration(forces[rows]) for one, rows in zip(self.each, self.rows)])
+
+
+class CompositeResponse:
+    """`fem.foot.Response` of each body."""
+
+    def __init__(self, foot: CompositeFoot, factor: CompositeFactor):
+        made = {}
+        for one, own in zip(foot.each, factor.each):
+            if one not in made:
+                made[one] = Response(one, own)
+        self._rows, self.each = foot.rows, [made[one] for one in foot.each]
+        self.compliance = [one.compliance for one in self.each]
+
+    def displacement(self, forces: np.ndarray) -> np.ndarray:
+        return np.concatenate([one.displacement(forces[rows]) for one, rows in zip(self.each, self._rows)])
+
+
+class CompositeDamping:
+    """Modal damping of each body, with a ratio of its own.
+
+    Args:
+        counts: of each body, modes that are damped, the lowest. ratios: of each body, a number or one of each mode; copies the same.
+    """
+
+    def __init__(self, column: Composite, counts, ratios):
+        known = dict(zip(column.parts, zip(counts, ratios)))
+        self._rows, self.each = column.rows, column.of_each(lambda part, _: ModalDamping(part, *known[part]))
+
+    def _rowwise(self, name, velocity, rotation) -> np.ndarray:
+        return np.concatenate([getattr(one, name)(velocity[rows], R) for one, rows, R in zip(self.each, self._rows, rotation)])
+
+    def force(self, velocity, rotation):
+        return self._rowwise("force", velocity, rotation)
+
+    def acceleration(self, velocity, rotation):
+        return self._rowwise("acceleration", velocity, rotation)
+
+    def damped(self, factor: CompositeFactor, *factors) -> CompositeFactor:
+        made = {}
+        for damping, own in zip(self.each, factor.each):
+            if own not in made:
+                made[own] = damping.damped(own, *factors)
+        return CompositeFactor(factor.column, [made[own] for own in factor.each])
+
+
+def factor_of(column, mass_factor: float, stiffness_factor: float, tangent=None):
+    """`effective_factor` of a body, or of each of a Composite."""
+    if isinstance(column, Composite):
+        return CompositeFactor(column, column.of_each(lambda part, _: effective_factor(part, mass_factor, stiffness_factor)))
+    return effective_factor(column, mass_factor, stiffness_factor, tangent)
+
+
+def foot_of(column, nodes, factor, mass_factor: float, stiffness_factor: float, filtered: bool):
+    """Contact of the surface nodes of a body, or of those (list) of each of a Composite."""
+    def make(body, own, its_factor):
+        return FilteredFoot(body, own, its_factor, mass_factor, stiffness_factor) if filtered else PlainFoot(body, own)
+
+    if isinstance(column, Composite):
+        of_body = dict(zip(column.parts, factor.each))
+        return CompositeFoot(column, nodes, lambda part, own: make(part, own, of_body[part]))
+    return make(column, nodes, factor)
+
+
+def response_of(foot, factor):
+    """`fem.foot.Response` of a body, or of each of a Composite."""
+    return CompositeResponse(foot, factor) if isinstance(foot, CompositeFoot) else Response(foot, factor)

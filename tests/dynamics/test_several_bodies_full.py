@@ -1,0 +1,176 @@
+"""Bodies on moving ones with all their degrees of freedom: stacks, frames and links, against closed forms and the reduced engine."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from brick_bodies import FullRun, Structure, brick_body, closure, frame, pulse, stack
+
+from fecolumn._mpi import launch_environment
+from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
+from fecolumn.dynamics.energy import TERMS
+from fecolumn.reduced.observe import ENERGY, WIDTH
+from fecolumn.structures.model import GROUND, Link
+
+G = 9.81
+# Difference by which the engines may part, displacement [m] and tilt [rad]: ten times what steps of 1e-3 to 2.5e-4 s and 100 or all modes leave, the full
+# order's unbalanced force of 1e-7 of the weight
+AGREES = 2e-7
+
+
+@pytest.mark.parametrize("alpha", [0.0, -0.2])
+def test_a_stack_of_elastic_blocks_carries_its_weight_and_rests(alpha):
+    run = stack().full(alpha=alpha)
+    low, up = (part.model.mass * G for part in run.model.parts)
+    forces, points = run.state.forces[:, 2], run.system.interface.points
+    assert forces[points["slave"] == 0].sum() == pytest.approx(low + up, rel=1e-8) and forces[points["slave"] == 1].sum() == pytest.approx(up, rel=1e-8)
+    rows, energies = run.advance(np.zeros((50, 3)))
+    assert np.abs(rows - rows[0]).max() < 1e-12 and np.abs(energies[:, -1]).max() < 1e-10
+
+
+@pytest.mark.parametrize("columns", [2, 4])
+def test_a_slab_of_bricks_rests_on_more_columns_than_it_needs(columns):
+    run = frame(columns).full()
+    rows, _ = run.advance(np.zeros((30, 3)))
+    points = run.system.interface.points
+    weight = sum(part.model.mass for part in run.model.parts) * G
+    assert run.state.forces[points["master"] == GROUND, 2].sum() == pytest.approx(weight, rel=1e-7)
+    assert np.abs(rows - rows[0]).max() < 1e-11
+
+
+@pytest.mark.parametrize("push, uplifts", [(0.95, False), (1.1, True)])
+def test_a_frame_of_bricks_uplifts_when_the_ground_accelerates_by_g_tan_alpha(push, uplifts):
+    """Makris and Vassiliou (2013): columns of slenderness alpha under a slab uplift together at g tan(alpha), whatever the slab's mass."""
+    ground = np.zeros((220, 3))
+    ground[:, 0] = push * G * 0.2 / 1.2 * np.minimum(np.arange(220) / 150, 1.0)
+    rows, _ = frame(2).full().advance(ground)
+    assert (rows[-1, :2, 3] > 3e-4).all() == uplifts and (rows[-1, :2, 3] < 1e-4).all() != uplifts
+
+
+def rocking(share=0.3):
+    """The stack at rest, its upper block given a share of the spin that would just overturn it, about an edge of its foot."""
+    breadth, height = 0.3, 0.9
+    spin = np.array([0.0, share * np.arctan(breadth / height) * np.sqrt(1.5 * G / np.hypot(breadth, height)), 0.0])
+    return stack(spin=spin, velocity=np.cross(spin, [-breadth / 2, 0.0, height / 2]))
+
+
+def until_the_third_impact(step, record, most=600):
+    rows = []
+    while record().impacts < 3 and len(rows) < most:
+        rows.append(step())
+    assert record().impacts >= 3
+    return np.array(rows)
+
+
+@pytest.fixture(scope="module")
+def rocked():
+    """The rocking stack in full order until its third impact: the run, rows, the ledger, and what the internal forces did beside storing strain energy."""
+    run, energies, lacking = rocking().full(), [], []
+
+    def step():
+        before = run.state
+        row, energy = run.advance(np.zeros((1, 3)))
+        after = run.state
+        energies.append(energy[0])
+        lacking.append(run.system.column.dot(after.x - before.x, (before.internal + after.internal) / 2) - (after.strain - before.strain))
+        return row[0]
+
+    rows = until_the_third_impact(step, lambda: run.stepper.record)
+    return run, rows, np.array(energies), np.cumsum(lacking)
+
+
+@pytest.mark.parametrize("modes", [100, 129])
+def test_full_order_and_reduced_stacks_agree_until_the_third_impact(rocked, modes):
+    """129 elastic modes are all there are."""
+    rows = rocked[1]
+    made = rocking().reduced(modes=modes)
+    other = until_the_third_impact(lambda: made.advance(np.zeros((1, 3)))[0][0], lambda: made.record)[:, WIDTH:WIDTH + 8].reshape(-1, 2, 4)
+    assert len(other) == len(rows) and rows[:, 1, 3].max() > 0.01
+    np.testing.assert_allclose(other, rows, rtol=0, atol=AGREES)
+
+
+def test_energy_of_a_rocking_stack_of_bricks_is_accounted_for(rocked):
+    """All but what corotated kinematics lack: the work of internal forces in a turn within a step, of second order in it, which the closure shows."""
+    _, _, energies, lacking = rocked
+    moved = np.ptp(energies[:, TERMS.index("gravity")])
+    assert np.abs(energies[:, -1] + lacking).max() < 1e-9 * moved
+    assert np.abs(energies[:, -1]).max() < 1e-4 * moved
+    # contact makes no energy: what is not friction or impact takes some
+    assert energies[-1, TERMS.index("contact")] < 1e-6 * moved and energies[-1, TERMS.index("impact")] < 0
+
+
+def test_full_order_motion_does_not_depend_on_the_order_of_bodies_and_contacts():
+    ground = pulse(4.0, 1.0, 200)
+    first, other = (frame(2, order).full().advance(ground)[0] for order in (None, [2, 0, 1]))
+    assert first[-1, 0, 3] > 5e-3
+    np.testing.assert_allclose(other[:, [2, 0, 1]], first, rtol=0, atol=1e-10)
+
+
+def test_a_structure_goes_on_from_a_checkpoint_as_if_nothing_had_happened(tmp_path):
+    run = rocking().full()
+    run.advance(np.zeros((60, 3)))
+    write_checkpoint(tmp_path / "state.npz", run.system, run.state, {"work": list(run.ledger.work.values())})
+    whole, _ = run.advance(np.zeros((90, 3)))
+    other = rocking().full()
+    state, extra = read_checkpoint(tmp_path / "state.npz", other.system)
+    assert len(extra["work"]) == len(TERMS) - 4
+    resumed, _ = FullRun(other.system, other.model, state=state).advance(np.zeros((90, 3)))
+    np.testing.assert_allclose(resumed, whole, rtol=0, atol=1e-10)
+
+
+ON_RANKS = """
+import sys
+sys.path.insert(0, {folder!r})
+import numpy as np
+from mpi4py import MPI
+from test_several_bodies_full import rocking
+rows, energies = rocking().full().advance(np.zeros((30, 3)))
+if MPI.COMM_WORLD.rank == 0:
+    np.savez({out!r}, rows=rows, energies=energies, ranks=MPI.COMM_WORLD.size)
+"""
+
+
+def test_two_ranks_move_a_structure_as_one_does(tmp_path):
+    found = []
+    for n in (1, 2):
+        out = str(tmp_path / f"{n}.npz")
+        script = ON_RANKS.format(folder=str(Path(__file__).parent), out=out)
+        command = ["mpirun", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n", str(n), sys.executable, "-c", script]
+        done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
+        assert done.returncode == 0, done.stderr
+        with np.load(out) as file:
+            found.append({name: file[name] for name in file.files})
+    one, two = found
+    assert (one["ranks"], two["ranks"]) == (1, 2) and np.abs(one["rows"]).max() > 1e-3
+    np.testing.assert_allclose(two["rows"], one["rows"], rtol=0, atol=1e-9)
+
+
+def tie(**settings):
+    values = dict(name="tie", kind="spring", a=0, arm_a=np.array([0.0, 0, 0.4]), b=GROUND, arm_b=np.array([0.0, 0, 3.0]), stiffness=2e4, damping=0.0, prestress=0.0,
+                  slack=0.0, pushes=True, pulls=True, yield_n=np.inf, breaking_n=np.inf)
+    return Link(**{**values, **settings})
+
+
+def tied(link):
+    return Structure([("block", brick_body(0.3, 0.3, 0.8, (1, 1, 2)), (0, 0, 0))], [(0, "foot", GROUND, None)], [link])
+
+
+def test_a_tight_tendon_presses_a_block_of_bricks_down():
+    run = tied(tie(kind="tendon", arm_b=np.zeros(3), prestress=500.0, pushes=False)).full()
+    assert run.state.forces[:, 2].sum() == pytest.approx(run.system.weight + 500.0, rel=1e-5)
+
+
+@pytest.mark.parametrize("settings", [{}, dict(slack=0.002, damping=300.0), dict(yield_n=20.0), dict(breaking_n=30.0)])
+def test_links_do_the_same_in_full_order_and_reduced(settings):
+    ground = pulse(8.0, 0.5, 150)
+    run, made = tied(tie(**settings)).full(), tied(tie(**settings)).reduced()
+    rows, energies = run.advance(ground)
+    other = made.advance(ground)[0]
+    np.testing.assert_allclose(rows[:, 0, 3], other[:, WIDTH + 3], rtol=0, atol=AGREES)
+    damping = TERMS.index("damping")
+    assert energies[-1, damping] == pytest.approx(other[-1, ENERGY + damping], rel=1e-3, abs=1e-9)
+    assert (energies[-1, damping] < -1e-3) == bool({"damping", "yield_n", "breaking_n"} & set(settings))
+    assert closure(energies) < 1e-6
+    assert run.state.ties["broken"] == made.motion.ties["broken"] and rows[:, 0, 3].max() > 0.01
