@@ -35,7 +35,7 @@ def test_band_is_kaplan_meiers_with_greenwoods_variance():
     rng = np.random.default_rng(810)
     u = rng.lognormal(-3, 1, 40)
     overturned = u > 0.12
-    survival, greenwood, at_risk, n = 1.0, 0.0, 40, 40
+    survival, greenwood, at_risk = 1.0, 0.0, 40
     f = ecdf(u, overturned)
     for k, _ in enumerate(np.sort(u[~overturned])):
         survival *= 1 - 1 / at_risk

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.io
 import scipy.sparse as sparse
-from small_structures import BLOCK, block, structure
+from small_structures import block, structure
 
 from fecolumn.schema import InputError
 from fecolumn.structures import matrices as module
