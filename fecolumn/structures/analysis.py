@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from typing import NamedTuple
 
@@ -10,15 +9,14 @@ import numpy as np
 
 from fecolumn._compiled import compiled
 from fecolumn.analysis import Analysis
-from fecolumn.case import GRAVITY
-from fecolumn.dynamics.overturning import barrier, stance
 from fecolumn.reduced.analysis import ReducedAnalysis
 from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_MARK
 from fecolumn.reduced.run import advance
 from fecolumn.reduced.structure import LOST
+from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.engine import engine_of, leans, upright
 from fecolumn.structures.model import StructureModel
-from fecolumn.structures.structure import structure_model
+from fecolumn.structures.structure import standing_of, structure_model
 
 _WHOLE = ("active_nodes", "iterations")  # columns of whole numbers
 
@@ -46,7 +44,7 @@ class StructureAnalysis(ReducedAnalysis):
         self.engine = engine_of(case, self.structure, file)
         self.began, self.cpu_began = time.perf_counter(), time.process_time()  # what was made and compiled so far was so for all analyses
         self.stance, self.top_arm = self.engine.eye.stance, self.engine.eye.top_arm
-        self._feet = _stances(self.structure)
+        self._barrier_j = least_barrier(self.structure, standing_of(case, self.structure))
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
@@ -61,12 +59,12 @@ class StructureAnalysis(ReducedAnalysis):
 
     @property
     def barrier_j(self) -> float:
-        """Least energy [J] that overturns a body by itself: below a share of it the structure is at rest."""
-        return min(barrier(foot) for foot in self._feet)
+        """As `barrier.least_barrier`: below a share of it the structure is at rest."""
+        return self._barrier_j
 
     def limits(self) -> dict:
         """Of the summary: the least tilt of a body at which it would overturn by itself; of a structure no displacement is known beyond which it falls."""
-        return dict(critical_tilt_rad=min(foot.critical for foot in self._feet), u_critical_m=None)
+        return dict(critical_tilt_rad=min(foot.critical for foot in stances(self.structure).values()), u_critical_m=None)
 
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
         tilts = {part.name: float(last[f"body/{part.name}/tilt"]) for part in self.structure.parts}
@@ -124,14 +122,3 @@ def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
                                    force_max_n=largest(f"interface/{joint.name}/force")) for joint in structure.joints}
     storeys = {name[7:-6]: dict(drift_max_m=largest(name), shear_max_n=largest(f"{name[:-5]}shear")) for name in rows if name.startswith("storey/") and name.endswith("/drift")}
     return dict(bodies=bodies, interfaces=interfaces, storeys=storeys)
-
-
-def _stances(structure: StructureModel) -> list:
-    """Stance of each body that stands on a face below it, by itself."""
-    found = []
-    for joint in structure.joints:
-        part = structure.parts[joint.slave]
-        surface = part.model.surfaces[joint.slave_surface]
-        if surface.normal[2] < -math.sqrt(0.5):
-            found.append(stance(part.model.arms[surface.nodes], part.model.inertia, part.model.mass * GRAVITY, joint.friction, 0.0))
-    return found

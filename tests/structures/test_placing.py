@@ -5,7 +5,8 @@ import pytest
 from small_structures import block, frame, stack, structure
 
 from fecolumn.schema import InputError
-from fecolumn.structures.structure import structure_model
+from fecolumn.structures.barrier import least_barrier
+from fecolumn.structures.structure import standing_of, structure_model
 
 
 def _lowest(part):
@@ -61,3 +62,17 @@ def test_spin_tips_a_standing_block_over_its_edge():
     assert part.velocity + np.cross(part.spin, edge - part.center) == pytest.approx([0.1, 0.0, 0.0])
     turning = structure_model(structure(**block(rigid=True), initial=dict(block=dict(spin_rad_s=[0.0, 0.0, 2.0])))).parts[0]
     assert turning.velocity == pytest.approx(np.zeros(3), abs=1e-12) and turning.spin == pytest.approx([0, 0, 2.0])
+
+
+def test_energy_to_overturn_a_frame_lifts_its_slab_twice_as_far_as_its_columns():
+    case = structure(**frame(column=dict(density_kg_m3=2500.0)))
+    model = structure_model(case)
+    column, slab = model.parts[0].model.mass, model.parts[4].model.mass
+    lift = np.hypot(0.1, 0.75) - 0.75
+    assert least_barrier(model, standing_of(case, model)) == pytest.approx(9.80665 * (4 * column * lift + slab * 2 * lift), rel=1e-6)
+
+
+def test_energy_to_overturn_a_stack_is_that_of_its_upper_block():
+    case = structure(**stack())
+    model = structure_model(case)
+    assert least_barrier(model, standing_of(case, model)) == pytest.approx(9.80665 * model.parts[1].model.mass * (np.hypot(0.2, 0.3) - 0.3), rel=1e-9)
