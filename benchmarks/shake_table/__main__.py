@@ -1,0 +1,145 @@
+"""Which of 582 shake-table tests of a free-standing granite rock overturn it: a rigid body from its scan against what was seen.
+
+    ./containers/run python -m benchmarks.shake_table PATH [-o DIR] [-j N] [--dt S] [--tests 11-135,600] [--mu 0.6] ...
+
+PATH: a copy of the public repository ZhiangChen/virtual_shake_robot_pybullet, of which only data/ is read. No parameter is fitted to an outcome.
+What is done is kept: the same command goes on. Writes tests.csv, outcomes.png and .pdf into DIR and prints accuracy and confusion beside the models whose
+results the repository holds.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import os
+import sys
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.shake_table.campaign import Campaign, read_campaign
+from benchmarks.shake_table.figure import draw
+from benchmarks.shake_table.rock import Stone
+from benchmarks.shake_table.runs import COLUMNS, folder_name, run
+from benchmarks.shake_table.scores import chance, confusion, table
+from fecolumn.atomic import write_csv, write_json
+from fecolumn.progress import CountProgress
+
+
+def chosen(text: str | None, numbers: list[int]) -> set[int]:
+    """Numbers of `numbers` that a list such as "11-135,600" names; all where there is none.
+
+    Raises:
+        ValueError: not such a list, or it names none of them.
+    """
+    if text is None:
+        return set(numbers)
+    wanted = set()
+    for part in text.split(","):
+        first, _, last = part.partition("-")
+        try:
+            wanted |= set(range(int(first), int(last or first) + 1))
+        except ValueError:
+            raise ValueError(f"--tests: '{part}' is no number and no range such as 11-135") from None
+    if not wanted & set(numbers):
+        raise ValueError(f"--tests {text}: none of them has a motion here; there are {len(numbers)} from {min(numbers)} to {max(numbers)}")
+    return wanted & set(numbers)
+
+
+def keep_settings(folder: Path, settings: dict) -> None:
+    """Note the settings in the folder; a ValueError where it holds tests of others."""
+    file = folder / "settings.json"
+    if file.exists():
+        before = json.loads(file.read_text())
+        if other := [f"{name} {before.get(name)}" for name, value in settings.items() if before.get(name) != value]:
+            raise ValueError(f"{folder} holds tests with {', '.join(other)}: choose another folder by -o")
+    (folder / "tests").mkdir(parents=True, exist_ok=True)
+    write_json(file, settings)
+
+
+def compute(campaign: Campaign, numbers: set[int], stone: Stone, dt: float, folder: Path, jobs: int, quiet: bool = False) -> list[dict]:
+    """Rows of COLUMNS of the tests, by number; those in the folder are not computed again."""
+    tests = [test for test in campaign.tests if test.number in numbers]
+    todo = [test for test in tests if not (folder / folder_name(test)).exists()]
+    progress = CountProgress(len(todo), "tests", quiet)
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) if jobs > 1 else _Here() as pool:
+        futures = {pool.submit(run, campaign, test, stone, dt): test for test in todo}
+        for done, future in enumerate(as_completed(futures) if jobs > 1 else futures, 1):
+            write_json(folder / folder_name(futures[future]), future.result())
+            progress.show(done)
+    progress.end()
+    return [json.loads((folder / folder_name(test)).read_text()) for test in tests]
+
+
+class _Here:
+    """An executor that computes when a result is asked for, in this process."""
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        return False
+
+    def submit(self, function, *arguments):
+        return _Later(function, arguments)
+
+
+class _Later:
+    def __init__(self, function, arguments):
+        self.result = lambda: function(*arguments)
+
+
+def main(arguments=None) -> None:
+    stone = Stone(mass=353.802)
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.shake_table", description=__doc__.split("\n")[0])
+    parser.add_argument("path", metavar="PATH", help="a copy of ZhiangChen/virtual_shake_robot_pybullet")
+    parser.add_argument("-o", "--output", metavar="DIR", default="results/shake_table")
+    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="tests at a time (default: %(default)s)")
+    parser.add_argument("--tests", metavar="LIST", help="only these, such as 11-135,600")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="only each N-th of them")
+    parser.add_argument("--dt", type=float, default=1e-3, help="time step [s] (default: %(default)s)")
+    parser.add_argument("--mu", type=float, default=stone.friction, help="coefficient of friction (default: %(default)s)")
+    parser.add_argument("--mass", type=float, default=stone.mass, help="[kg] (default: %(default)s, which the repository states); nan: 2700 kg/m3 times the volume")
+    parser.add_argument("--youngs", type=float, default=stone.youngs, help="modulus of the stone at its contact points [Pa] (default: %(default)g)")
+    parser.add_argument("--softer", type=float, default=stone.softer, help="factor on the compliance of each contact point (default: %(default)s)")
+    parser.add_argument("--restitution", type=float, default=stone.restitution, help="of a contact point, 0 to 1 (default: %(default)s)")
+    parser.add_argument("--direction", type=float, default=0.0, help="of the table's positive displacement, from the scan's x to its y [deg] (default: %(default)s)")
+    args = parser.parse_args(arguments)
+    try:
+        stone = Stone(mass=args.mass, youngs=args.youngs, softer=args.softer, friction=args.mu, restitution=args.restitution, direction=float(np.radians(args.direction)))
+        campaign, folder = read_campaign(args.path), Path(args.output)
+        numbers = sorted(chosen(args.tests, sorted({test.number for test in campaign.tests} - set(campaign.missing))))[::args.every]
+        keep_settings(folder, {"dt": args.dt, **{name: str(value) for name, value in dataclasses.asdict(stone).items()}})
+        if campaign.missing:
+            print(f"{len(campaign.missing)} of {len(campaign.tests)} tests have no file of their motion and are left out", file=sys.stderr)
+        rows = compute(campaign, set(numbers), stone, args.dt, folder, args.jobs)
+    except (OSError, ValueError) as error:
+        sys.exit(f"error: {error}")
+    write_csv(folder / "tests.csv", [COLUMNS, *([row[name] for name in COLUMNS] for row in rows)])
+    report(campaign, rows, folder)
+
+
+def report(campaign: Campaign, rows: list[dict], folder: Path) -> None:
+    """Print the scores of the tests that were computed, draw the figure."""
+    told = [row for row in rows if row["failed"] == ""]
+    if len(told) < len(rows):
+        print(f"{len(rows) - len(told)} of {len(rows)} tests failed and are left out: {', '.join(str(row['test']) for row in rows if row['failed'])}", file=sys.stderr)
+    if not told:
+        sys.exit("error: no test was computed")
+    tests = {test.number: test for test in campaign.tests}
+    measured, ours = ([row[name] == 1 for row in told] for name in ("measured", "computed"))
+    models = {name: [tests[row["test"]].computed[name] for row in told] for name in campaign.tests[0].computed}
+    print(table({"fecolumn": confusion(measured, ours), **{f"discrete elements, {name}": confusion(measured, those) for name, those in models.items()}}))
+    if models:
+        best = max(models, key=lambda name: confusion(measured, models[name]).accuracy)
+        print(f"\nfecolumn and {best}, the best of those, tell right equally often: p = {chance(measured, ours, models[best]):.3g}")
+    print(f"largest error of the energy balance over the kinetic energy: {max(row['closure_rel'] for row in told):.2g}")
+    draw(told, folder / "outcomes")
+    print(f"wrote {folder}")
+
+
+if __name__ == "__main__":
+    main()
