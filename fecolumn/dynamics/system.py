@@ -122,8 +122,10 @@ class System:
         contact["anchor"] = contact["relative"][:, :2]
         zero = np.zeros_like(x)
         ties = self.links.ties(self.column.centers(x), rotation) if self.links else np.zeros(0, TIE)
-        return State(time=0.0, x=x.copy(), v=zero, a=zero.copy(), contact_a=zero.copy(), internal=internal, strain=strain, rotation=rotation, contact=contact,
-                     static=0.0, ground=np.zeros(3), rims=rims_at_rest(len(interface.interfaces)), ties=ties)
+        state = State(time=0.0, x=x.copy(), v=zero, a=zero.copy(), contact_a=zero.copy(), internal=internal, strain=strain, rotation=rotation, contact=contact,
+                      static=0.0, ground=np.zeros(3), rims=rims_at_rest(len(interface.interfaces)), ties=ties)
+        state.static = self.links.stored(state) if self.links else 0.0
+        return state
 
     def _factor(self, mass_factor, stiffness_factor, tangent=None) -> Factor | CompositeFactor:
         self.factorizations += len(set(self.column.parts))

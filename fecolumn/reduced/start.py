@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn._compiled import interpreted
 from fecolumn.contact.problem import FAR_BASE, OK
 from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
+from fecolumn.dynamics.links import end_links
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE
 from fecolumn.reduced.model import resting_scheme
@@ -55,11 +57,12 @@ def tilted(engine, tilt: float, direction: float) -> motions.Motion:
 
 
 def unstrained(engine, motion) -> motions.Motion:
-    """A motion of which the places of the bodies are known: they fall freely from there."""
+    """A motion of which the places of the bodies are known: they fall freely from there, and links are as tight as they are."""
     motion.frames["acceleration"] = engine.structure.gravity
     motion.contact["relative"] = engine.places(motion.frames["center"], motion.rotation)
     motion.contact["anchor"], motion.contact["located"] = motion.contact["relative"][:, :2], True
     motion.ties["length"] = engine.link_lengths(motion.frames["center"], motion.rotation)
+    motion.whole["static"] = interpreted(end_links)(engine.structure.links, motion.frames, motion.rotation, motion.ties.copy(), motion.ties, np.inf)[1]
     return motion
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced.observe import ENERGY, WIDTH
+from fecolumn.reduced.start import of_parts
 from fecolumn.structures.model import GROUND, Link
 from fecolumn.verification.boxes import GRAVITY, box, engine, frame, joint, part, pulse, stack
 
@@ -151,6 +152,23 @@ def test_energy_of_links_is_accounted_for(settings):
     dissipates = bool({"damping", "yield_n", "breaking_n"} & set(settings))
     assert (lost < -1e-3) == dissipates and lost <= 1e-12
     assert made.motion.ties["broken"][0] == ("breaking_n" in settings) and (made.motion.ties["flowed"][0] != 0) == ("yield_n" in settings)
+
+
+def test_a_tendon_that_a_lean_has_stretched_is_loaded_from_the_start():
+    """A block that leans about its edge, tied to the ground by a tendon through its foot: k e^2 / 2, which contact must not make."""
+    breadth, tilt, stiffness = 0.3, 0.05, 2e5
+    block, turn = box(breadth, breadth, 0.8), rotation_matrix(np.array([0, tilt, 0]))
+    toe = np.array([breadth / 2, 0, 0])
+    leaning = replace(part("block", block, (0, 0, 0)), center=toe + turn @ (block.center - toe), rotation=turn)
+    tendon = tie(kind="tendon", arm_b=np.array([0.0, 0, 0.0]), stiffness=stiffness, pushes=False)
+    made = engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [tendon])
+    made.motion = of_parts(made, [leaning], False)
+    made.ledger[0] = made.mechanical()
+    top = toe + turn @ (np.array([0.0, 0, 0.8]) - toe)
+    stretched = np.linalg.norm(top) - 0.8
+    assert made.row()[ENERGY + 1] == pytest.approx(stiffness * stretched**2 / 2, rel=1e-9)
+    rows, _ = made.advance(np.zeros((150, 3)))
+    assert rows[:, ENERGY + 6].max() < 1e-6 * rows[0, ENERGY:ENERGY + 3].sum() and closure(rows) < 1e-11
 
 
 def test_a_link_too_stiff_for_the_step_is_refused_by_name():

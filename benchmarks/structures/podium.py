@@ -1,0 +1,58 @@
+"""The rocking podium in bodies beside the model with the impact laws CRV and CAV."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from fecolumn.motions.record import GroundMotion
+from fecolumn.rocking.podium import Podium
+from fecolumn.rocking.podium_impact import CAV, CRV, podium_restitution
+from fecolumn.rocking.storeys import storeys
+from fecolumn.verification.structures import ALPHA, GAMMA, HALF_DIAGONAL, advanced, kept_rate, podium_case, tilt_of
+
+#: Periods of the building on a fixed slab [s]; None: it cannot deform
+PERIODS = (None, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
+#: Of concrete: columns of 2 x 2 elements in plan with 10 modes, points that give as concrete does
+CONCRETE = dict(column=dict(rigid=False, modes=10, element_size_m=0.2225, youngs_modulus_pa=30e9), building=dict(youngs_modulus_pa=30e9))
+_DT = 5e-4
+
+
+def laws(floors: int) -> tuple[float, float]:
+    """Rate of the tilt after over before an impact, by CRV and CAV."""
+    return tuple(podium_restitution(law, ALPHA, GAMMA, floors) for law in (CRV, CAV))
+
+
+def impacts(floors: int = 3, concrete: bool = False, periods=PERIODS) -> list[tuple]:
+    """Of each period: rate kept at the first impact from 0.3 alpha, and root of the share of the energy at the next largest tilt."""
+    found = []
+    for period in periods:
+        rows = advanced(podium_case(floors, period, 0.3 * ALPHA, _DT, **(CONCRETE if concrete else {})), 1.1)
+        tilt = tilt_of(rows)
+        found.append((period, kept_rate(rows), risen(tilt, 0.3)))
+    return found
+
+
+def risen(tilt: np.ndarray, share: float) -> float:
+    """Root of the potential energy at the largest tilt after the first impact over that of the tilt `share` alpha."""
+    after = -float(tilt[int(np.argmax(tilt < 0)):].min())
+    return math.sqrt((math.cos(ALPHA - after) - math.cos(ALPHA)) / (math.cos(ALPHA * (1 - share)) - math.cos(ALPHA)))
+
+
+def model_rocking(floors: int, law: str, period: float, share: float, seconds: float):
+    """Response of the model let go at `share` of alpha."""
+    podium = Podium(ALPHA, HALF_DIAGONAL, 1e4, 1e5, storeys("triangular", floors, 1e5, period), law)
+    rest = GroundMotion(np.zeros((round(seconds / 0.005) + 1, 3)), 0.005, "at rest", "")
+    return podium.respond(rest, tilt=share * ALPHA)
+
+
+def rocking(floors: int, concrete: bool, share: float = 0.9, seconds: float = 4.0) -> dict:
+    """Rows of bodies let go at `share` of alpha, with a building of n / 10 s."""
+    return advanced(podium_case(floors, floors / 10, share * ALPHA, _DT, **(CONCRETE if concrete else {})), seconds)
+
+
+def tops(tilt: np.ndarray) -> list[float]:
+    """Largest tilts over alpha between one passage upright and the next, after the first."""
+    ends = np.flatnonzero(np.diff(np.sign(tilt)) != 0)
+    return [float(np.abs(tilt[a:b]).max() / ALPHA) for a, b in zip(ends, ends[1:]) if b - a > 10]
