@@ -60,18 +60,23 @@ def keep_settings(folder: Path, settings: dict) -> None:
     write_json(file, settings)
 
 
-def compute(campaign: Campaign, numbers: set[int], stone: Stone, dt: float, folder: Path, jobs: int, quiet: bool = False) -> list[dict]:
-    """Rows of COLUMNS of the tests, by number; those in the folder are not computed again."""
-    tests = [test for test in campaign.tests if test.number in numbers]
-    todo = [test for test in tests if not (folder / folder_name(test)).exists()]
-    progress = CountProgress(len(todo), "tests", quiet)
+def compute(campaign: Campaign, numbers: set[int], stone: Stone, dt: float, folder: Path, jobs: int) -> None:
+    """Compute the tests of these numbers that the folder does not hold, in an order drawn by chance: at any time those done are a fair sample."""
+    todo = [test for test in campaign.tests if test.number in numbers and not (folder / folder_name(test)).exists()]
+    todo = [todo[i] for i in np.random.default_rng(0).permutation(len(todo))]
+    progress = CountProgress(len(todo), "tests")
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) if jobs > 1 else _Here() as pool:
         futures = {pool.submit(run, campaign, test, stone, dt): test for test in todo}
         for done, future in enumerate(as_completed(futures) if jobs > 1 else futures, 1):
             write_json(folder / folder_name(futures[future]), future.result())
             progress.show(done)
     progress.end()
-    return [json.loads((folder / folder_name(test)).read_text()) for test in tests]
+
+
+def rows_of(campaign: Campaign, numbers: set[int], folder: Path) -> list[dict]:
+    """Rows of COLUMNS that the folder holds of the tests of these numbers, by number."""
+    files = [folder / folder_name(test) for test in campaign.tests if test.number in numbers]
+    return [json.loads(file.read_text()) for file in files if file.exists()]
 
 
 class _Here:
@@ -100,6 +105,7 @@ def main(arguments=None) -> None:
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="tests at a time (default: %(default)s)")
     parser.add_argument("--tests", metavar="LIST", help="only these, such as 11-135,600")
     parser.add_argument("--every", type=int, default=1, metavar="N", help="only each N-th of them")
+    parser.add_argument("--report", action="store_true", help="compute nothing, judge what is done")
     parser.add_argument("--dt", type=float, default=1e-3, help="time step [s] (default: %(default)s)")
     parser.add_argument("--mu", type=float, default=stone.friction, help="coefficient of friction (default: %(default)s)")
     parser.add_argument("--mass", type=float, default=stone.mass, help="[kg] (default: %(default)s, which the repository states); nan: 2700 kg/m3 times the volume")
@@ -111,11 +117,13 @@ def main(arguments=None) -> None:
     try:
         stone = Stone(mass=args.mass, youngs=args.youngs, softer=args.softer, friction=args.mu, restitution=args.restitution, direction=float(np.radians(args.direction)))
         campaign, folder = read_campaign(args.path), Path(args.output)
-        numbers = sorted(chosen(args.tests, sorted({test.number for test in campaign.tests} - set(campaign.missing))))[::args.every]
+        numbers = sorted(chosen(args.tests, sorted({test.number for test in campaign.tests} - set(campaign.missing))))[::max(args.every, 1)]
         keep_settings(folder, {"dt": args.dt, **{name: str(value) for name, value in dataclasses.asdict(stone).items()}})
         if campaign.missing:
             print(f"{len(campaign.missing)} of {len(campaign.tests)} tests have no file of their motion and are left out", file=sys.stderr)
-        rows = compute(campaign, set(numbers), stone, args.dt, folder, args.jobs)
+        if not args.report:
+            compute(campaign, set(numbers), stone, args.dt, folder, args.jobs)
+        rows = rows_of(campaign, set(numbers), folder)
     except (OSError, ValueError) as error:
         sys.exit(f"error: {error}")
     write_csv(folder / "tests.csv", [COLUMNS, *([row[name] for name in COLUMNS] for row in rows)])

@@ -15,7 +15,7 @@ from fecolumn.dynamics.gravity import NoEquilibrium
 from fecolumn.reduced.observe import ENERGY, WIDTH
 
 #: The table is quiet below this [m/s2]; of its quiet beginning and end this much is computed [s].
-QUIET, BEFORE_S, AFTER_S = 0.01 * GRAVITY, 0.5, 3.0
+QUIET, BEFORE_S, AFTER_S = 0.02 * GRAVITY, 0.5, 3.0
 #: Columns of the table of tests.
 COLUMNS = ("test", "pga_g", "pgv_pga_s", "measured", "computed", "peak_tilt_deg", "at_s", "steps", "closure_rel", "cpu_s", "failed")
 
