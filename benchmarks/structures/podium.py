@@ -40,10 +40,10 @@ def risen(tilt: np.ndarray, share: float) -> float:
     return math.sqrt((math.cos(ALPHA - after) - math.cos(ALPHA)) / (math.cos(ALPHA * (1 - share)) - math.cos(ALPHA)))
 
 
-def model_rocking(floors: int, law: str, period: float, share: float, seconds: float):
+def model_rocking(floors: int, law: str, period: float, share: float, seconds: float, dt: float = 1e-3):
     """Response of the model let go at `share` of alpha."""
     podium = Podium(ALPHA, HALF_DIAGONAL, 1e4, 1e5, storeys("triangular", floors, 1e5, period), law)
-    rest = GroundMotion(np.zeros((round(seconds / 0.005) + 1, 3)), 0.005, "at rest", "")
+    rest = GroundMotion(np.zeros((round(seconds / dt) + 1, 3)), dt, "at rest", "")
     return podium.respond(rest, tilt=share * ALPHA)
 
 
