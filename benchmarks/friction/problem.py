@@ -16,13 +16,15 @@ class Problem:
 
     Attributes:
         name: in tables. W: (3 n, 3 n) symmetric, positive semidefinite [1/kg]. q: (n, 3) relative velocity without forces [m/s]; x, y
-            tangential, z normal, opening positive. mu: friction coefficient of all points, or (n,).
+            tangential, z normal, opening positive. mu: friction coefficient of all points, or (n,). start: (n, 3) forces that are a first guess, where
+            there is one.
     """
 
     name: str
     W: np.ndarray
     q: np.ndarray
     mu: float | np.ndarray
+    start: np.ndarray | None = None
 
     @property
     def points(self) -> int:
@@ -41,7 +43,7 @@ class Problem:
     def softened(self, share: float) -> Problem:
         """The same with a compliance of each point's own, a share of W's mean diagonal: W becomes definite."""
         own = share * np.trace(self.W) / len(self.W)
-        return Problem(self.name, self.W + own * np.eye(len(self.W)), self.q, self.mu)
+        return Problem(self.name, self.W + own * np.eye(len(self.W)), self.q, self.mu, self.start)
 
 
 def on_cone(x, mu) -> np.ndarray:

@@ -129,8 +129,11 @@ def frictionless(W, q, start):
 
 
 @njit
-def newton_step(W, q, forces, friction, rho):
+def newton_step(W, q, forces, friction, rho, give):
     """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular.
+
+    give: compliance [m/N] of each point against a change of its force, in this step alone: 0, or little where W leaves open which of many points
+    carry. The laws are not softened by it: where the forces change no more, it plays no part.
 
     With d the direction of the trial force and e across it, a slipping point has r_t = mu r_n d + y e. Linearised in r_t, r_n and the
     slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c = mu r_n / |trial|: two unknowns, three for a sticking point.
@@ -147,6 +150,10 @@ def newton_step(W, q, forces, friction, rho):
         if not trial[i, 2] > 0:
             continue
         mu = friction[i]
+        if mu == 0.0:
+            point[count], basis[count, 2], test[count, 2] = i, 1.0, 1.0
+            count += 1
+            continue
         length = np.hypot(trial[i, 0], trial[i, 1])
         if length <= mu * trial[i, 2]:
             for a in range(3):
@@ -169,7 +176,9 @@ def newton_step(W, q, forces, friction, rho):
     half, matrix, right = np.empty((count, 3 * n)), np.empty((count, count)), np.empty(count)
     for u in range(count):
         row, x, y, z = 3 * point[u], test[u, 0], test[u, 1], test[u, 2]
-        right[u] = -(x * q[point[u], 0] + y * q[point[u], 1] + z * q[point[u], 2])
+        right[u] = 0.0
+        for a in range(3):
+            right[u] -= test[u, a] * (q[point[u], a] - give * forces[point[u], a])
         if x == 0.0 and y == 0.0 and z == 1.0:
             half[u] = W[row + 2]
         else:
@@ -178,6 +187,8 @@ def newton_step(W, q, forces, friction, rho):
         for v in range(count):
             column = 3 * point[v]
             matrix[u, v] = basis[v, 0] * half[u, column] + basis[v, 1] * half[u, column + 1] + basis[v, 2] * half[u, column + 2]
+            if give > 0.0 and point[u] == point[v]:
+                matrix[u, v] += give * (x * basis[v, 0] + y * basis[v, 1] + z * basis[v, 2])
         matrix[u, u] += stiffening[u]
     if not solve_in_place(matrix, right):
         return updated, False
@@ -239,31 +250,31 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
 
     near: whether `start` is a good guess; else only where it presses counts.
     """
-    n, rubs, stiffest = len(q), True, np.inf
+    n, stiffest, give = len(q), np.inf, 0.0
     rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
         xx, yy, zz = W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1], W[3 * i + 2, 3 * i + 2]
         rho[i], rho_t[i] = 3 / (xx + yy + zz), 1 / np.hypot(xx, yy)
         rho_all[i] = stiffness_together(W, i)
-        rubs, stiffest = rubs and friction[i] > 0, min(stiffest, rho[i])
+        stiffest, give = min(stiffest, rho[i]), max(give, tolerances.GIVE / rho[i])
     if n == 0:
         return start.copy(), 0.0, 0, 0
     best, least, iterations, others = start, np.inf, 0, 0
     if near:
-        best, least, iterations = _newtons(W, q, friction, start, tolerance, rho_all, rho, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        best, least, iterations = _newtons(W, q, friction, start, tolerance, rho_all, rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
     if least > tolerance:
-        forces, residual, made = _newtons(W, q, friction, frictionless(W, q, start), tolerance, rho, rho, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
+        forces, residual, made = _newtons(W, q, friction, frictionless(W, q, start), tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
-    if least > tolerance and rubs and n > tolerances.FEW_POINTS:
+    if least > tolerance and n > tolerances.FEW_POINTS:
         A, Q = in_cones(W, q, friction)
         R, U, inside, most = np.zeros((n, 3)), np.zeros((n, 3)), 0, tolerances.INSIDE_FIRST
         while inside < tolerances.INSIDE_MOST:
             forces, made = approach(A, Q, friction, R, U, most)
             inside += made
             # from inside Newton needs a step or two when the active set is right, and costs a tenth
-            forces, residual, newtons = _newtons(W, q, friction, forces, tolerance, rho, rho, tolerances.NEWTON_STALLED, 2)
+            forces, residual, newtons = _newtons(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
             iterations += newtons
             if residual < least:
                 best, least = forces, residual
@@ -275,7 +286,7 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     while least > tolerance and count <= sweeps:
         forces = best.copy()
         others += gauss_seidel(W, q, forces, friction, rho_t, count, tolerance * stiffest)
-        forces, residual, made = _newtons(W, q, friction, forces, tolerance, rho, rho, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        forces, residual, made = _newtons(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
@@ -284,7 +295,7 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
 
 
 @njit
-def _newtons(W, q, friction, start, tolerance, rho, rho_alone, most, patience):
+def _newtons(W, q, friction, start, tolerance, rho, rho_alone, give, most, patience):
     """Newton steps until the tolerance is met, or the residual has not fallen for more than `patience`: best forces, residual, steps made."""
     forces, least, stalled, made = start, np.inf, 0, 0
     best = start
@@ -295,7 +306,7 @@ def _newtons(W, q, friction, start, tolerance, rho, rho_alone, most, patience):
             best, least, stalled = forces, residual, 0
         if residual <= tolerance or stalled > patience or made == most:
             break
-        forces, regular = newton_step(W, q, forces, friction, rho)
+        forces, regular = newton_step(W, q, forces, friction, rho, give)
         if not regular:
             break
         made += 1

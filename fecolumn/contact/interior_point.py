@@ -17,13 +17,21 @@ from fecolumn.contact.tolerances import INSIDE_END, INSIDE_WAY
 
 @njit(error_model="numpy")
 def in_cones(W, q, friction):
-    """Compliance (3 n, 3 n) and slip (n, 3) without forces in the units of R and U; arguments as of `friction.solve_contact`, friction (n,) > 0."""
+    """Compliance (3 n, 3 n) and slip (n, 3) without forces in the units of R and U; arguments as of `friction.solve_contact`, friction (n,).
+
+    A point without friction keeps its normal alone: with R_t = U_t = 0 its cone is the half-line.
+    """
     n = len(q)
     A, Q = np.empty((3 * n, 3 * n)), np.empty((n, 3))
     put_matrix(W, A)
     put_matrix(q, Q)
     for i in range(n):
         mu, k = friction[i], 3 * i + 2
+        if mu == 0.0:
+            for t in range(3 * i, k):
+                A[t, :], A[:, t], Q[i, t - 3 * i] = 0.0, 0.0, 0.0
+                A[t, t] = W[t, t]
+            continue
         for j in range(3 * n):
             A[k, j] /= mu
         for j in range(3 * n):
@@ -157,7 +165,7 @@ def _unscaled(R, friction):
     """Forces (n, 3) from R."""
     forces = np.empty((len(R), 3))
     for i in range(len(R)):
-        forces[i, 0], forces[i, 1], forces[i, 2] = R[i, 0], R[i, 1], R[i, 2] / friction[i]
+        forces[i, 0], forces[i, 1], forces[i, 2] = R[i, 0], R[i, 1], R[i, 2] / (friction[i] if friction[i] > 0.0 else 1.0)
     return forces
 
 

@@ -32,6 +32,9 @@ NEWTON_STEPS, NEWTON_STALLED = 25, 6
 FAR_STEPS, FAR_STALLED = 60, 15
 #: Points above which an interior point helps; its iterations before Newton's first try, between two tries, and at most.
 FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 6, 3, 30
+#: Compliance against a change of force in a Newton step from inside, over the softest point's own: forces that W leaves open stay, others converge by
+#: this over their own compliance in a step.
+GIVE = 1e-9
 #: Share of the way to the boundary of the cones in an interior iteration, and the residual, over the first one, that rounding leaves.
 INSIDE_WAY, INSIDE_END = 0.95, 1e-12
 #: Sweeps of Gauss-Seidel: the first try, each next takes four times as many, and the largest.

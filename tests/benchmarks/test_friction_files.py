@@ -1,12 +1,10 @@
-"""Friction problems from files of others, and the comparison where Siconos is not there."""
+"""Friction problems from files of others."""
 
 import h5py
 import numpy as np
 import pytest
 from scipy import sparse
 
-from benchmarks.friction import __main__ as friction
-from benchmarks.friction.assemblies import stack
 from benchmarks.friction.fclib import read_problem
 
 # z, x, y of two points
@@ -78,12 +76,3 @@ def test_file_that_is_no_such_problem_is_named_with_the_reason(tmp_path, text, w
     path.write_text(text)
     with pytest.raises(ValueError, match=f"Case.dat: no friction problem in three dimensions: .*{why}"):
         read_problem(path)
-
-
-def test_comparison_goes_on_without_siconos(tmp_path, monkeypatch):
-    monkeypatch.setattr(friction, "SYSTEM_PYTHON", "/bin/false")
-    records, remark = friction.compared([stack(1).problem("shake", 0.3)], tmp_path / "siconos")
-    assert remark.startswith("Siconos ended with code 1")
-    assert list(records[0]["solvers"]) == ["fecolumn"] and records[0]["solvers"]["fecolumn"]["violation"] < friction.SOLVED
-    row = friction.detail(records).splitlines()[-1]
-    assert "stack of 1, shake" in row and [cell.strip() for cell in row.split("|")[-3:-1]] == ["-", "-"]

@@ -69,6 +69,26 @@ def test_without_friction_normal_velocities_are_those_of_least_squares(assembly,
     assert problem.relative(forces)[:, 2] == pytest.approx(exact, abs=1e-10 * np.abs(problem.q).max())
 
 
+@pytest.mark.parametrize("assembly, load, mu", [(stack(25), "rest", 0.0), (stack(25), "impact", 0.0), (stack(25), "impact", 1.2), (heap(4), "rest", 1.2)],
+                         ids=["stack at rest", "stack thrown", "stack thrown, rough", "heap"])
+def test_forces_of_many_redundant_points_are_found(assembly, load, mu):
+    """So many points that hardly any choice of those that carry leaves a regular W."""
+    problem = assembly.problem(load, mu, seed=5)
+    assert problem.points >= 100 and problem.rank < 0.6 * 3 * problem.points
+    assert violation(problem, solved(problem)) < 1e-10
+
+
+def test_frictionless_joints_among_rough_ones_pass_the_weight_and_no_shear():
+    """Every second of 20 blocks on ice: on a floor that shakes, what stands on the lowest ice stays behind, and all carry the weight above."""
+    rough = stack(20).problem("shake", 0.6)
+    mu = np.repeat(np.arange(20) % 2 * 0.6, 4)
+    problem = Problem("stack on ice", rough.W, rough.q, mu)
+    forces = solved(problem)
+    block = 0.4 * 0.4 * 0.3 * 2700 * 9.81 * 5e-3
+    assert np.abs(forces[mu == 0, :2]).max() == 0.0
+    assert forces.reshape(20, 4, 3)[:, :, 2].sum(1) == pytest.approx(block * np.arange(20, 0, -1), rel=1e-6)
+
+
 def one_point_solutions(problem):
     """All forces (3,) of a single point: open, stuck, and every direction of slip at which force and slip are in line, by bisection."""
     W, q, mu = problem.W, problem.q[0], problem.mu
