@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.schema import InputError
+from fecolumn.statistics.csv_table import read_csv
 
 _TO_METRES = {"u_max_m": 1.0, "u_max_mm": 1e-3, "u_max_cm": 1e-2}
 _WORDS = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
@@ -40,27 +40,18 @@ def read_maxima(path) -> Maxima:
         InputError: no such file, a column missing or given twice, a value that cannot be used, a motion given twice.
     """
     path = Path(path)
-    try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            lines = [(number, line) for number, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
-    except FileNotFoundError:
-        raise InputError(path, "", None, "no such file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(path, "", None, f"cannot be read as text in UTF-8 ({error})") from None
-    table = list(csv.reader([line for _, line in lines], skipinitialspace=True))
-    if len(table) < 2:
-        raise InputError(path, "", None, "holds no line below its header; needed are the columns motion, u_max_mm and overturned")
-    columns, factor = _columns(path, [name.strip() for name in table[0]])
+    header, rows = read_csv(path, "the columns motion, u_max_mm and overturned")
+    columns, factor = _columns(path, header)
     motions, maxima, overturned = [], [], []
-    for (number, _), row in zip(lines[1:], table[1:]):
-        if len(row) != len(table[0]):
-            raise InputError(path, f"line {number}", None, f"has {len(row)} columns where the header has {len(table[0])}")
+    for number, row in rows:
+        if len(row) != len(header):
+            raise InputError(path, f"line {number}", None, f"has {len(row)} columns where the header has {len(header)}")
         motion, u_text, word = (row[column].strip() for column in columns)
         if not motion or motion in motions:
             raise InputError(path, f"line {number}, motion", motion, "must be a name" if not motion else "stands twice in the file")
         motions.append(motion)
         overturned.append(overturned_word(path, number, word))
-        maxima.append(math.nan if overturned[-1] else factor * _number(path, number, table[0][columns[1]].strip(), u_text))
+        maxima.append(math.nan if overturned[-1] else factor * _number(path, number, header[columns[1]], u_text))
     return Maxima(tuple(motions), np.array(maxima), np.array(overturned))
 
 

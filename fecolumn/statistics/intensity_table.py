@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.schema import InputError
+from fecolumn.statistics.csv_table import read_csv
 from fecolumn.statistics.experiment import overturned_word
 
 #: Columns that are no intensity measure
@@ -43,25 +43,15 @@ def read_intensity_table(path, wanted: tuple[str, ...] = ()) -> IntensityTable:
         InputError: no such file, a column missing, a value that cannot be used.
     """
     path = Path(path)
-    try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            lines = [(number, line) for number, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
-    except FileNotFoundError:
-        raise InputError(path, "", None, "no such file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(path, "", None, f"cannot be read as text in UTF-8 ({error})") from None
-    table = list(csv.reader([line for _, line in lines], skipinitialspace=True))
-    if len(table) < 2:
-        raise InputError(path, "", None, "holds no line below its header; needed are the column overturned and one of an intensity measure")
-    header = [name.strip() for name in table[0]]
+    header, rows = read_csv(path, "the column overturned and one of an intensity measure")
     for name in ("overturned", *wanted):
         if header.count(name) != 1:
             raise InputError(path, "header", ", ".join(header), f"must have one column {name}")
-    for (number, _), row in zip(lines[1:], table[1:]):
+    for number, row in rows:
         if len(row) != len(header):
             raise InputError(path, f"line {number}", None, f"has {len(row)} columns where the header has {len(header)}")
-    columns = {name: [row[place].strip() for row in table[1:]] for place, name in enumerate(header)}
-    numbers = [number for number, _ in lines[1:]]
+    columns = {name: [row[place].strip() for _, row in rows] for place, name in enumerate(header)}
+    numbers = [number for number, _ in rows]
     fallen = np.array([overturned_word(path, number, word) for number, word in zip(numbers, columns["overturned"])])
     names = wanted or tuple(name for name in header if name not in _OTHERS and not name.startswith(_RESPONSES) and all(_positive(text) for text in columns[name]))
     if not names:

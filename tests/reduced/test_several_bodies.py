@@ -10,13 +10,9 @@ from fecolumn.reduced.observe import ENERGY, WIDTH
 from fecolumn.reduced.start import of_parts
 from fecolumn.structures.model import GROUND, Link
 from fecolumn.verification.boxes import GRAVITY, box, engine, frame, joint, part, pulse, stack
+from fecolumn.verification.several_bodies import closure
 
 G = -GRAVITY[2]
-
-
-def closure(rows):
-    """Largest error of the energy balance over the energy moved."""
-    return np.abs(rows[:, WIDTH - 1] - rows[0, WIDTH - 1]).max() / np.ptp(rows[:, ENERGY + 2])
 
 
 @pytest.mark.parametrize("alpha", [0.0, -0.2])
