@@ -6,13 +6,12 @@ Axes: x and y horizontal, z up, gravity along -z. Displacements are relative to 
 from __future__ import annotations
 
 import dataclasses
-import functools
 import hashlib
 import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.files import is_file
+from fecolumn.content import content
 from fecolumn.model_keys import check_model
 from fecolumn.schema import InputError, Section, build, merge, parameter, read_toml, stated
 
@@ -258,21 +257,6 @@ DEFAULT = {field.name: field.default for field in dataclasses.fields(Integration
 _YOUNGER = {field.name for field in dataclasses.fields(Case) if field.metadata.get("since")}
 # keys that may name files
 FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
-
-
-def content(source: str) -> str:
-    """Digest of the file `source`, or `source` itself where it is no file; with the number of a motion in an ensemble."""
-    file, mark, number = (source, "", "") if is_file(source) else source.rpartition("#")
-    if not is_file(file):
-        return source
-    status = Path(file).stat()
-    return _digest(file, status.st_size, status.st_mtime_ns) + mark + number
-
-
-@functools.lru_cache(maxsize=4096)
-def _digest(path: str, size: int, changed: int) -> str:
-    """sha256 of a file; size and time of change tell whether it is still the one read before."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
 def section_table(name: str, section) -> dict | None:

@@ -15,7 +15,8 @@ import dataclasses
 import functools
 import math
 
-from fecolumn.case import Case, content
+from fecolumn.case import Case
+from fecolumn.content import content
 from fecolumn.files import is_file
 from fecolumn.schema import InputError
 

@@ -10,7 +10,7 @@ from fecolumn import __version__
 
 _PACKAGE = Path(__file__).parent
 # Folders and files of which results depend; what only reads, writes, waits or tells is left out
-DECIDING = ("_dolfinx.py", "analysis.py", "case.py", "contact", "dynamics", "ending.py", "fem", "material", "mesh", "motions", "reduced", "rocking", "sizes.py", "structures")
+DECIDING = ("_dolfinx.py", "analysis.py", "case.py", "contact", "content.py", "dynamics", "ending.py", "fem", "material", "mesh", "motions", "reduced", "rocking", "sizes.py", "structures")
 
 
 def digest_of(paths) -> str:

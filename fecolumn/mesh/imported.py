@@ -13,7 +13,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from fecolumn.case import Case, content
+from fecolumn.case import Case
+from fecolumn.content import content
 from fecolumn.mesh.bricks import FACES, UPPER, BrickMesh, boundary_faces, brick_mesh
 from fecolumn.mesh.jacobian import corner_jacobians
 from fecolumn.schema import InputError

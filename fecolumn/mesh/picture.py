@@ -99,28 +99,41 @@ def _panel(figure, size_mm, corner_mm, panel_mm, centre, half):
 
 def _rendered(meshes: tuple[BrickMesh, ...], focus, view, half_height, panel_mm, line_width):
     """(height, width, 3) image of the mesh, at twice the figure's resolution."""
+    def fill(plotter, pyvista):
+        for mesh, part in ((mesh, part) for mesh in meshes for part in _COLOURS if mesh.has_part(part)):
+            surface = pyvista.PolyData.from_regular_faces(mesh.points, outer_faces(mesh, part))
+            plotter.add_mesh(surface, color=_COLOURS[part], show_edges=True, edge_color=_EDGE,
+                             line_width=line_width, ambient=0.5, diffuse=0.55, specular=0.05, smooth_shading=False)
+
+    reach = 10 * np.linalg.norm(np.ptp(np.concatenate([mesh.points for mesh in meshes]), axis=0))
+    return rendered(fill, [round(2 * _DPI * side / 25.4) for side in panel_mm], focus, view, half_height, reach, 0.2)
+
+
+def rendered(fill, pixels, focus, view, half_height: float, reach: float, depth: float) -> np.ndarray:
+    """(height, width, 3) image in parallel projection, without a screen.
+
+    Args:
+        fill: function of the plotter and of pyvista that puts the bodies in. pixels: (2,) width and height, at least 2.
+        focus: (3,) middle of the picture [m]. view: right, up and toward, unit vectors (3,) as of `view`. half_height: of the picture [m].
+        reach: how far the camera is from the focus [m]; depth: what is nearer or farther than the focus by this share of it is cut away.
+    """
     # VTK asks for an X server first and complains where there is none.
     if not os.environ.get("DISPLAY"):
         os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
     import pyvista
 
     right, up, toward = view
-    pixels = [max(2, round(2 * _DPI * side / 25.4)) for side in panel_mm]
-    plotter = pyvista.Plotter(off_screen=True, window_size=pixels, lighting="none")
+    plotter = pyvista.Plotter(off_screen=True, window_size=[max(2, side) for side in pixels], lighting="none")
     try:
         plotter.set_background("white")
-        for mesh, part in ((mesh, part) for mesh in meshes for part in _COLOURS if mesh.has_part(part)):
-            surface = pyvista.PolyData.from_regular_faces(mesh.points, outer_faces(mesh, part))
-            plotter.add_mesh(surface, color=_COLOURS[part], show_edges=True, edge_color=_EDGE,
-                             line_width=line_width, ambient=0.5, diffuse=0.55, specular=0.05, smooth_shading=False)
-        reach = 10 * np.linalg.norm(np.ptp(np.concatenate([mesh.points for mesh in meshes]), axis=0))
+        fill(plotter, pyvista)
         for direction, strength in ((toward + 0.8 * up - 0.5 * right, 0.95), (toward + right, 0.25)):
             plotter.add_light(pyvista.Light(position=tuple(focus + reach * direction), focal_point=tuple(focus),
                                             intensity=strength, light_type="scene light"))
         plotter.enable_parallel_projection()
         plotter.camera_position = [tuple(focus + reach * toward), tuple(focus), tuple(up)]
         plotter.camera.parallel_scale = half_height
-        plotter.camera.clipping_range = (0.8 * reach, 1.2 * reach)
+        plotter.camera.clipping_range = ((1 - depth) * reach, (1 + depth) * reach)
         return plotter.screenshot(None, return_img=True)
     finally:
         plotter.close()

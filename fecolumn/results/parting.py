@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case import Case, content, finished
+from fecolumn.case import Case, finished
+from fecolumn.content import content
 from fecolumn.dynamics.energy import TERMS
 from fecolumn.render.pose import poses
 from fecolumn.render.quantity import Quantity

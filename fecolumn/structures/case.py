@@ -15,8 +15,9 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.case import (FULL_ORDER_KEYS, DEFAULT, MOST_STEPS, Contact, Initial, Integration, Material, Motion, Output, Overturn, content,
-                           located, section_table)
+from fecolumn.case import (FULL_ORDER_KEYS, DEFAULT, MOST_STEPS, Contact, Initial, Integration, Material, Motion, Output, Overturn, located,
+                           section_table)
+from fecolumn.content import content
 from fecolumn.files import is_file
 from fecolumn.schema import InputError, build, merge, stated
 from fecolumn.structures.keys import FILES, GROUND, KINDS, Interface, LinkKeys, Placed
@@ -93,7 +94,7 @@ class StructureCase:
             for part in rest:
                 own = {part: own}
             tables = merge(tables, own)
-        return structure_from_tables(_without(tables), "case")
+        return structure_from_tables(stated(tables), "case")
 
     def tables(self) -> dict:
         """The case as the tables of its file."""
@@ -106,11 +107,6 @@ def identity(section) -> dict:
     for key in FILES.get(table.get("kind", ""), ()):
         table[key] = content(table[key])
     return table
-
-
-def _without(tables: dict) -> dict:
-    """Tables without the keys that were set to None."""
-    return {key: _without(value) if isinstance(value, dict) else value for key, value in tables.items() if value is not None}
 
 
 def structure_from_tables(tables: dict, file) -> StructureCase:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
 
 from fecolumn.atomic import write_bytes
 from fecolumn.mesh.bricks import FACES, outer_faces
-from fecolumn.mesh.picture import view
+from fecolumn.mesh.picture import rendered, view
 from fecolumn.structures.keys import Storeys
 from fecolumn.structures.model import GROUND
 from fecolumn.structures.storeys import building_of
@@ -130,16 +129,9 @@ def _write(axes, labels, view_axes, centre, half, millimetres, side) -> None:
 
 def _rendered(solids, colours, structure, axes, focus, half_height, millimetres):
     """(height, width, 3) image of the structure at twice the figure's resolution."""
-    if not os.environ.get("DISPLAY"):
-        os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
-    import pyvista
+    low, high = _ground(solids)
 
-    right, up, toward = axes
-    pixels = [max(2, round(2 * _DPI * side / 25.4)) for side in millimetres]
-    plotter = pyvista.Plotter(off_screen=True, window_size=pixels, lighting="none")
-    try:
-        plotter.set_background("white")
-        low, high = _ground(solids)
+    def fill(plotter, pyvista):
         plotter.add_mesh(pyvista.Plane(center=(*(low + high) / 2, -1e-3 * half_height), i_size=high[0] - low[0], j_size=high[1] - low[1],
                                        i_resolution=1, j_resolution=1), color=_GROUND, ambient=0.7, diffuse=0.3)
         for (nodes, faces), colour in zip(solids, colours):
@@ -148,13 +140,5 @@ def _rendered(solids, colours, structure, axes, focus, half_height, millimetres)
                                  diffuse=0.55, specular=0.05, smooth_shading=False, opacity=0.85 if structure.links else 1.0)
         for link in structure.links:
             plotter.add_mesh(pyvista.Line(*_ends(structure, link)), color=_LINK, line_width=5.0)
-        reach = 10 * (np.linalg.norm(high - low) + half_height)
-        for direction, strength in ((toward + 0.8 * up - 0.5 * right, 0.95), (toward + right, 0.25)):
-            plotter.add_light(pyvista.Light(position=tuple(focus + reach * direction), focal_point=tuple(focus), intensity=strength, light_type="scene light"))
-        plotter.enable_parallel_projection()
-        plotter.camera_position = [tuple(focus + reach * toward), tuple(focus), tuple(up)]
-        plotter.camera.parallel_scale = half_height
-        plotter.camera.clipping_range = (0.5 * reach, 1.5 * reach)
-        return plotter.screenshot(None, return_img=True)
-    finally:
-        plotter.close()
+
+    return rendered(fill, [round(2 * _DPI * side / 25.4) for side in millimetres], focus, axes, half_height, 10 * (np.linalg.norm(high - low) + half_height), 0.5)

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from fecolumn import __version__
 from fecolumn.atomic import UNFINISHED, write_json
-from fecolumn.case import content
+from fecolumn.content import content
 from fecolumn.files import Unreadable, read_json
 from fecolumn.schema import InputError
 from fecolumn.study.ledger import PLANNED, RUNNING, Ledger, can_be_opened, files_of, open_to_read, read_rows

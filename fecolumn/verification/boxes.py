@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from fecolumn import case
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.hht import HHT
 from fecolumn.reduced.run import Engine
@@ -9,7 +10,7 @@ from fecolumn.reduced.start import of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
 
-GRAVITY = np.array([0.0, 0.0, -9.81])
+GRAVITY = np.array([0.0, 0.0, -case.GRAVITY])
 # each point gives way by this [m/N]
 GIVES = 1e-10
 
@@ -49,13 +50,24 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     model = StructureModel(tuple(parts), tuple(joints), tuple(links), base, (observed, "top"))
     hht = HHT(dt, alpha)
     structure, _ = structure_of(model, hht, GRAVITY)
-    eye = view_of(model, structure, structure.bodies.body["mass"].sum() * 9.81)
+    eye = view_of(model, structure, structure.bodies.body["mass"].sum() * case.GRAVITY)
     return Engine(lambda step: structure_of(model, step, GRAVITY), base, eye, hht, lambda made: of_parts(made, parts, stands), model=model)
 
 
 def stack(dt=1e-3, alpha=-0.05):
     low, up = box(0.4, 0.4, 0.8), box(0.3, 0.3, 0.9)
     return engine([part("low", low, (0, 0, 0)), part("up", up, (0, 0, 0.8))], [joint(0, GROUND, low), joint(1, 0, up)], dt=dt, alpha=alpha, observed=1)
+
+
+def block_on_a_heavy_one(dt: float):
+    """A block set rocking on one of 46 times its mass; its slenderness [rad] and frequency parameter [rad/s]."""
+    breadth, height = 0.3, 0.9
+    up, low = box(breadth, breadth, height), box(1.0, 1.0, 0.5, density=2e4)
+    alpha = np.arctan(breadth / height)
+    p = np.sqrt(-0.75 * GRAVITY[2] / (np.hypot(breadth, height) / 2))
+    spin, toe = np.array([0, 0.5 * alpha * p, 0]), np.array([breadth / 2, 0, 0])
+    tipped = part("up", up, (0, 0, 0.5), spin=spin, velocity=np.cross(spin, up.center - toe))
+    return engine([part("low", low, (0, 0, 0)), tipped], [joint(0, GROUND, low), joint(1, 0, up)], observed=1, dt=dt), alpha, p
 
 
 def frame(columns, order=None, dt=1e-3):

@@ -9,7 +9,7 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced.observe import ENERGY, WIDTH
 from fecolumn.reduced.start import of_parts
 from fecolumn.structures.model import GROUND, Link
-from fecolumn.verification.boxes import GRAVITY, box, engine, frame, joint, part, pulse, stack
+from fecolumn.verification.boxes import GRAVITY, block_on_a_heavy_one, box, engine, frame, joint, part, pulse, stack
 from fecolumn.verification.several_bodies import closure
 
 G = -GRAVITY[2]
@@ -36,13 +36,8 @@ def test_a_slab_rests_on_more_columns_than_it_needs(columns):
 
 def test_a_block_rocks_on_a_heavy_one_as_on_the_ground():
     """Housner (1963): quarter period acosh(1 / (1 - theta / alpha)) / p; an impact leaves (1 - 3/2 sin^2 alpha)^2 of the energy."""
-    breadth, height, dt = 0.3, 0.9, 5e-4
-    up, low = box(breadth, breadth, height), box(1.0, 1.0, 0.5, density=2e4)
-    alpha, R = np.arctan(breadth / height), np.hypot(breadth, height) / 2
-    p = np.sqrt(0.75 * G / R)
-    spin, toe = np.array([0, 0.5 * alpha * p, 0]), np.array([breadth / 2, 0, 0])
-    tipped = part("up", up, (0, 0, 0.5), spin=spin, velocity=np.cross(spin, up.center - toe))
-    made = engine([part("low", low, (0, 0, 0)), tipped], [joint(0, GROUND, low), joint(1, 0, up)], observed=1, dt=dt)
+    dt = 5e-4
+    made, alpha, p = block_on_a_heavy_one(dt)
     tilt = made.advance(np.zeros((1000, 3)))[0][:, 4]
     top = np.argmax(tilt[:500])
     quarter = np.arccosh(1 / (1 - tilt[top] / alpha)) / p
