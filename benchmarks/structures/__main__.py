@@ -61,8 +61,8 @@ def impacts(folder: Path) -> None:
     for concrete in (False, True):
         for period, rate, top in podium.impacts(concrete=concrete):
             kind, crv, cav = "concrete" if concrete else "rigid", *podium.laws(3)
-            table.append([kind, period or 0.0, rate, top, crv, cav])
-            print(f"| {kind} | {period or 'rigid'} | {rate:.3f} | {top:.3f} | {crv:.3f} | {cav:.3f} |", flush=True)
+            table.append([kind, period, rate, top, crv, cav])
+            print(f"| {kind} | {period} | {rate:.3f} | {top:.3f} | {crv:.3f} | {cav:.3f} |", flush=True)
     write_csv(folder / "impacts.csv", [["kind", "period_s", "rate_kept", "root_of_energy_kept", "crv", "cav"], *table])
 
 

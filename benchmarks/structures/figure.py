@@ -54,7 +54,7 @@ def _planar(axes, table) -> None:
 
 def _impacts(axes, table) -> None:
     for kind, colour, mark in (("rigid", BLUE, "o"), ("concrete", VERMILION, "s")):
-        of = (table["kind"] == kind) & (table["period_s"] > 0)
+        of = table["kind"] == kind
         axes.semilogx(table["period_s"][of], table["root_of_energy_kept"][of], mark, color=colour, markersize=4, markerfacecolor="none", label=f"{kind}: root of energy at the next top")
         if kind == "rigid":
             axes.semilogx(table["period_s"][of], table["rate_kept"][of], "x", color=BLACK, markersize=4, label="rigid: velocity just after")

@@ -12,8 +12,8 @@ from fecolumn.rocking.podium_impact import CAV, CRV, podium_restitution
 from fecolumn.rocking.storeys import storeys
 from fecolumn.verification.structures import ALPHA, GAMMA, HALF_DIAGONAL, advanced, kept_rate, podium_case, tilt_of
 
-#: Periods of the building on a fixed slab [s]; None: it cannot deform
-PERIODS = (None, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
+#: Periods of the building on a fixed slab [s]
+PERIODS = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
 #: Of concrete: columns of 2 x 2 elements in plan with 10 modes, points that give as concrete does
 CONCRETE = dict(column=dict(rigid=False, modes=10, element_size_m=0.2225, youngs_modulus_pa=30e9), building=dict(youngs_modulus_pa=30e9))
 _DT = 5e-4

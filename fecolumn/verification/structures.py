@@ -140,19 +140,18 @@ def _path(seconds: float):
     yield Row(f"restrained frame that rolls round: slab off the model's way in {seconds:g} s over its reach", 0.0, off / np.abs(exact).max(), 0.02)
 
 
-def podium_case(floors: int, period: float | None, tilt: float, dt: float, column: dict | None = None, building: dict | None = None):
-    """The podium of [P] in bodies, let go at a tilt [rad]; period: of the building [s], None of one that cannot deform.
+def podium_case(floors: int, period: float, tilt: float, dt: float, column: dict | None = None, building: dict | None = None):
+    """The podium of [P] in bodies, let go at a tilt [rad]; period: of the building on a fixed slab [s].
 
     column, building: keys of the bodies in place of those of rigid ones that touch at stiff points.
     """
     width, height, mass = 2 * HALF_DIAGONAL * math.sin(ALPHA), 2 * HALF_DIAGONAL * math.cos(ALPHA), 1500.0
     stuff, slab = dict(youngs_modulus_pa=3 * _STIFF, poissons_ratio=0.2), 4 * GAMMA * mass
-    own = dict(modes=0, period_s=0.1) if period is None else dict(period_s=period, modes=2 * floors)
     return case_from_tables(dict(
         bodies=dict(column=dict(kind="block", length_m=width, width_m=width, height_m=height, mass_kg=mass, rigid=True, element_size_m=width,
                                 copies_m=[[2.5, 2.5, 0.0], [-2.5, 2.5, 0.0], [-2.5, -2.5, 0.0], [2.5, -2.5, 0.0]]) | stuff | (column or {}),
                     building=dict(kind="storeys", length_m=6.0, width_m=6.0, thickness_m=0.5, mass_kg=slab, floors=floors, floor_masses_kg=[slab], storey_heights_m=[3.0],
-                                  profile="triangular", damping="rayleigh", damping_ratio=0.05, at_m=[0.0, 0.0, height]) | stuff | own | (building or {})),
+                                  profile="triangular", damping="rayleigh", damping_ratio=0.05, period_s=period, modes=2 * floors, at_m=[0.0, 0.0, height]) | stuff | (building or {})),
         interfaces=dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="building")),
         contact=dict(friction_coefficient=0.7, interior_points=0), initial=dict(column=dict(tilt_rad=tilt)), integration=dict(dt_s=dt, duration_s=60.0)), "podium")
 
