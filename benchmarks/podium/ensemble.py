@@ -16,20 +16,27 @@ from fecolumn.rocking.storeys import PROFILES
 STOREYS = (3, 6, 9)
 BUILDINGS = tuple((profile, n) for profile in PROFILES for n in STOREYS)
 SCENARIOS = tuple((magnitude, distance) for magnitude in MAGNITUDES for distance in DISTANCES)
+_BATCH = 10  # motions of a scenario in a file
 _HEAD = ["profile", "storeys", "law", "motion", "tilt_over_alpha", "overturned", "shear_over_static"]
 
 
-def responses(scenario, count: int, seed: int, folder: Path) -> Path:
-    """File with the peak tilt over alpha and base shear over V_st of every building under every motion of a scenario; made where it is missing."""
-    file = folder / f"M{scenario[0]:g}_R{scenario[1]:g}_n{count}_seed{seed}.csv"
+def batches(count: int) -> tuple[tuple[int, int], ...]:
+    """First and last number of the motions of each batch, so that a study of more motions takes over what a smaller one has made."""
+    return tuple((first, min(first + _BATCH - 1, count)) for first in range(1, count + 1, _BATCH))
+
+
+def responses(scenario, batch, seed: int, folder: Path) -> Path:
+    """File with the peak tilt over alpha and base shear over V_st of every building under the motions of a batch of a scenario; made where it is missing."""
+    first, last = batch
+    file = folder / f"M{scenario[0]:g}_R{scenario[1]:g}_seed{seed}_{first}-{last}.csv"
     if file.exists():
         return file
-    motions = near_fault_ensemble(scenario[:1], scenario[1:], count, seed=seed).motions
+    motions = near_fault_ensemble(scenario[:1], scenario[1:], last, seed=seed).motions[first - 1:]
     rows = [_HEAD]
     for profile, n in BUILDINGS:
         for law in LAWS:
             podium = study_podium(profile, n, law)
-            for number, motion in enumerate(motions, 1):
+            for number, motion in enumerate(motions, first):
                 _, _, shears, peak, fallen = podium.shake(motion.acceleration[:, [0, 2]], motion.dt)
                 shear = podium.building_mass * shears[0] / podium.static_shear
                 rows.append([profile, n, law, number, f"{peak / podium.slenderness:.8g}", int(fallen), f"{shear:.8g}"])
