@@ -1,11 +1,12 @@
 """The podium study: nine buildings on a rocking storey, laws CRV and CAV, near-fault motions of 5 magnitudes x 7 distances.
 
-    ./containers/run python -m benchmarks.podium [-n 100] [-j N] [-o DIR]
+    ./containers/run python -m benchmarks.podium [-n 100] [-j N] [--study] [-o DIR]
 
 Source: Bantilas, Kavvadias and Vasiliadis, "The effect of impact modeling on the seismic response of multi-storey podium structures" (COMPDYN).
 -n 100 motions a scenario are the paper's 3500; a quarter of an hour of processor time. What is done is kept: the same command goes on, and one
 with a larger n makes only what is missing.
-Writes tilt.png, shear.png (and .pdf) and buildings.csv into DIR, and prints each claim with what it is here.
+Writes tilt.png, shear.png (and .pdf) and buildings.csv into DIR, and prints each claim with what it is here. --study writes, instead, files for
+fecolumn study, whose report has the same; of some motions a scenario, for each analysis has a folder.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
 from pathlib import Path
 
-from benchmarks.podium.ensemble import SCENARIOS, batches, gathered, responses
+from benchmarks.podium.ensemble import SCENARIOS, batches, gathered, responses, write_study
 from fecolumn.atomic import write_csv
 from fecolumn.post.podium_figure import podium_figure
 from fecolumn.report.podium_claims import compared, podium_claims
@@ -31,7 +32,12 @@ def main() -> None:
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="scenarios at a time (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="of the motions (default: %(default)s)")
     parser.add_argument("-o", "--output", metavar="DIR", default="results/podium")
+    parser.add_argument("--study", action="store_true", help="write the same study for fecolumn study and fecolumn report, and stop")
     args = parser.parse_args()
+    if args.study:
+        file = write_study(args.n, args.seed, Path(args.output))
+        print(f"fecolumn study {file} -o {file.parent / 'results'} && fecolumn report {file.parent / 'results'}")
+        return
     folder, began = Path(args.output), time.perf_counter()
     (folder / "scenarios").mkdir(parents=True, exist_ok=True)
     parts = [(scenario, batch) for batch in batches(args.n) for scenario in SCENARIOS]

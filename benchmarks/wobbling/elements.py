@@ -76,7 +76,10 @@ slack_m = 0.005                     # [S]
 stiffness_n_m = 2e6                 # [A]
 """
 _STUDY = """title = "Restrained wobbling frame"
-case = "frame.toml"
+
+[case]
+extends = "frame.toml"
+motion.strong_part = [0.001, 0.999]   # [A] of the Arias intensity: before it the frame stands
 
 [axes]                              # a motion after the other: what is stopped has whole bins
 "motion.source" = [{motions}]

@@ -6,8 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from fecolumn import _compiled
 from fecolumn.case import case_from_tables, read_case
 from fecolumn.cli import main
+from fecolumn.rocking.case import read_model_case
 from fecolumn.rocking.model import MODELS, TABLES, model_class
 from fecolumn.schema import InputError, merge
 from fecolumn.simulation import read_folder_case, run
@@ -28,7 +30,7 @@ MODEL = {"wobbling_frame": dict(slenderness_rad=0.1359, half_diagonal_m=0.7315, 
 @pytest.fixture
 def folder(tmp_path):
     """A folder with podium.toml and a pulse that rocks it."""
-    (tmp_path / "pulse.csv").write_text("t,x\n" + "\n".join(f"{0.02 * i:.2f},{0.2 * (1 if i < 25 else -1) * (i < 50)}" for i in range(60)))
+    (tmp_path / "pulse.csv").write_text("t,x\n" + "\n".join(f"{0.02 * i:.2f},{0.2 * (1 if i < 10 else -1) * (i < 20)}" for i in range(60)))
     (tmp_path / "podium.toml").write_text(PODIUM + PULSE)
     return tmp_path
 
@@ -37,14 +39,15 @@ def test_tables_are_those_of_the_models():
     assert {model_class(name).TABLE: name for name in MODELS} == TABLES
 
 
-def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(folder):
+def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(folder, capsys):
     assert main(["run", str(folder / "podium.toml"), "-o", str(folder / "run"), "-q"]) == 0
     summary = json.loads((folder / "run" / "summary.json").read_text())
     assert summary["engine"] == "podium" and summary["impacts"] > 0 and summary["energy_closure_rel"] < 1e-5
-    assert main(["rocking", "podium", str(folder / "podium.toml"), "-o", str(folder / "out")]) == 0
-    head, row = (folder / "out" / "responses.csv").read_text().splitlines()
-    told = dict(zip(head.split(","), row.split(",")))
-    assert float(told["u_max_m"]) == pytest.approx(summary["u_max_m"], rel=1e-5)
+    one = read_model_case("podium", folder / "podium.toml")
+    _, response = one.response(one.sources[0])
+    assert response.u_max == pytest.approx(summary["u_max_m"]) and response.peaks == pytest.approx(summary["peaks"])
+    for command in (["mesh", str(folder / "podium.toml"), "-o", str(folder / "mesh")], ["render", str(folder / "run")]):
+        assert main(command) == 2 and "is a rocking model of rigid bodies" in capsys.readouterr().err
     again, _ = read_folder_case(folder / "run")
     assert again.id == summary["case_id"] and again.podium.storeys == 3
 
@@ -59,8 +62,7 @@ def test_studies_vary_the_keys_of_a_models_table(folder):
     (folder / "study.toml").write_text('case = "podium.toml"\n[axes]\n"podium.impact" = ["CRV", "CAV"]\n"podium.period_s" = [0.3, 0.6]\n"motion.scale" = [0.7, 1.0]\n')
     plan = read_plan(folder / "study.toml")
     assert {one.case.integration.engine for one in plan.analyses} == {"podium"} and len(plan.analyses) == 8
-    assert main(["study", str(folder / "study.toml"), "-o", str(folder / "results"), "-j", "1"]) == 0
-    assert (folder / "results" / "cdf.png").exists()
+    assert [one.case.podium.impact for one in plan.analyses] == 4 * ["CRV"] + 4 * ["CAV"]
 
 
 @pytest.mark.parametrize("text, said", [
@@ -90,6 +92,18 @@ def test_the_same_frame_in_bodies_and_as_a_model_is_told_apart_by_the_engine(tmp
     model = case_from_tables(merge(both, {"integration": {"engine": "wobbling_frame"}, "initial": {"tilt_rad": 0.03}}), FRAME)
     summary = run(model, tmp_path / "run", quiet=True)
     assert summary["engine"] == "wobbling_frame" and summary["u_max_m"] == pytest.approx(0.043, rel=0.05)
+
+
+def test_functions_compiled_from_their_own_file_are_kept_for_the_next_tests(tmp_path, monkeypatch):
+    """The cache of the tests lives as long as they do; half a minute of compilation of podium, block and wobbling column need not."""
+    monkeypatch.setenv("FECOLUMN_CACHE", str(tmp_path / "own"))
+    monkeypatch.setenv("FECOLUMN_COMPILED", str(tmp_path / "kept"))
+    _compiled.compiled_folder.cache_clear()
+    try:
+        assert Path(_compiled.compiled_folder((_compiled.__file__,))).parent == tmp_path / "kept"
+        assert Path(_compiled.compiled_folder()).parent == tmp_path / "own"
+    finally:
+        _compiled.compiled_folder.cache_clear()
 
 
 def test_tables_of_other_programs_come_out_again():
