@@ -46,13 +46,14 @@ def main() -> None:
         futures = {pool.submit(responses, *part, args.seed, folder / "scenarios"): part for part in parts}
         for number, future in enumerate(as_completed(futures), 1):
             files[futures[future]] = future.result()
-            print(f"{number} of {len(parts)} parts of {len(SCENARIOS)} scenarios, {time.perf_counter() - began:.0f} s", file=sys.stderr, flush=True)
+            if number % 10 == 0 or number == len(parts):
+                print(f"{number} of {len(parts)} parts of {len(SCENARIOS)} scenarios, {time.perf_counter() - began:.0f} s", file=sys.stderr, flush=True)
     found = gathered(files[part] for part in parts)
     buildings = compared(found)
     names = [field.name for field in dataclasses.fields(buildings[0]) if field.name != "drawn"]
     write_csv(folder / "buildings.csv", [names, *([getattr(one, name) for name in names] for one in buildings)])
-    podium_figure(found, "tilt", r"$\theta_{\max}/\alpha$", 1.05, folder / "tilt")
-    podium_figure(found, "shear", r"$V_{\max}/V_{st}$", 5.0, folder / "shear")
+    podium_figure(found, "tilt", r"$\theta_{\max}/\alpha$", (0.0, 1.05), folder / "tilt")
+    podium_figure(found, "shear", r"$V_{\max}/V_{st}$", (1.0, 4.0), folder / "shear")
     print(f"{args.n * len(SCENARIOS)} motions, {len(buildings)} buildings\n")
     for claim in podium_claims(buildings):
         print(f"{claim.key} {claim.paper} {claim.verdict}\n   {claim.ours}\n   rule: {claim.rule}")

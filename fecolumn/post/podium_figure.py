@@ -11,13 +11,13 @@ from fecolumn.statistics.bands import greenwood
 _NARROW_IN = 5.0  # below this width panels stand one below the other
 
 
-def podium_figure(found, name: str, label: str, limit: float, path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN):
+def podium_figure(found, name: str, label: str, limits: tuple[float, float], path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN):
     """One figure of a response.
 
     Args:
         found: (motions,) of "tilt" over alpha and "shear" over V_st by (profile, storeys, law). Motions that overturn under a law lie beyond the axis, of
             the shear they are left out.
-        name: tilt or shear. label: of the axis. limit: its end. path: without suffix.
+        name: tilt or shear. label: of the axis. limits: its ends. path: without suffix.
     """
     rows, columns = list(dict.fromkeys(profile for profile, _, _ in found)), sorted({n for _, n, _ in found})
     grid = [[(profile, n) for n in columns] for profile in rows]
@@ -30,8 +30,8 @@ def podium_figure(found, name: str, label: str, limit: float, path, formats=("pn
                 if (profile, n, CRV) not in found:
                     axes.set_axis_off()
                     continue
-                _panel(axes, found[profile, n, CRV], found[profile, n, CAV], name, limit)
-                axes.set(xlim=(0, limit), ylim=(0, 1.02), title=f"{profile}, {n} storeys")
+                _panel(axes, found[profile, n, CRV], found[profile, n, CAV], name, limits)
+                axes.set(xlim=limits, ylim=(0, 1.02), title=f"{profile}, {n} storeys")
         for axes in figure.axes:
             axes.label_outer()
         for axes in figure.axes[::len(grid[0])]:
@@ -42,11 +42,11 @@ def podium_figure(found, name: str, label: str, limit: float, path, formats=("pn
         return save(figure, path, formats)
 
 
-def _panel(axes, crv, cav, name: str, limit: float) -> None:
+def _panel(axes, crv, cav, name: str, limits) -> None:
     stood = np.isfinite(crv["tilt"]) & np.isfinite(cav["tilt"])
     for law, one, colour, dashes in ((CRV, crv, BLUE, "-"), (CAV, cav, VERMILION, "--")):
         values = np.sort(one[name][stood] if name == "shear" else one[name])
-        x = np.concatenate([[0.0], values[values <= limit], [limit]])
+        x = np.concatenate([limits[:1], values[(values > limits[0]) & (values <= limits[1])], limits[1:]])
         cdf = np.searchsorted(values, x, side="right") / max(len(values), 1)
         if law == CRV:
             axes.fill_between(x, *greenwood(cdf, len(values), 0.95), step="post", color=colour, alpha=0.2, linewidth=0, label="95 % band of CRV")

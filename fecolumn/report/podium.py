@@ -8,7 +8,7 @@ from fecolumn.post.podium_figure import podium_figure
 from fecolumn.report.claim import Claim, ClaimList
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import count, fixed, number, p_value, percent
+from fecolumn.report.notation import count, fixed, p_value, percent
 from fecolumn.report.podium_claims import Building, compared, podium_claims
 from fecolumn.report.sweep import Sweep, common_motions
 from fecolumn.rocking.podium_impact import CAV, CRV
@@ -31,9 +31,9 @@ def podium(sweep: Sweep, gallery: Gallery) -> Section | None:
     text = (f"{AUTHORS} ran 3500 near-fault synthetics through nine buildings on a rocking storey under two laws of what an impact does to the floors: constant relative velocity "
             "(CRV) and constant absolute velocity (CAV). [[laws]] sets both beside each other for the buildings of this study, [[tilts]] and [[shears]] show the "
             "distributions. What follows judges each finding by a rule stated beforehand; motions drawn again give the intervals.")
-    blocks = [Paragraph(text), gallery.draw("tilts", "Largest tilt over the slenderness; what overturns lies beyond the axis.", podium_figure, found, "tilt", r"$\theta_{\max}/\alpha$", 1.05),
+    blocks = [Paragraph(text), gallery.draw("tilts", "Largest tilt over the slenderness; what overturns lies beyond the axis.", podium_figure, found, "tilt", r"$\theta_{\max}/\alpha$", (0.0, 1.05)),
               gallery.draw("shears", "Largest base shear over that at uplift in a steady acceleration, of motions that overturn the podium under neither law.", podium_figure, found,
-                           "shear", r"$V_{\max}/V_{st}$", _limit(found)), _table(buildings), *_verdicts(claims)]
+                           "shear", r"$V_{\max}/V_{st}$", _limits(found)), _table(buildings), *_verdicts(claims)]
     return Section("Two laws of impact", blocks)
 
 
@@ -53,14 +53,21 @@ def responses(sweep: Sweep) -> dict[tuple[str, int, str], dict[str, np.ndarray]]
     return {key: values for key, values in found.items() if {(*key[:2], CRV), (*key[:2], CAV)} <= set(found)} if len(motions) > 1 else {}
 
 
-def _limit(found) -> float:
-    return float(np.ceil(max(np.percentile(one["shear"][np.isfinite(one["tilt"])], 95) for one in found.values() if np.isfinite(one["tilt"]).any())))
+def _limits(found) -> tuple[float, float]:
+    """Between which nearly all shears of motions lie that do not overturn, in halves."""
+    shears = [one["shear"][np.isfinite(one["tilt"])] for one in found.values()]
+    low, high = (np.percentile(np.concatenate(shears), share) for share in (1, 99))
+    return float(np.floor(2 * low) / 2), float(np.floor(2 * high) / 2 + 0.5)
+
+
+def _thousandths(value) -> str:
+    return fixed(value, 3)
 
 
 def _table(buildings: list[Building]) -> Table:
-    columns = (Column("profile", "profile", text=True), Column("storeys", "n"), Column("motions", "motions"), Column("still", "start none", percent),
-               Column("overturned_crv", "over\N{SOFT HYPHEN}turned, CRV", percent), Column("overturned_cav", "CAV", percent), Column("distance_tilt", "D, tilt", number),
-               Column("p_tilt", "p", p_value), Column("distance_shear", "D, shear", number), Column("p_shear", "p", p_value), Column("median_ratio", "median shear, CAV over CRV", fixed))
+    columns = (Column("profile", "profile", text=True), Column("storeys", "n"), Column("motions", "motions"), Column("still", "start no rocking", percent),
+               Column("overturned_crv", "over\N{SOFT HYPHEN}turned, CRV", percent), Column("overturned_cav", "over\N{SOFT HYPHEN}turned, CAV", percent), Column("distance_tilt", "D, tilt", _thousandths),
+               Column("p_tilt", "p", p_value), Column("distance_shear", "D, shear", _thousandths), Column("p_shear", "p", p_value), Column("median_ratio", "median shear, CAV over CRV", _thousandths))
     rows = [(one.profile, one.storeys, one.motions, one.still, *one.overturned, *one.tilt, *one.shear, one.median_ratio) for one in buildings]
     return Table("laws", columns, rows, "Both laws on the same motions. D and p: paired Kolmogorov-Smirnov test; shears of motions that overturn the podium under neither law.")
 

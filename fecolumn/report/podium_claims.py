@@ -99,7 +99,7 @@ def podium_claims(buildings) -> list[Claim]:
     pairs = [(one[profile, storeys[0]], one[profile, storeys[-1]]) for profile in profiles if {(profile, storeys[0]), (profile, storeys[-1])} <= set(one)]
     few = min(each.motions for each in buildings) < FEWEST
 
-    def row(get, form=fixed):
+    def row(get, form=lambda value: fixed(value, 3)):
         return "; ".join(f"{profile} {', '.join(form(get(one[profile, n])) for n in storeys if (profile, n) in one)}" for profile in profiles)
 
     heads = f"n = {', '.join(map(str, storeys))}"
@@ -118,7 +118,7 @@ def podium_claims(buildings) -> list[Claim]:
                            _sided([low.drawn[1] - high.drawn[1] for low, high in pairs])))
     if "flexural" in profiles and len(profiles) > 1:
         own, others = one["flexural", storeys[0]], [one[profile, storeys[0]] for profile in profiles if profile != "flexural"]
-        found.append(Claim("p4", "And for the flexural profile.", f"Ratio of the medians at n = {storeys[0]}: " + ", ".join(f"{each.profile} {fixed(each.median_ratio)}" for each in (own, *others)) + ".",
+        found.append(Claim("p4", "And for the flexural profile.", f"Ratio of the medians at n = {storeys[0]}: " + ", ".join(f"{each.profile} {fixed(each.median_ratio, 3)}" for each in (own, *others)) + ".",
                            f"supported: the 95 % interval of its ratio less that of each other profile at n = {storeys[0]} is above 0; not supported: below 0 for one; else undecided",
                            _sided([own.drawn[1] - other.drawn[1] for other in others])))
     found.append(Claim("p5", f"CAV's base shear is within the band of CRV for n = {storeys[-1]} alone.", f"Share of points outside, {heads}: {row(lambda each: each.outside_shear, percent)}.",
