@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from dolfinx import fem
@@ -17,6 +18,8 @@ from fecolumn.material.kinematics import linear_strain
 _TOPOLOGY = '<Topology TopologyType="{kind}" NumberOfElements="{cells}"><DataItem Dimensions="{numbers}" Format="HDF" NumberType="Int" Precision="8">mesh.h5:/cells</DataItem></Topology>'
 _GEOMETRY = '<Geometry GeometryType="XYZ"><DataItem Dimensions="{points} 3" Format="HDF" Precision="8">mesh.h5:/points</DataItem></Geometry>'
 _FIELD = '<Attribute Name="{title}" AttributeType="{kind}" Center="{center}"><DataItem Dimensions="{shape}" Format="HDF" Precision="8">{file}:/{name}</DataItem></Attribute>'
+# Numbers of elements in XDMF by their points: triangle, tetrahedron, brick
+_XDMF = {3: 4, 4: 6, 8: 9}
 
 
 class SpecimenFields:
@@ -30,11 +33,16 @@ class SpecimenFields:
 
     def __init__(self, column, plate, foot, specimen):
         self.specimen = specimen
-        self.column, self.plate, self.foot = column, plate, foot
+        self.column, self.plate, self.foot, self.comm = column, plate, foot, column.comm
         bodies = (column, plate.body) if plate else (column,)
-        self._nodes = [_vertex_nodes(body) for body in bodies]
-        self._stress = {body: _StressField(body) for body in bodies}
+        self._nodes = [vertex_nodes(body) for body in bodies]
+        self._stress = {body: StressField(body) for body in bodies}
         self._pressure_points = self._points_of_foot()
+
+    @property
+    def grid(self) -> Grid:
+        """Column and base."""
+        return specimen_grid(self.specimen)
 
     def _points_of_foot(self) -> np.ndarray:
         at = {node: point for point, node in enumerate(self._nodes[0])}
@@ -62,33 +70,49 @@ class SpecimenFields:
                 "von_mises": np.concatenate(stress), "pressure": pressure}
 
 
+class Grid(NamedTuple):
+    """What fields are on: points: (n, 3) [m] at rest; cells: (n_cells, 8), (n_cells, 4) or (n_cells, 3) point numbers of bricks, tetrahedra and triangles, a block of each
+    in the order of the fields' values; part: (n_cells,) to which an element belongs."""
+
+    points: np.ndarray
+    cells: tuple[np.ndarray, ...]
+    part: np.ndarray
+
+
+def specimen_grid(specimen) -> Grid:
+    """Column and base of a SpecimenMesh."""
+    body, base = specimen.body, specimen.base
+    below = base.cells + len(body.points)
+    cells = (body.cells, below) if body.is_tetrahedral else (np.vstack([body.cells, below]),)
+    return Grid(np.vstack([body.points, base.points]), cells, np.concatenate([body.part, base.part]))
+
+
 class FieldWriter:
-    """Writes frames of column and base into a folder; `fields.xdmf` always lists complete frames only.
+    """Writes frames of column and base, or of a structure, into a folder; `fields.xdmf` always lists complete frames only.
 
     Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and continued.
 
     Args:
-        fields: SpecimenFields.
+        fields: SpecimenFields, or what has `comm`, `grid` and, for `write` alone, `values` as these do.
     """
 
-    def __init__(self, folder: Path, fields: SpecimenFields):
-        self.folder, self.fields, self.specimen = folder, fields, fields.specimen
-        self._offset = len(self.specimen.body.points)
-        if fields.column.comm.rank == 0:
+    def __init__(self, folder: Path, fields):
+        self.folder, self.fields = folder, fields
+        if fields.comm.rank == 0:
+            self._grid = fields.grid
             folder.mkdir(parents=True, exist_ok=True)
             self._write_mesh()
 
     def _write_mesh(self) -> None:
-        body, base = self.specimen.body, self.specimen.base
-        if body.is_tetrahedral:
-            # XDMF tells elements of different kinds in one list by their numbers: 6 a tetrahedron, 9 a brick
-            lists = ((6, body.cells), (9, base.cells + self._offset))
-            cells = np.concatenate([np.insert(some, 0, number, axis=1).ravel() for number, some in lists])
-        else:
-            cells = np.vstack([body.cells, base.cells + self._offset])
-        _write_h5(self.folder / "mesh.h5", {
-            "points": np.vstack([body.points, base.points]), "cells": cells,
-            "part": np.concatenate([body.part, base.part]).astype(float)})
+        cells = self._grid.cells
+        # XDMF tells elements of different kinds in one list by their numbers
+        content = cells[0] if self._alike else np.concatenate([np.insert(block, 0, _XDMF[block.shape[1]], axis=1).ravel() for block in cells])
+        _write_h5(self.folder / "mesh.h5", {"points": self._grid.points, "cells": content, "part": self._grid.part.astype(float)})
+
+    @property
+    def _alike(self) -> bool:
+        """Whether all elements are bricks."""
+        return len(self._grid.cells) == 1 and self._grid.cells[0].shape[1] == 8
 
     def write(self, time: float, x, local, positions, forces, at_nodes) -> None:
         """Add the frame of a time [s]; called on every rank, the other arguments as of `SpecimenFields.values`."""
@@ -101,11 +125,9 @@ class FieldWriter:
             self._write_index()
 
     def _write_index(self) -> None:
-        points = self._offset + len(self.specimen.base.points)
-        cells = len(self.specimen.body.cells) + len(self.specimen.base.cells)
-        mixed = self.specimen.body.is_tetrahedral
-        kind = "Mixed" if mixed else "Hexahedron"
-        numbers = 5 * len(self.specimen.body.cells) + 9 * len(self.specimen.base.cells) if mixed else f"{cells} 8"
+        points, cells = len(self._grid.points), len(self._grid.part)
+        kind = "Hexahedron" if self._alike else "Mixed"
+        numbers = f"{cells} 8" if self._alike else sum(block.size + len(block) for block in self._grid.cells)
         grids = []
         for frame in sorted(self.folder.glob("frame_*.h5")):
             fields = [_FIELD.format(title="displacement [m]", kind="Vector", center="Node", shape=f"{points} 3", file=frame.name, name="displacement"),
@@ -120,8 +142,8 @@ class FieldWriter:
         write_bytes(self.folder / "fields.xdmf", text.encode())
 
 
-class _StressField:
-    """Von Mises stress at the middle of each element, in the order of the input mesh."""
+class StressField:
+    """Von Mises stress at the middle of each element of a Body, in the order of its input mesh."""
 
     def __init__(self, body):
         self.body = body
@@ -149,7 +171,7 @@ class _StressField:
         return stress
 
 
-def _vertex_nodes(body) -> np.ndarray:
+def vertex_nodes(body) -> np.ndarray:
     """Node of each point of the body's input mesh."""
     nodes = np.empty(len(body.bricks.points), np.int64)
     for part in np.unique(body.bricks.part):
