@@ -104,8 +104,8 @@ class Panel:
             veil.set_xy([(frame.time, 0), (frame.time, 1), (self._end, 1), (self._end, 0), (frame.time, 0)])
             axes.draw_artist(veil)
             axes.draw_artist(cursor)
-        rows = slice(*np.searchsorted(self.frames.result.time, [self.frames.times[0], frame.time + 1e-12]))
-        way = self._way[rows] if rows.stop > rows.start else self._way[:1]
+        first, last = np.searchsorted(self.frames.result.time, [self.frames.times[0] - 1e-9, frame.time + 1e-9])
+        way = self._way[min(first, last - 1):last]
         self._trace.set_data(*way.T)
         self._top.set_data(*way[-1:].T)
         self._plan.show(frame)

@@ -25,7 +25,7 @@ def structure_strips(result, times: np.ndarray) -> list[Strip]:
     tilt = _largest([(body, [history[f"body/{name}/tilt"] for name in result.case.names_of(body)]) for body in result.case.bodies])
     rise, slide = (_of_interfaces(result, what) for what in ("rise", "slide"))
     if max(values.max() for values, _ in rise) > LIFTED * min(np.ptp(contact.plan, axis=0).max() for contact in result.solid.contacts):
-        moved = strip_of(history, rows, "uplift, middle of foot", "$w$", "m", rise)
+        moved = strip_of(history, rows, "uplift", "$w$", "m", rise)
     else:
         moved = strip_of(history, rows, "slide", "$s$", "m", slide)
     return [ground_strip(history, result.way, rows), strip_of(history, rows, "tilt", r"$\theta$", "rad", tilt), moved, energy_strip(history, rows, reach)]
