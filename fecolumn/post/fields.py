@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from dolfinx import fem
@@ -34,15 +33,13 @@ class SpecimenFields:
     def __init__(self, column, plate, foot, specimen):
         self.specimen = specimen
         self.column, self.plate, self.foot, self.comm = column, plate, foot, column.comm
+        #: Meshes that are drawn, and numbers of their cells by name, as `FieldWriter` takes them.
+        self.meshes = [specimen.body, specimen.base]
+        self.of_cells = {"part": np.concatenate([mesh.part for mesh in self.meshes])}
         bodies = (column, plate.body) if plate else (column,)
         self._nodes = [vertex_nodes(body) for body in bodies]
         self._stress = {body: StressField(body) for body in bodies}
         self._pressure_points = self._points_of_foot()
-
-    @property
-    def grid(self) -> Grid:
-        """Column and base."""
-        return specimen_grid(self.specimen)
 
     def _points_of_foot(self) -> np.ndarray:
         at = {node: point for point, node in enumerate(self._nodes[0])}
@@ -53,7 +50,7 @@ class SpecimenFields:
 
         Args:
             x: (n_owned, 3) positions of the column [m]; local: its displacements in its own frame [m].
-            positions, forces: (n, 3) of the contact points [m, N]; at_nodes: (n, 3) these forces on the foot's nodes.
+            positions: (n, 3) of the contact points [m], asked for with a plate alone; forces: (n, 3) on them [N]; at_nodes: (n, 3) these forces on the foot's nodes.
         """
         column, plate = self.column, self.plate
         displacement, stress = [gather_all(column, x - column.X)], [self._stress[column].values(local)]
@@ -70,49 +67,29 @@ class SpecimenFields:
                 "von_mises": np.concatenate(stress), "pressure": pressure}
 
 
-class Grid(NamedTuple):
-    """What fields are on: points: (n, 3) [m] at rest; cells: (n_cells, 8), (n_cells, 4) or (n_cells, 3) point numbers of bricks, tetrahedra and triangles, a block of each
-    in the order of the fields' values; part: (n_cells,) to which an element belongs."""
-
-    points: np.ndarray
-    cells: tuple[np.ndarray, ...]
-    part: np.ndarray
-
-
-def specimen_grid(specimen) -> Grid:
-    """Column and base of a SpecimenMesh."""
-    body, base = specimen.body, specimen.base
-    below = base.cells + len(body.points)
-    cells = (body.cells, below) if body.is_tetrahedral else (np.vstack([body.cells, below]),)
-    return Grid(np.vstack([body.points, base.points]), cells, np.concatenate([body.part, base.part]))
-
-
 class FieldWriter:
-    """Writes frames of column and base, or of a structure, into a folder; `fields.xdmf` always lists complete frames only.
+    """Writes frames of bodies into a folder; `fields.xdmf` always lists complete frames only.
 
     Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and continued.
 
     Args:
-        fields: SpecimenFields, or what has `comm`, `grid` and, for `write` alone, `values` as these do.
+        fields: SpecimenFields, or what has `meshes`, `of_cells`, `comm` and `values` as it has.
     """
 
     def __init__(self, folder: Path, fields):
         self.folder, self.fields = folder, fields
+        self._mixed = any(mesh.cells.shape[1] != 8 for mesh in fields.meshes)
         if fields.comm.rank == 0:
-            self._grid = fields.grid
             folder.mkdir(parents=True, exist_ok=True)
             self._write_mesh()
 
     def _write_mesh(self) -> None:
-        cells = self._grid.cells
+        meshes = self.fields.meshes
+        lists = [mesh.cells + first for mesh, first in zip(meshes, np.cumsum([0] + [len(mesh.points) for mesh in meshes]))]
         # XDMF tells elements of different kinds in one list by their numbers
-        content = cells[0] if self._alike else np.concatenate([np.insert(block, 0, _XDMF[block.shape[1]], axis=1).ravel() for block in cells])
-        _write_h5(self.folder / "mesh.h5", {"points": self._grid.points, "cells": content, "part": self._grid.part.astype(float)})
-
-    @property
-    def _alike(self) -> bool:
-        """Whether all elements are bricks."""
-        return len(self._grid.cells) == 1 and self._grid.cells[0].shape[1] == 8
+        cells = np.concatenate([np.insert(some, 0, _XDMF[some.shape[1]], axis=1).ravel() for some in lists]) if self._mixed else np.vstack(lists)
+        _write_h5(self.folder / "mesh.h5", {"points": np.vstack([mesh.points for mesh in meshes]), "cells": cells,
+                                            **{name: values.astype(float) for name, values in self.fields.of_cells.items()}})
 
     def write(self, time: float, x, local, positions, forces, at_nodes) -> None:
         """Add the frame of a time [s]; called on every rank, the other arguments as of `SpecimenFields.values`."""
@@ -125,15 +102,16 @@ class FieldWriter:
             self._write_index()
 
     def _write_index(self) -> None:
-        points, cells = len(self._grid.points), len(self._grid.part)
-        kind = "Hexahedron" if self._alike else "Mixed"
-        numbers = f"{cells} 8" if self._alike else sum(block.size + len(block) for block in self._grid.cells)
+        meshes = self.fields.meshes
+        points, cells = sum(len(mesh.points) for mesh in meshes), sum(len(mesh.cells) for mesh in meshes)
+        kind = "Mixed" if self._mixed else "Hexahedron"
+        numbers = sum(len(mesh.cells) * (mesh.cells.shape[1] + 1) for mesh in meshes) if self._mixed else f"{cells} 8"
         grids = []
         for frame in sorted(self.folder.glob("frame_*.h5")):
             fields = [_FIELD.format(title="displacement [m]", kind="Vector", center="Node", shape=f"{points} 3", file=frame.name, name="displacement"),
                       _FIELD.format(title="von Mises stress [Pa]", kind="Scalar", center="Cell", shape=cells, file=frame.name, name="von_mises"),
                       _FIELD.format(title="contact pressure [Pa]", kind="Scalar", center="Node", shape=points, file=frame.name, name="pressure"),
-                      _FIELD.format(title="part", kind="Scalar", center="Cell", shape=cells, file="mesh.h5", name="part")]
+                      *(_FIELD.format(title=name, kind="Scalar", center="Cell", shape=cells, file="mesh.h5", name=name) for name in self.fields.of_cells)]
             time = int(frame.stem.split("_")[1]) / 1e6
             grids.append(f'<Grid Name="fecolumn" GridType="Uniform"><Time Value="{time}"/>' + _TOPOLOGY.format(cells=cells, kind=kind, numbers=numbers)
                          + _GEOMETRY.format(points=points) + "".join(fields) + "</Grid>")
@@ -143,7 +121,7 @@ class FieldWriter:
 
 
 class StressField:
-    """Von Mises stress at the middle of each element of a Body, in the order of its input mesh."""
+    """Von Mises stress at the middle of each element, in the order of the input mesh."""
 
     def __init__(self, body):
         self.body = body

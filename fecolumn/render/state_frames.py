@@ -47,7 +47,7 @@ class StateFrames(FrameSeries):
         return self.expand.values(state_at(self._arrays, k))
 
     @property
-    def grid_fields(self):
+    def drawn(self):
         """What `post.fields.FieldWriter` takes."""
         return self.expand.specimen
 
@@ -79,7 +79,7 @@ def write_fields(frames, folder: Path, tell=lambda done: None) -> None:
     """
     from fecolumn.post.fields import FieldWriter
 
-    writer = FieldWriter(folder, frames.grid_fields)
+    writer = FieldWriter(folder, frames.drawn)
     for k, time in enumerate(frames.time):
         writer.add(time, frames.values(k))
         tell(k + 1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.mesh.bricks import BrickMesh
 from fecolumn.reduced.states import State
 from fecolumn.render.structure_solid import StructureSolid
 from fecolumn.structures.keys import Matrices, Storeys
@@ -51,14 +52,6 @@ class StructureFields:
                 found[solid.first_cell[k]:solid.first_cell[k] + len(values)] = values
         return moved, bent, found
 
-    def positions(self, center: np.ndarray, rotation: np.ndarray, local: np.ndarray) -> np.ndarray:
-        """Positions (n_points, 3) [m] of all points of bodies with centres of mass (nb, 3) [m], turned by (nb, 3, 3), displaced by `local` in their frames."""
-        solid, placed = self.solid, np.empty((self.solid.first[-1], 3))
-        for k, (piece, part) in enumerate(zip(solid.pieces, solid.structure.parts)):
-            rows = slice(solid.first[k], solid.first[k + 1])
-            placed[rows] = center[k] + (piece.points - part.model.center + local[rows]) @ rotation[k].T
-        return placed
-
     def pressures(self, state: State) -> tuple[list[np.ndarray], np.ndarray]:
         """Pressure (k,) [Pa] at the nodes of each joint's face, and its centre (n_joints, 2) [m] in the plan of the face, nan of one that is open."""
         solid, found, centres = self.solid, [], np.full((len(self.solid.contacts), 2), np.nan)
@@ -74,15 +67,15 @@ class StructureFields:
         return found, centres
 
     @property
-    def grid(self):
-        """As of `post.fields.FieldWriter`; the part of an element is the place of its body."""
-        from fecolumn.post.fields import Grid
-
+    def meshes(self) -> list:
+        """Mesh of each part as of `post.fields.FieldWriter`, with the floors of buildings and triangles of matrices."""
         solid = self.solid
-        cells = tuple(piece.elements + start for piece, start in zip(solid.pieces, solid.first))
-        if all(block.shape[1] == cells[0].shape[1] for block in cells):
-            cells = (np.concatenate(cells),)
-        return Grid(solid.points, cells, np.repeat(np.arange(len(solid.pieces)), [len(piece.elements) for piece in solid.pieces]))
+        return [BrickMesh(solid.points[a:b], piece.elements, np.zeros(len(piece.elements), np.int8)) for piece, a, b in zip(solid.pieces, solid.first, solid.first[1:])]
+
+    @property
+    def of_cells(self) -> dict[str, np.ndarray]:
+        """Number of each element's body, from 1."""
+        return {"body": np.repeat(np.arange(1, len(self.solid.pieces) + 1), [len(piece.elements) for piece in self.solid.pieces])}
 
     def values(self, state: State) -> dict[str, np.ndarray]:
         """Fields by the names of `post.fields.SpecimenFields.values`; bodies without stress have none."""
@@ -90,7 +83,7 @@ class StructureFields:
         pressure = np.zeros(self.solid.first[-1])
         for contact, values in zip(self.solid.contacts, self.pressures(state)[0]):
             pressure[contact.points] = values[contact.nearest]
-        return {"displacement": self.positions(state.center, state.rotation, local) - self.solid.points, "von_mises": np.nan_to_num(stress), "pressure": pressure}
+        return {"displacement": self.solid.positions(state.center, state.rotation, local) - self.solid.points, "von_mises": np.nan_to_num(stress), "pressure": pressure}
 
 
 def _moving(piece, model, fields):

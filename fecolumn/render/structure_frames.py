@@ -35,7 +35,7 @@ class StructureFrame:
 
 
 class StructureFrames:
-    """Frames of an analysis from its states: bodies turn steadily and move straight between two of them; deformation, stress and pressure are those of the nearest.
+    """Frames of an analysis from its states or fields: bodies turn steadily and move straight between two of them; deformation, stress and pressure are those of the nearest.
 
     Attributes as of `render.frames.Frames`: times, exaggeration, colour, colour_quantity, pressure_quantity, from_fields.
     """
@@ -51,10 +51,9 @@ class StructureFrames:
         self.result, self._states = result, result.states
         self.times = np.asarray(times, float)
         self._number = self._states.nearest(self.times)
-        self._fields = self._states.grid_fields
         self._poses = [poses.at(self.times) for poses in result.poses]
-        self.colour = colour or ("stress" if self._fields.has_stress else "displacement")
-        if self.colour == "stress" and not self._fields.has_stress:
+        self.colour = colour or ("stress" if self._states.has_stress else "displacement")
+        if self.colour == "stress" and not self._states.has_stress:
             raise InputError("fecolumn render", "--color", colour, "no body of this structure deforms as a continuum: all are rigid, storeys or matrices")
         self._deformed = self.colour == "stress" or exaggerate != 1.0
         self.from_fields, self._kept = self._deformed, (None, None)
@@ -91,11 +90,11 @@ class StructureFrames:
 
     def frame(self, k: int) -> StructureFrame:
         """Frame `k`."""
-        solid, (local, bent, stress), state = self.result.solid, self._expanded(k), self._states.state(self._number[k])
+        solid, (local, bent, stress), number = self.result.solid, self._expanded(k), self._number[k]
         center, rotation = np.array([poses.foot[k] for poses in self._poses]), np.array([poses.rotation[k] for poses in self._poses])
-        drawn = self._fields.positions(center, rotation, local + (self.exaggeration - 1) * bent)
+        drawn = solid.positions(center, rotation, local + (self.exaggeration - 1) * bent)
         if self.colour == "displacement":
-            moved = drawn if self.exaggeration == 1 else self._fields.positions(center, rotation, local)
+            moved = drawn if self.exaggeration == 1 else solid.positions(center, rotation, local)
             colour = np.linalg.norm(moved - solid.points, axis=1)
         else:
             cells = solid.surface.cells
@@ -103,12 +102,13 @@ class StructureFrames:
         links, structure = None, solid.structure
         if structure.links:
             links = np.array([link_ends(link, structure.parts, center, rotation) for link in structure.links])
-            links[state.broken, 1] = links[state.broken, 0]
+            broken = self._states.broken(number)
+            links[broken, 1] = links[broken, 0]
         struts = drawn[solid.struts] if len(solid.struts) else None
-        return StructureFrame(float(self.times[k]), drawn, colour, links, struts, *self._fields.pressures(state))
+        return StructureFrame(float(self.times[k]), drawn, colour, links, struts, *self._states.pressures(number))
 
     def _expanded(self, k: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """As of `StructureFields.local`; the last one is kept: a frame is asked for twice, and more than one may be of the same state."""
         if self._kept[0] != self._number[k]:
-            self._kept = self._number[k], self._fields.local(self._states.state(self._number[k]), self._deformed)
+            self._kept = self._number[k], self._states.local(self._number[k], self._deformed)
         return self._kept[1]

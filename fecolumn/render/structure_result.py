@@ -12,6 +12,7 @@ from fecolumn.files import is_file
 from fecolumn.reduced.states import NAME as STATES
 from fecolumn.render.field_frames import FieldFrames
 from fecolumn.render.pose import Poses
+from fecolumn.render.structure_field_frames import StructureFieldFrames
 from fecolumn.render.structure_solid import StructureSolid, structure_solid
 from fecolumn.render.structure_states import StructureStates
 from fecolumn.schema import InputError
@@ -29,7 +30,7 @@ class StructureResult:
 
     Attributes:
         folder: of the analysis. case: StructureCase. summary: of `fecolumn.summary`. history: columns of n rows by name.
-        solid: StructureSolid. states: StructureStates; poses: Poses of each body at these. fields: FieldFrames, none of a reduced engine.
+        solid: StructureSolid. states: StructureStates, of the full engine StructureFieldFrames; poses: Poses of each body at these. fields: FieldFrames that were written.
         body: place of the body whose top is followed.
     """
 
@@ -38,13 +39,13 @@ class StructureResult:
     summary: dict
     history: dict[str, np.ndarray]
     solid: StructureSolid
-    states: StructureStates
+    states: StructureStates | StructureFieldFrames
     poses: tuple[Poses, ...]
     fields: FieldFrames
     body: int
 
     @property
-    def frames(self) -> StructureStates:
+    def frames(self) -> StructureStates | StructureFieldFrames:
         """Instants at which deformation and stress are known."""
         return self.states
 
@@ -151,14 +152,16 @@ def structure_result(folder: Path, case: StructureCase, summary: dict, history: 
     from fecolumn.structures.structure import structure_model
 
     file = folder / "case.json"
-    if not is_file(folder / STATES):
-        raise InputError(folder, "", None, f"kept no states ({STATES}), which alone tell how its bodies turn: run the case into a new folder with output.states_every_s = 0.04")
+    written = any((folder / "fields").glob("frame_*.h5"))
+    if not written and not is_file(folder / STATES):
+        kept, key = ("wrote no fields", "fields_every_s") if case.integration.engine == "full" else (f"kept no states ({STATES})", "states_every_s")
+        raise InputError(folder, "", None, f"{kept}, which alone tell how its bodies turn: run the case into a new folder with output.{key} = 0.04")
     structure = upright(case, structure_model(case, file))
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
     place = _place(structure, body)
     solid = structure_solid(layout_of(case, file).drawings, structure, copies)
     _check_columns(folder / "history.h5", history, structure)
-    states = StructureStates(folder / STATES, solid, _shapes_of(case, copies, file))
+    states = StructureStates(folder / STATES, solid, _shapes_of(case, copies, file)) if is_file(folder / STATES) else StructureFieldFrames(folder / "fields", solid)
     poses = tuple(Poses(states.time, states.rotation[:, k], states.center[:, k], part.center) for k, part in enumerate(structure.parts))
     return StructureResult(folder, case, summary, history, solid, states, poses, FieldFrames(folder / "fields"), place)
 

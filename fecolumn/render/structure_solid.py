@@ -129,6 +129,14 @@ class StructureSolid:
         """Larger side in plan [m]."""
         return float(np.ptp(self.points[:, :2], axis=0).max())
 
+    def positions(self, center: np.ndarray, rotation: np.ndarray, local: np.ndarray) -> np.ndarray:
+        """Positions (n, 3) [m] of all points of bodies with centres of mass (nb, 3) [m], turned by (nb, 3, 3), displaced by `local` (n, 3) [m] in their frames."""
+        placed = np.empty((self.first[-1], 3))
+        for k, part in enumerate(self.structure.parts):
+            rows = slice(self.first[k], self.first[k + 1])
+            placed[rows] = center[k] + (self.points[rows] - part.center + local[rows]) @ rotation[k].T
+        return placed
+
 
 def structure_solid(drawings: dict[str, Drawing], structure: StructureModel, copies) -> StructureSolid:
     """Args:

@@ -46,7 +46,24 @@ class StructureStates(FrameSeries):
         return state_at(self._arrays, k)
 
     @property
-    def grid_fields(self) -> StructureFields:
+    def has_stress(self) -> bool:
+        """Whether any body deforms as a continuum."""
+        return self.drawn.has_stress
+
+    def local(self, k: int, stress: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of state k as of `StructureFields.local`."""
+        return self.drawn.local(self.state(k), stress)
+
+    def pressures(self, k: int) -> tuple[list[np.ndarray], np.ndarray]:
+        """Of state k as of `StructureFields.pressures`."""
+        return self.drawn.pressures(self.state(k))
+
+    def broken(self, k: int) -> np.ndarray:
+        """Whether links (nl,) are broken at state k."""
+        return self.state(k).broken
+
+    @property
+    def drawn(self) -> StructureFields:
         """What expands states; made when it is first asked for.
 
         Raises:
@@ -59,7 +76,7 @@ class StructureStates(FrameSeries):
 
     def values(self, k: int) -> dict[str, np.ndarray]:
         """Fields of state k by the names of `StructureFields.values`."""
-        return self.grid_fields.values(self.state(k))
+        return self.drawn.values(self.state(k))
 
     def _check(self) -> None:
         parts = self._solid.structure.parts

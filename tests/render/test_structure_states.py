@@ -33,7 +33,7 @@ def test_contact_forces_of_a_standing_gate_carry_the_weight_of_each_body(standin
 
 
 def test_pressure_on_the_faces_carries_what_stands_on_them(standing):
-    pressures, centres = standing.states.grid_fields.pressures(standing.states.state(0))
+    pressures, centres = standing.states.drawn.pressures(standing.states.state(0))
     carried = {(contact.interface, contact.slave): (pressure @ contact.areas, centre)
                for contact, pressure, centre in zip(standing.solid.contacts, pressures, centres)}
     assert carried["feet", "column 1"][0] == pytest.approx(GRAVITY * (COLUMN_KG + LINTEL_KG / 2), rel=1e-5)
@@ -44,8 +44,8 @@ def test_pressure_on_the_faces_carries_what_stands_on_them(standing):
 
 def test_deformed_meshes_of_a_standing_gate_touch_where_they_press(standing):
     """Modes and static response together: on the rigid ground the feet stay level to a thousandth of what the columns shorten, and heads and lintel meet."""
-    fields, state, contacts = standing.states.grid_fields, standing.states.state(0), standing.solid.contacts
-    placed = fields.positions(state.center, state.rotation, fields.local(state)[0])
+    fields, state, contacts = standing.states.drawn, standing.states.state(0), standing.solid.contacts
+    placed = standing.solid.positions(state.center, state.rotation, fields.local(state)[0])
     shortening = 0.8 * GRAVITY * LINTEL_KG / 2 / (0.08 * 50e9)
     for contact, pressure in zip(contacts, fields.pressures(state)[0]):
         feet = placed[contact.points][pressure[contact.nearest] > 0]
@@ -60,32 +60,32 @@ def test_deformed_meshes_of_a_standing_gate_touch_where_they_press(standing):
 
 
 def test_stress_of_a_standing_column_is_what_it_carries_over_its_section(standing):
-    _, _, stress = standing.states.grid_fields.local(standing.states.state(0))
+    _, _, stress = standing.states.drawn.local(standing.states.state(0))
     of_column = stress[standing.solid.first_cell[0]:standing.solid.first_cell[1]]
     assert np.median(of_column) == pytest.approx(GRAVITY * (LINTEL_KG + COLUMN_KG) / 2 / 0.08, rel=0.6) and not np.isnan(stress).any()
 
 
 def test_states_place_the_tops_where_the_history_has_them(gate):
     result = read_result(gate)
-    fields = result.states.grid_fields
+    fields = result.states.drawn
     for k, time in enumerate(result.states.time):
         state, row = result.states.state(k), np.searchsorted(result.time, time - 1e-9)
         for number, part in enumerate(result.solid.structure.parts):
             arm = part.model.marks["top"][0]
             moved = state.center[number] + state.rotation[number] @ arm - part.center - arm
             assert moved == pytest.approx(result.history[f"mark/{part.name}.top/displacement"][row], abs=1e-5)
-        placed = fields.positions(state.center, state.rotation, fields.local(state)[0])
+        placed = result.solid.positions(state.center, state.rotation, fields.local(state)[0])
         assert placed[:, 2].min() > -1e-6  # the rigid ground is never entered
 
 
 def test_floors_of_a_building_sway_as_the_history_says(building):
     result = read_result(building)
-    fields, first = result.states.grid_fields, len(result.solid.points) - 16
+    fields, first = result.states.drawn, len(result.solid.points) - 16
     swayed = []
     for k, time in enumerate(result.states.time):
         state, row = result.states.state(k), np.searchsorted(result.time, time - 1e-9)
         local, bent, _ = fields.local(state)
-        moved = fields.positions(state.center, state.rotation, local) - result.solid.points
+        moved = result.solid.positions(state.center, state.rotation, local) - result.solid.points
         for floor in range(2):
             of_floor = slice(first + 8 * floor + 4, first + 8 * (floor + 1))  # its upper face
             assert moved[of_floor].mean(axis=0) == pytest.approx(result.history[f"mark/building.floor {floor + 1}/displacement"][row], abs=5e-5)
