@@ -7,11 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.post.style import GREY, LINES, PAGE_WIDTH_IN, new_figure, save, styled
+from fecolumn.render.quantity import Quantity
 
-# Quantities of an interface: column of the history, words, symbol, and units [SI over unit, unit], of which that is taken in which the peak is at least 1
-_MILLIMETRES = ((1e-6, "µm"), (1e-3, "mm"), (1.0, "m"))
-_OF_INTERFACE = (("tilt", "tilt", r"$\theta$", ((1e-6, "µrad"), (1e-3, "mrad"), (1.0, "rad"))), ("rise", "uplift of the\nfoot's middle", "$w$", _MILLIMETRES), ("slide", "slide", "$s$", _MILLIMETRES),
-                 ("force", "normal force", "$N$", ((1.0, "N"), (1e3, "kN"), (1e6, "MN"))))
+# Quantities of an interface: column of the history, words, symbol, SI unit
+_OF_INTERFACE = (("tilt", "tilt", r"$\theta$", "rad"), ("rise", "uplift of the\nfoot's middle", "$w$", "m"), ("slide", "slide", "$s$", "m"), ("force", "normal force", "$N$", "N"))
 # Interfaces side by side in a figure; joints of one that are told apart by colour and dash
 _ABREAST, _APART = 3, len(LINES)
 
@@ -46,11 +45,10 @@ def storey_names(columns) -> list[str]:
     return sorted(found, key=lambda name: (name.rpartition(" ")[0], int(name.rpartition(" ")[2])))
 
 
-def _in_unit(values: list[np.ndarray], units) -> tuple[list[np.ndarray], str]:
-    """Values [SI] in the largest unit in which their peak is at least 1, and its name."""
-    peak = max(float(np.abs(each).max()) for each in values)
-    scale, unit = next(((scale, unit) for scale, unit in reversed(units) if peak >= scale), units[0])
-    return [each / scale for each in values], unit
+def _in_unit(values: list[np.ndarray], unit: str) -> tuple[list[np.ndarray], str]:
+    """Values [SI] in a unit that fits their peak, and its name."""
+    quantity = Quantity.of("", unit, max(float(np.abs(each).max()) for each in values))
+    return [each / quantity.scale for each in values], quantity.unit
 
 
 def _drawn(axes, time, values: list[np.ndarray], names: list[str]) -> None:
@@ -76,17 +74,18 @@ def interface_figure(columns, path, interfaces: list[str], formats=("png", "pdf"
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, 6.0)
         grid = figure.subplots(len(_OF_INTERFACE), len(interfaces), sharex=True, squeeze=False)
-        for (what, words, symbol, units), row in zip(_OF_INTERFACE, grid):
+        for (what, words, symbol, unit), row in zip(_OF_INTERFACE, grid):
             found = [[(name.split("/")[1].partition(": ")[2], columns[name]) for name in columns
                       if name.startswith(f"interface/{interface}:") and name.endswith(f"/{what}")] for interface in interfaces]
             lines = [values if values.ndim == 1 else np.hypot(*values.T) for joints in found for _, values in joints]
-            lines, unit = _in_unit(lines, units)
+            lines, unit = _in_unit(lines, unit)
             low, high = min(each.min() for each in lines), max(each.max() for each in lines)
+            margin = 0.05 * (high - low) or 0.05 * max(abs(high), 1.0)
             for axes, joints in zip(row, found):
                 _drawn(axes, time, lines[:len(joints)], [name for name, _ in joints])
                 lines = lines[len(joints):]
                 # one scale a row, so that interfaces can be compared
-                axes.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low) or 1.0)
+                axes.set_ylim(low - margin, high + margin)
                 axes.tick_params(labelleft=axes is row[0])
             row[0].set_ylabel(f"{words}\n{symbol} [{unit}]")
         for axes, interface in zip(grid[0], interfaces):
@@ -113,10 +112,9 @@ def storey_figure(columns, path, formats=("png", "pdf")) -> list[Path]:
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, 2.1 * len(axes_moved) * 2)
         grid = figure.subplots(2 * len(axes_moved), 2, squeeze=False, gridspec_kw={"width_ratios": [3.2, 1]})
-        rows = [(values, words, symbol, units, axis) for values, words, symbol, units in (
-            (drifts, "drift", r"$\delta", _MILLIMETRES), (shears, "shear", "$V", _OF_INTERFACE[-1][3])) for axis in axes_moved]
-        for (values, words, symbol, units, axis), (over_time, peaks) in zip(rows, grid):
-            lines, unit = _in_unit([each[:, axis] for each in values], units)
+        rows = [(values, words, symbol, unit, axis) for values, words, symbol, unit in ((drifts, "drift", r"$\delta", "m"), (shears, "shear", "$V", "N")) for axis in axes_moved]
+        for (values, words, symbol, unit, axis), (over_time, peaks) in zip(rows, grid):
+            lines, unit = _in_unit([each[:, axis] for each in values], unit)
             _drawn(over_time, time, lines, words_of_storeys)
             over_time.set(xlim=(time[0], time[-1]), ylabel=f"{words} along {'xy'[axis]}\n{symbol}_{'xy'[axis]}$ [{unit}]")
             over_time.tick_params(labelbottom=over_time is grid[-1, 0])
