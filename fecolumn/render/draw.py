@@ -135,7 +135,7 @@ def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> lis
     from fecolumn.render.still import still_figure, still_size
 
     instants = np.unique(wish.instants) if wish.instants else chosen_instants(result, start, end)
-    interval = max(1 / wish.fps * wish.speed, result.frames.interval if len(result.frames.time) > 1 else 0.0)  # however rare they are
+    interval = max(1 / wish.fps * wish.speed, result.frames.interval if len(result.frames.time) > 1 else 0.0)
     frames = _frames(result, wish, start, end, instants, interval)
     drawn = list(frames)
 
