@@ -110,11 +110,8 @@ class StructureResult:
         rows = np.unique(np.concatenate([self.states.nearest(times), np.flatnonzero((self.states.time >= times[0]) & (self.states.time <= times[-1]))]))
         if view == "foot":
             return self._around_foot(rows)
-        reach = self._reached(rows)
-        low, high = reach.min(axis=0), reach.max(axis=0)
-        margin = _AROUND * self.solid.width
-        corners = np.array([[x, y, 0.0] for x in (low[0] - margin, high[0] + margin) for y in (low[1] - margin, high[1] + margin)])
-        return np.concatenate([reach, corners])
+        low, high, _ = self.ground
+        return np.concatenate([self._reached(rows), [[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])]])
 
     def _around_foot(self, rows) -> np.ndarray:
         """What is around the lowest face of the followed body, or where it has none of its own, of the body below that tilts most."""
