@@ -36,7 +36,8 @@ class StructureAnalysis(ReducedAnalysis):
 
     def __init__(self, case, folder, comm, file, quiet):
         Analysis.__init__(self, case, folder, comm, file, quiet)
-        self.structure, self.fields, self.states = structure_model(case, file, self.say), None, None
+        self.structure, self.fields = structure_model(case, file, self.say), None
+        self.states = self._states()
         different = {id(part.model): part.model.dofs for part in self.structure.parts}
         self.base, self.model = self.structure.base, _Whole(sum(different.values()), self.structure.parts[0].model.arms)
         if not compiled(advance):
@@ -51,6 +52,10 @@ class StructureAnalysis(ReducedAnalysis):
             self.standing_j = engine_of(case, upright(case, self.structure), file).mechanical() if leans(self.structure) else self.engine.mechanical()
             self.engine.motion.whole["ground"] = self.ground(0)
             self._note(self.engine.row()[None])
+            self._keep()
+
+    def _bodies(self) -> tuple:
+        return [part.model for part in self.structure.parts], [part.name for part in self.structure.parts]
 
     def expected(self) -> str:
         """What is analysed, in words."""

@@ -27,7 +27,7 @@ NAMED = {"bodies": Placed, "materials": Material, "interfaces": Interface, "link
 #: Sections that a structure's case has in common with a column's.
 COMMON = {"contact": Contact, "integration": Integration, "motion": Motion, "overturn": Overturn, "output": Output}
 #: What holds where a structure's case says nothing else: a step takes all modes of all bodies.
-DEFAULTS = {"integration": {"engine": "reduced", "n_modes": 30}, "output": {"states_every_s": 0.0}}
+DEFAULTS = {"integration": {"engine": "reduced", "n_modes": 30}}
 # Characters of a name that stand for something else in dotted keys, and in names of copies and marks
 _TAKEN = set('."\'[]/ ')
 
@@ -234,9 +234,8 @@ def _check_integration(case, refuse) -> None:
     for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic"), ("contact", "rolling_resistance", 0.0)):
         if (value := getattr(getattr(case, section), key)) != needed:
             refuse(f"{section}.{key}", value, f"must be {needed} for a structure of [bodies]")
-    for key in ("fields_every_s", "states_every_s"):
-        if value := getattr(case.output, key):
-            refuse(f"output.{key}", value, "must be 0 for a structure of [bodies]: its history has bodies, interfaces and marks")
+    if value := case.output.fields_every_s:
+        refuse("output.fields_every_s", value, "must be 0 for a structure of [bodies]: fecolumn render --paraview makes fields of its states")
     for key in FULL_ORDER_KEYS:
         if (value := getattr(plan, key)) != DEFAULT[key]:
             refuse(f"integration.{key}", value, f"has no effect where integration.engine = {plan.engine!r}: leave it out")

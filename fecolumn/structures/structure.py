@@ -35,13 +35,24 @@ def structure_model(case, file="case", say=lambda text: None) -> StructureModel:
     Raises:
         InputError: a structure that cannot be, told by the names of its bodies, interfaces and links.
     """
+    found = _layout(case, file, say)
+    wanted = {name: kept_body(one) for name, one in found["models"].items()}
+    return assembled(case, wanted, found, file)
+
+
+def kept_keys(case, file="case") -> dict[str, str]:
+    """Key of each body's reduced model in `store`, on disk."""
+    return _layout(case, file, lambda text: None)["models"]
+
+
+def _layout(case, file, say) -> dict:
+    """The layout as `store.keep_layout` keeps it, made if it is not on disk."""
     key = key_of(_geometry(case))
     found = kept_layout(key)
     if found is None:
         found = keep_models(case, layout_of(case, file), file, say)
         keep_layout(key, found)
-    wanted = {name: kept_body(one) for name, one in found["models"].items()}
-    return assembled(case, wanted, found, file)
+    return found
 
 
 def _geometry(case) -> dict:
