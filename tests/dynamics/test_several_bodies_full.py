@@ -100,21 +100,24 @@ def test_energy_of_a_rocking_stack_of_bricks_is_accounted_for(rocked):
 
 
 def test_internal_forces_neither_make_energy_nor_turn_a_body_that_spins_in_the_air():
-    """A bar of rubber, thrown with a fast spin about a skew axis and struck by nothing: it stretches and vibrates by the spin. 0.06 rad a step, strains of 1e-3."""
-    rubber = Material(youngs_modulus_pa=2e7, poissons_ratio=0.3, density_kg_m3=1000.0)
-    bar = brick_body(0.1, 0.1, 0.6, (1, 1, 4), rubber)
+    """A soft bar, thrown with a fast spin about a skew axis and struck by nothing: it stretches and vibrates by the spin, and turns by 0.06 rad in a step.
+
+    Means of forces in the table frame leave 3e-3 of the kinetic energy unaccounted for, whatever the stiffness, and turn the angular momentum by 5e-4.
+    """
+    soft = Material(youngs_modulus_pa=1e9, poissons_ratio=0.3, density_kg_m3=1000.0)
+    bar = brick_body(0.1, 0.1, 0.6, (1, 1, 4), soft)
     thrown = dict(spin=np.array([30.0, 50.0, 5.0]), velocity=np.array([0.3, 0.0, 2.0]))
     run = Structure([("bar", bar, (0, 0, 1.0), thrown)], [(0, "foot", GROUND, None)]).full(alpha=0.0, stands=False)
+    column = run.system.column
 
-    def spin_moment(state):
-        column = run.system.column
+    def angular_momentum(state):
         return np.cross(state.x - column.centers(state.x), column.apply(column.mass, state.v)).sum(axis=0)
 
-    start, kinetic = spin_moment(run.state), run.ledger.state_terms(run.state)["kinetic"]
-    rows, energies = run.advance(np.zeros((300, 3)))
-    assert energies[:, TERMS.index("strain")].max() > 1e-3 * kinetic
-    assert np.abs(energies[:, -1]).max() < 1e-9 * kinetic and np.abs(energies[:, TERMS.index("algorithmic")]).max() < 1e-6 * kinetic
-    assert np.linalg.norm(spin_moment(run.state) - start) < 1e-4 * np.linalg.norm(start)
+    start, kinetic = angular_momentum(run.state), run.ledger.state_terms(run.state)["kinetic"]
+    _, energies = run.advance(np.zeros((100, 3)))
+    assert energies[:, TERMS.index("strain")].max() > 3e-4 * kinetic
+    assert np.abs(energies[:, -1]).max() < 1e-6 * kinetic and np.abs(energies[:, TERMS.index("algorithmic")]).max() < 1e-6 * kinetic
+    assert np.linalg.norm(angular_momentum(run.state) - start) < 1e-4 * np.linalg.norm(start)
 
 
 def test_full_order_motion_does_not_depend_on_the_order_of_bodies_and_contacts():

@@ -129,7 +129,7 @@ def test_engine_is_an_axis_of_a_study_of_structures(tmp_path):
     lines += [f'interfaces.{name}.{key} = "{value}"' for name, one in tables["interfaces"].items() for key, value in one.items()]
     lines += ["initial.upper.tilt_rad = 0.06", "contact.friction_coefficient = 0.7", "contact.interior_points = 0", "integration.dt_s = 1e-3", "integration.duration_s = 0.02"]
     (tmp_path / "case.toml").write_text("\n".join(lines) + "\n")
-    (tmp_path / "study.toml").write_text('extends = "case.toml"\n[study]\naxes."integration.engine" = ["full", "reduced"]\n')
+    (tmp_path / "study.toml").write_text('[case]\nextends = "case.toml"\n[axes]\n"integration.engine" = ["full", "reduced"]\n')
     assert main(["study", str(tmp_path / "study.toml"), "-o", str(tmp_path / "out")]) in (0, None)
     summaries = [json.loads(file.read_text()) for file in (tmp_path / "out").rglob("summary.json")]
     assert {one["engine"] for one in summaries} == {"full", "reduced"}
