@@ -183,7 +183,9 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
 
         # Newton about the present forces, so that a slightly turned compliance does not matter at convergence
         turn = rotation @ operators.rotation.swapaxes(-1, -2)
-        x = system.kinematics.moved(x, out_of_frames(operators.factor.solve(into_frames(total, turn, column.rows)), turn, column.rows))
+        # forces act in the frame halfway: as the body's own they meet the stiffness as it is, by which a turned one would be multiplied
+        acts = halfway @ operators.rotation.swapaxes(-1, -2) if stage.turns and middle.memory is not None else turn
+        x = system.kinematics.moved(x, out_of_frames(operators.factor.solve(into_frames(total, acts, column.rows)), turn, column.rows))
         old = contact["force"].copy()
         poses = interface.poses(x, rotation)
         stop, violation = interface.solve(nodal, poses, interface.positions(x, rotation, poses), stage.dt, stage.before, contact)
