@@ -65,18 +65,21 @@ def run(case: Case | StructureCase | TableCase | str | Path, folder, *, comm=Non
 
 def _analysis_class(case, comm, file) -> type[Analysis]:
     check_duration(case, file)
-    if isinstance(case, StructureCase):
-        if comm.size > 1:
-            raise InputError(file, "bodies", None, "a structure is analysed by one process: start it without mpirun")
-        from fecolumn.structures.analysis import StructureAnalysis
+    structure = isinstance(case, StructureCase)
+    if case.integration.engine == "full" and structure:
+        from fecolumn.structures.full import FullStructureAnalysis
 
-        return StructureAnalysis
+        return FullStructureAnalysis
     if case.integration.engine == "full":
         from fecolumn.dynamics.analysis import FullAnalysis
 
         return FullAnalysis
     if comm.size > 1:
         raise InputError(file, "integration.engine", case.integration.engine, "runs on one process: start it without mpirun")
+    if structure:
+        from fecolumn.structures.analysis import StructureAnalysis
+
+        return StructureAnalysis
     if case.integration.engine in MODEL_ENGINES:
         from fecolumn.rocking.analysis import ModelAnalysis
 
