@@ -125,6 +125,8 @@ def read_result(folder, body: str = ""):
     if is_file(folder / "study.json"):
         raise InputError(folder, "", None, f"is the folder of a study; give that of one of its analyses, {folder / 'analyses'}/CASE_ID")
     case, _ = read_folder_case(folder)
+    if hasattr(case, "table"):
+        raise InputError(folder, case.table, None, "is a rocking model of rigid bodies: nothing is meshed that could be drawn; its history has figures")
     if not is_file(folder / NAME):
         raise InputError(folder, "", None, f"the analysis has not ended (no {NAME}); fecolumn resume {folder} goes on with it")
     try:
