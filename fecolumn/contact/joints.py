@@ -42,6 +42,11 @@ def joints_of(parts, joints) -> Joints:
         rim = Rim.find(arms) if joint.round else None
         interface = interface_of(arms, rim, joint.restitution, slave=joint.slave, master=joint.master)
         interface["width"] = np.ptp(arms @ touching.axes[:, :2], axis=0).max()
+        if joint.ball is not None:
+            outward = touching.axes[:, 2]
+            interface["ball"], interface["edge"] = joint.ball.radius, joint.ball.edge
+            interface["foot"] += joint.ball.radius * outward
+            interface["width"] = max(interface["width"][0], 2 * max(joint.ball.edge))
         interface["rim_first"] = sum(map(len, rims))
         rims.append(sum(map(len, points)) + np.asarray(rim.nodes if rim else [], np.int64))
         if joint.master != BASE:
@@ -55,6 +60,8 @@ def joints_of(parts, joints) -> Joints:
         own = node_points(arms, joint.friction, joint.law, slave=joint.slave, master=joint.master, interface=k)
         own["node"] = first[joint.slave] + touching.nodes
         own["carriers"] = own["node"][:, None]
+        if joint.ball is not None:
+            own["arm"] += joint.ball.radius * outward
         points.append(own)
         interfaces.append(interface)
     return Joints(np.concatenate(points), np.concatenate(interfaces), np.concatenate(rims), facets)

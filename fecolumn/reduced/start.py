@@ -25,19 +25,20 @@ def standing(engine) -> motions.Motion:
     start.contact["anchor"] = engine.places(centers, start.rotation)[:, :2]
     start.ties["length"] = engine.link_lengths(centers, start.rotation)
     weight = bodies["mass"].sum() * np.linalg.norm(structure.gravity)
-    arms = [structure.bodies.arms[body["first"]:body["first"] + body["count"]] for body in bodies]
-    firmness = max(pseudo_inertia(weight, np.abs(arm[:, 2]).max(), body["inertia"]) for body, arm in zip(bodies, arms))
+    # of a dome the place of contact moves by its radius times the tilt, as far as the centre of mass at that height would
+    levers = [max(np.abs(structure.bodies.arms[body["first"]:body["first"] + body["count"], 2]).max(),
+                  structure.interfaces["ball"][structure.interfaces["slave"] == b].max(initial=0.0)) for b, body in enumerate(bodies)]
+    firmness = max(pseudo_inertia(weight, lever, body["inertia"]) for body, lever in zip(bodies, levers))
     resting = resting_scheme(structure, engine.points, firmness)
 
     def proximal_step():
-        work.before[:] = start.contact
         while (answer := engine.settle(resting, start, end)) == FAR_BASE:
             engine.extend_base(end)
         if answer != OK:
             raise NoEquilibrium("gravity equilibrium: contact does not converge")
         moved = max(np.abs(end.frames["center"] - start.frames["center"]).max(), np.abs(work.action.turn).max() * np.abs(centers).max(),
                     np.abs(work.elastic.point[1] - work.elastic.point[0]).max())
-        end.contact["anchor"] = start.contact["anchor"]
+        end.contact["anchor"] = work.before["anchor"]
         motions.copy(end, start)
         return moved
 

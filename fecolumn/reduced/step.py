@@ -6,12 +6,14 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
+from fecolumn.contact.ball import lay_down
 from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, touched, what_happens
 from fecolumn.contact.problem import N_IMPACTS, OK, near_points
 from fecolumn.contact.rolling import mark_rolling, plan_roll, roll_points, rolling_moment, stay
 from fecolumn.contact.tolerances import CREATED
 from fecolumn.contact.work import move_anchors
+from fecolumn.reduced.balls import roll_balls
 from fecolumn.reduced.equilibrium import equilibrate
 from fecolumn.reduced.ledger import FRICTION, HIT, book, kinetic
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START, find_elastic, find_places, find_velocity
@@ -46,7 +48,7 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
 @njit
 def place_points_of_step(structure, dt, work, start, end, allowed):
     """Place the points of a step, and bring what they carry to them; end gets the state of the rims. Returns: whether any rim rolled."""
-    points, rolled, part, halfway, poses = work.points, False, np.empty(3), work.action.halfway, work.poses
+    rolled, part, halfway, poses = False, np.empty(3), work.action.halfway, work.poses
     find_poses(structure.interfaces, start.frames, start.rotation, poses[START])
     for b in range(len(start.frames)):
         for a in range(3):
@@ -54,24 +56,33 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
         turn_by(start.rotation[b], part, halfway[b])
     # turned alone: where the bodies go does not matter here
     find_poses(structure.interfaces, start.frames, halfway, poses[END])
-    for i in range(len(points)):
+    for i in range(len(work.points)):
         work.before[i] = start.contact[i]
     for k in range(len(structure.interfaces)):
         end.rims[k] = start.rims[k]
         n, first = structure.interfaces[k].rim_count, structure.interfaces[k].rim_first
-        if n == 0:
-            continue
-        rim, now, then = structure.rim[first:first + n], poses[START, k].turned, poses[END, k].turned
-        rolls, tilt, roll = plan_roll(structure.interfaces[k], rim, start.rims[k], start.contact, now[SLAVE], then[SLAVE], allowed)
-        if rolls:
-            work.wanted[:] = False
-            mark_rolling(roll, rim, points, start.contact, work.wanted)
-            find_places(structure, points, start, poses[START, k], work.elastic, work.wanted, work.places)
-            roll_points(roll, rim, end.rims[k], structure.bodies.arms, work.places, start.contact, points, work.before)
-            rolled = True
-        else:
-            stay(roll, rim, end.rims[k], tilt, structure.bodies.arms, points)
+        if structure.interfaces[k].ball > 0.0:
+            lay_down(work.points, k)
+        if n > 0:
+            rolled |= _place_rim(structure, k, structure.rim[first:first + n], work, start, end, allowed)
+        if structure.interfaces[k].ball > 0.0:
+            roll_balls(structure, k, work, start, end)
     return rolled
+
+
+@njit
+def _place_rim(structure, k, rim, work, start, end, allowed):
+    """`place_points_of_step` of the round rim of interface k: whether it rolled."""
+    points, now, then = work.points, work.poses[START, k].turned, work.poses[END, k].turned
+    rolls, tilt, roll = plan_roll(structure.interfaces[k], rim, start.rims[k], start.contact, now[SLAVE], then[SLAVE], allowed)
+    if rolls:
+        work.wanted[:] = False
+        mark_rolling(roll, rim, points, start.contact, work.wanted)
+        find_places(structure, points, start, work.poses[START, k], work.elastic, work.wanted, work.places)
+        roll_points(roll, rim, end.rims[k], structure.bodies.arms, work.places, start.contact, points, work.before)
+    else:
+        stay(roll, rim, end.rims[k], tilt, structure.bodies.arms, points)
+    return rolls
 
 
 @njit
