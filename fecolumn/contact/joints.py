@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.bodies import FACET
+from fecolumn.contact.bodies import FACET, GOES_ON
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import BASE, node_points
 from fecolumn.contact.rim import Rim
@@ -74,4 +74,7 @@ def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
                 facets["neighbours"][number, q], facets["neighbours"][other, place] = other, number
             else:
                 sides[side] = number, q
+    for side, (number, q) in sides.items():
+        if not surface.outlines[list(side)].all():
+            facets["neighbours"][number, q] = GOES_ON
     return facets
