@@ -52,6 +52,9 @@ def joints_of(parts, joints) -> Joints:
                 facets = np.concatenate([facets, facets_of(surface, parts[joint.master].model.arms, first[joint.master])])
             interface["facet_first"], interface["facet_count"] = found[key], len(surface.triangles)
             interface["origin"], interface["axes"] = surface.origin, surface.axes
+            around = Rim.find(surface.plane(parts[joint.master].model.arms[surface.nodes]))
+            # a rim that rolls on it stands on the circle, too
+            interface["bulge"] = around.radius * (1 - np.cos(around.sector / 2)) if around else 0.0
         own = node_points(arms, joint.friction, joint.law, slave=joint.slave, master=joint.master, interface=k)
         own["node"] = first[joint.slave] + touching.nodes
         own["carriers"] = own["node"][:, None]

@@ -72,7 +72,7 @@ def project_on_body(bodies, interface, point, x, y):
     From the facet where the point was found last towards the place; all facets are looked at where an outline or a hole is in the way. Off the surface, of
     the nearest facet.
     """
-    first, count, facet, margin = interface.facet_first, interface.facet_count, point.facet, EDGE * interface.width
+    first, count, facet, margin = interface.facet_first, interface.facet_count, point.facet, EDGE * interface.width + interface.bulge
     shares, nearest, least, side = np.empty(3), 0, np.inf, 0
     for step in range(count):
         across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
