@@ -30,11 +30,13 @@ def compiled_folder(alone: tuple[str, ...] = ()) -> str:
     numba asks only whether a function's own file has changed: code compiled with what another file said before would be run.
 
     Args:
-        alone: files of functions that take code and constants from these alone; () for those of the engines.
+        alone: files of functions that take code and constants from these alone; () for those of the engines. They are kept in
+            $FECOLUMN_COMPILED where that is given: tests, whose cache of everything else is their own, need not compile them again.
     """
     package = Path(__file__).parent
     sources = digest_of([Path(file) for file in alone] if alone else (path for name in _SOURCES for path in sorted((package / name).glob("*.py"))))
-    return str(cache_folder() / f"compiled-{sources}-numba-{numba.__version__}-{get_host_cpu_name()}")
+    home = Path(alone and os.environ.get("FECOLUMN_COMPILED") or cache_folder())
+    return str(home / f"compiled-{sources}-numba-{numba.__version__}-{get_host_cpu_name()}")
 
 
 def njit(function=None, *, alone: bool | tuple[str, ...] = False, **options):

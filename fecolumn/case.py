@@ -18,7 +18,7 @@ from fecolumn.schema import InputError, Section, build, merge, parameter, read_t
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
 MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine
-MODEL_ENGINES = ("housner", "wobbling")  # words of integration.engine that are rocking models, of fecolumn.rocking.model.MODELS
+MODEL_ENGINES = ("housner", "wobbling", "rocking_frame", "wobbling_frame", "podium")  # words of integration.engine that are rocking models, of fecolumn.rocking.model.MODELS
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,7 @@ class Integration(Section):
 
     dt_s: float = parameter(1e-3, doc="time step", unit="s", above=0, high=0.1)
     alpha_hht: float = parameter(-0.2, doc="HHT alpha of Hilber, Hughes and Taylor (OpenSees writes 1 + alpha)", low=-1 / 3, high=0)
-    engine: str = parameter("full", doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, exact static compliance of the same mesh; rigid: reduced without modes; housner: no finite elements, the planar rigid block of fecolumn help rocking; wobbling: the rigid column that rolls on its rim", choices=("full", "reduced", "rigid", *MODEL_ENGINES))
+    engine: str = parameter("full", doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, exact static compliance of the same mesh; rigid: reduced without modes; housner: no finite elements, the planar rigid block of fecolumn help rocking; wobbling: the rigid column that rolls on its rim; rocking_frame, wobbling_frame, podium: models of a table of their own, such as [podium]", choices=("full", "reduced", "rigid", *MODEL_ENGINES))
     n_modes: int = parameter(100, doc="elastic modes of the reduced engine, all where the mesh has fewer; the others respond statically", low=0, high=1000)
     kinematics: str = parameter("corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian"))
     duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration, and must not stand where there is no motion", unit="s", low=0, high=1e5)
@@ -298,8 +298,18 @@ def located(name: str, section, file):
 
 
 def case_from_tables(tables: dict, file) -> Case:
-    """Case from TOML tables; relative paths are taken from the folder of `file`. Tables with [bodies] make a `structures.case.StructureCase`."""
+    """Case from TOML tables; relative paths are taken from the folder of `file`.
+
+    Tables with [bodies] make a `structures.case.StructureCase`, those with a rocking model's own, such as [podium], a `rocking.table_case.TableCase`.
+    """
+    from fecolumn.rocking.model import TABLES, engine_of
+
+    if engine_of(tables, file):
+        from fecolumn.rocking.table_case import table_case
+
+        return table_case(tables, file)
     if "bodies" in tables:
+        tables = {key: table for key, table in tables.items() if key not in TABLES}
         from fecolumn.structures.case import structure_from_tables
 
         return structure_from_tables(tables, file)

@@ -137,6 +137,10 @@ def _mesh(args) -> int:
     from fecolumn.mesh_report import mesh_report
 
     case = read_case(args.case)
+    if hasattr(case, "table"):
+        from fecolumn.schema import InputError
+
+        raise InputError(args.case, case.table, None, "is a rocking model of rigid bodies, which has no mesh; fecolumn rocking tells its parameters")
     _warn_of_motion(case, args.case)
     if hasattr(case, "bodies"):
         from fecolumn.structures.report import FILES, structure_report

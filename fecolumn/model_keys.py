@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+OF_COLUMN = ("housner", "wobbling")  # models that a case's column makes
+
 
 def check_model(case, models, refuse) -> None:
     """Keys that a rocking model of rigid bodies, an engine of `models`, knows nothing of."""
     engine = case.integration.engine
     if engine not in models:
         return
+    if engine not in OF_COLUMN:
+        refuse("integration.engine", engine, f"needs a table of its own, [{engine.removeprefix('rocking_')}]; of a [column] there are {' and '.join(OF_COLUMN)}")
     for section, key in (("contact", "restitution"), ("contact", "rolling_resistance"), ("material", "damping_ratio"), ("output", "fields_every_s")):
         if value := getattr(getattr(case, section), key):
             refuse(f"{section}.{key}", value, f"must be 0 where integration.engine = {engine!r}: a rigid model with an impact law of its own")

@@ -10,6 +10,7 @@ from fecolumn.analysis import Analysis, AnalysisFailed
 from fecolumn.case import MODEL_ENGINES, Case, check_duration, finished, read_case
 from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.result_folder import held
+from fecolumn.rocking.table_case import TableCase
 from fecolumn.schema import InputError
 from fecolumn.sources import code, code_text
 from fecolumn.structures.case import StructureCase
@@ -18,7 +19,7 @@ from fecolumn.summary import NAME, read_summary
 __all__ = ["AnalysisFailed", "read_folder_case", "run"]
 
 
-def run(case: Case | StructureCase | str | Path, folder, *, comm=None, file: str = "", quiet: bool = False, stop=lambda: False) -> dict:
+def run(case: Case | StructureCase | TableCase | str | Path, folder, *, comm=None, file: str = "", quiet: bool = False, stop=lambda: False) -> dict:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
 
     Args:
@@ -41,7 +42,7 @@ def run(case: Case | StructureCase | str | Path, folder, *, comm=None, file: str
     comm = comm or MPI.COMM_WORLD
     if isinstance(case, (str, Path)):
         case, file = read_case(case), str(case)
-    if not isinstance(case, (Case, StructureCase)):
+    if not isinstance(case, (Case, StructureCase, TableCase)):
         raise TypeError(f"run takes a Case or the path of a case file, not {type(case).__name__}; see fecolumn.read_case")
     folder, file = Path(folder), file or "case"
     case = finished(case, file) if isinstance(case, Case) else case
@@ -64,18 +65,21 @@ def run(case: Case | StructureCase | str | Path, folder, *, comm=None, file: str
 
 def _analysis_class(case, comm, file) -> type[Analysis]:
     check_duration(case, file)
-    if isinstance(case, StructureCase):
-        if comm.size > 1:
-            raise InputError(file, "bodies", None, "a structure is analysed by one process: start it without mpirun")
-        from fecolumn.structures.analysis import StructureAnalysis
+    structure = isinstance(case, StructureCase)
+    if case.integration.engine == "full" and structure:
+        from fecolumn.structures.full import FullStructureAnalysis
 
-        return StructureAnalysis
+        return FullStructureAnalysis
     if case.integration.engine == "full":
         from fecolumn.dynamics.analysis import FullAnalysis
 
         return FullAnalysis
     if comm.size > 1:
         raise InputError(file, "integration.engine", case.integration.engine, "runs on one process: start it without mpirun")
+    if structure:
+        from fecolumn.structures.analysis import StructureAnalysis
+
+        return StructureAnalysis
     if case.integration.engine in MODEL_ENGINES:
         from fecolumn.rocking.analysis import ModelAnalysis
 
@@ -95,7 +99,7 @@ def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
         return None, str(error)
 
 
-def read_folder_case(folder) -> tuple[Case, str]:
+def read_folder_case(folder) -> tuple[Case | StructureCase | TableCase, str]:
     """The case of a result folder, and its file's name."""
     from fecolumn.case import case_from_tables
 

@@ -14,8 +14,9 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 
 def _cache_of_the_tests() -> str:
-    from fecolumn._compiled import compiled_folder
+    from fecolumn._compiled import cache_folder, compiled_folder
 
+    os.environ["FECOLUMN_COMPILED"] = str(cache_folder())  # of functions that take code from their own file alone
     compiled = Path(compiled_folder())
     compiled_folder.cache_clear()
     compiled.mkdir(parents=True, exist_ok=True)

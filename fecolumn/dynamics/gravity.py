@@ -63,25 +63,26 @@ def standing(system, tolerance: float = 1e-9) -> State:
     state = system.unstrained(column.placed)
     # a single column is drawn as it stands
     firmness, height, turned = *_firmness_and_height(system), np.eye(3) if state.rotation.ndim == 2 else state.rotation
-    factors, load, pulls = (firmness, 1.0), system.load(np.zeros(3)), None
+    factors, load, pulls, straight = (firmness, 1.0), system.load(np.zeros(3)), None, 0.0
 
     def proximal_step():
-        nonlocal state, pulls
+        nonlocal state, pulls, straight
         stage = Stage(target=state.x, load=load, start=state.x, scale=1.0, before=state.contact, dt=np.inf, rotation=turned,
-                      centers=column.centers(state.x) if links else None, ties=state.ties)
+                      centers=column.centers(state.x) if links else None, ties=state.ties, turns=interface.foot.filtered)
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
         if outcome.stop is not Stop.CONVERGED:
             raise NoEquilibrium(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
         moved = column.max(np.abs(outcome.x - state.x).max(initial=0.0))
         outcome.contact["anchor"] = state.contact["anchor"]
         state = replace(state, x=outcome.x, internal=outcome.internal, strain=outcome.strain, rotation=outcome.rotation, contact=outcome.contact, static=outcome.static)
+        straight = stage.untwisting(system, state.x, state.internal, state.rotation, state.rotation)
         if links:
             pulls, state.ties = links.pulls(stage, state.x, state.rotation), links.ties(column.centers(state.x), state.rotation)
         return moved
 
     iterate_to_rest(proximal_step, height)
     system.forget(*factors)
-    push = interface.acceleration(state.forces, state.rotation) if interface.foot.filtered else np.zeros_like(state.x)
+    push = interface.acceleration(state.forces, state.rotation) + straight if interface.foot.filtered else np.zeros_like(state.x)
     if links:
         push = push + links.acceleration(pulls, state.rotation)
         state.static += links.stored(state)

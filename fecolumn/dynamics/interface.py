@@ -66,7 +66,8 @@ class Interface:
         parts = [one_body(self.arms[first:last], node_matrix(one), node_matrix(own)) for first, last, one, own in zip(rows, rows[1:], static, mobility)]
         #: As `contact.bodies` has them: their rigid motion is part of the nodal mobility.
         self.bodies = Bodies(*joined(parts)[:4], joints.facets)
-        self._first = [slice(first, last) for first, last in zip(rows, rows[1:])]
+        #: Rows of each body's surface nodes.
+        self.rows = [slice(first, last) for first, last in zip(rows, rows[1:])]
         self.surface, self.counts = base_for_steps(base), np.zeros(N_COUNTS, np.int64)
         self._problem, self._stick = room(self.size), no_stick(0)
         #: Nodes and shares of the masters below the points at the start of the step.
@@ -134,10 +135,10 @@ class Interface:
         return self.foot.position(into_frames(x, rotation, self.column.rows) - self.column.X)
 
     def _into_frames(self, values, rotation):
-        return into_frames(values, rotation, self._first)
+        return into_frames(values, rotation, self.rows)
 
     def _out_of_frames(self, values, rotation):
-        return out_of_frames(values, rotation, self._first)
+        return out_of_frames(values, rotation, self.rows)
 
     def start_positions(self, x: np.ndarray, rotation: np.ndarray, poses: np.ndarray) -> np.ndarray:
         """`positions` at the start of a step, to which the nodes below the points are kept."""
@@ -196,7 +197,7 @@ class Interface:
             elastic = _turned(compliance, scale, frame)
         else:
             elastic = np.zeros_like(self.bodies.static)
-            for one, R, rows in zip(compliance, frame, self._first):
+            for one, R, rows in zip(compliance, frame, self.rows):
                 elastic[3 * rows.start:3 * rows.stop, :3 * len(one)] = _turned(one, scale, R)
         return Nodal(elastic, elastic + self.bodies.static)
 

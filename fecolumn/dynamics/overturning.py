@@ -71,6 +71,11 @@ def stance(arms: np.ndarray, inertia: np.ndarray, weight: float, friction: float
                   np.ascontiguousarray(inertia, float), float(weight), float(friction), float(cap) if cap > 0 else np.inf)
 
 
+def never_alone(inertia: np.ndarray, weight: float, cap: float) -> Stance:
+    """Stance of a body that its cap alone tells from one that stands: one of many; further arguments as of Stance, cap 0 for none."""
+    return Stance(np.zeros((1, 2)), 1.0, np.inf, np.ascontiguousarray(inertia, float), float(weight), 0.0, float(cap) if cap > 0 else np.inf)
+
+
 def _weakest(corners: np.ndarray) -> tuple[float, np.ndarray]:
     """Distance [m] of the nearest edge from the centre of mass, and its outward normal (2,)."""
     edges = np.roll(corners, -1, axis=0) - corners

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,17 +13,24 @@ from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation
 
 @dataclass(slots=True)
 class Stage:
-    """What an implicit stage asks for: m M (x - target) + s [f(x) + C (velocity + rate (x - target))] = load + scale U r.
+    """What an implicit stage asks for: m M (x - target) + s T1 [f(x) + C (velocity + rate (x - target))] = load + scale U r.
 
-    target: (n_owned, 3) where the column would go without internal forces at the end [m].
-    load: (n_owned, 3) effective forces known beforehand [N].
+    Bodies turn within a step. What internal forces bring to it at its start and at its end acts in the frame halfway, to which T1 turns those of the end, and
+    `middle` what the start brings. So the work of the mean internal force is the change of the strain energy, however far a body turns.
+
+    target: (n_owned, 3) where the column would go without internal forces at the end, but for `memory` [m].
+    load: (n_owned, 3) effective forces known beforehand, but for `held` [N].
     start: (n_owned, 3) first guess of the positions [m].
     scale: effective force per contact force.
     before: (n,) of CONTACT, what the points bring to the stage; the forces are the first guess. dt: length of the step [s], inf at rest.
     rotation: (3, 3) of the column at the start, (nb, 3, 3) of several bodies. Contact forces act on the column in the rotation halfway, so that their
         work over a turn of the column by t is that of the foot's path up to t^3.
-    velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target [m/s]; None where nothing is damped.
+    velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target, but for `memory` [m/s]; None where nothing is damped.
     centers: (nb, 3) of mass at the start [m], ties: (nl,) of TIE there; None of a structure without links.
+    memory: (n_owned, 3) acceleration that the start brings [m/s2], None at rest; shares: of it in target [s2] and velocity [s]; held: (n_owned, 3) internal
+        forces that the start brings to the load [N]. turns: whether internal forces and what the start brings turn with the bodies; not in the literal HHT
+        scheme, whose accelerations hold contact forces.
+    place, internal: (n_owned, 3) positions [m] and internal forces [N] at the start.
     """
 
     target: np.ndarray
@@ -35,6 +43,67 @@ class Stage:
     velocity: np.ndarray | None = None
     centers: np.ndarray | None = None
     ties: np.ndarray | None = None
+    memory: np.ndarray | None = None
+    shares: tuple[float, float] = (0.0, 0.0)
+    held: np.ndarray | None = None
+    turns: bool = False
+    place: np.ndarray | None = None
+    internal: np.ndarray | None = None
+
+    def middle(self, column, halfway: np.ndarray) -> Middle:
+        """What the stage asks for, with all that its start brings, in the frame `halfway`."""
+        if self.memory is None:
+            return Middle(self.target, self.load, self.velocity, None)
+        memory, held, (way, rate) = self.memory, self.held, self.shares
+        if self.turns:
+            turn = halfway @ self.rotation.swapaxes(-1, -2)
+            memory, held = carried(column, memory, turn), out_of_frames(held, turn, column.rows)
+        return Middle(self.target + way * memory, self.load + held, None if self.velocity is None else self.velocity + rate * memory, memory)
+
+    def untwisting(self, system, x: np.ndarray, internal: np.ndarray, rotation: np.ndarray, halfway: np.ndarray):
+        """Accelerations (n_owned, 3) that take away the moment of the internal forces in a step to positions x, or at rest there; 0 where nothing turns.
+
+        Forces K d at displacements d have the moment sum d x K d, of second order in the strain, and would turn a body that nothing touches.
+        """
+        if not self.turns:
+            return 0.0
+        if self.memory is None:
+            return without_moment(system, arms_of(system.column, x), internal, rotation)
+        column, ends = system.column, ((self.place, self.internal, self.rotation), (x, internal, rotation))
+        turned = [[out_of_frames(values, halfway @ R.swapaxes(-1, -2), column.rows) for values in (arms_of(column, place), force)] for place, force, R in ends]
+        arms, forces = ((first + last) / 2 for first, last in zip(*turned))
+        return without_moment(system, arms, forces, halfway)
+
+
+class Middle(NamedTuple):
+    """Target, load and velocity of a Stage with all that its start brings, and its memory, in the frame halfway."""
+
+    target: np.ndarray
+    load: np.ndarray
+    velocity: np.ndarray | None
+    memory: np.ndarray | None
+
+
+def arms_of(column, x: np.ndarray) -> np.ndarray:
+    """Arms (n_owned, 3) [m] of positions x (n_owned, 3) from the centres of mass."""
+    return x - np.repeat(column.centers(x), [rows.stop - rows.start for rows in column.rows], axis=0)
+
+
+def without_moment(system, arms: np.ndarray, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    """Accelerations (n_owned, 3) [m/s2] of rigid rotations that take away the moment of internal forces (n_owned, 3) at arms (n_owned, 3), bodies turned by `rotation`."""
+    column, moments = system.column, np.cross(arms, forces)
+    moments = column.sum(np.stack([moments[rows].sum(axis=0) for rows in column.rows]))
+    turns = [R @ np.linalg.solve(inertia, moment @ R) for R, inertia, moment in zip(rotation.reshape(-1, 3, 3), system.inertias, moments)]
+    return np.concatenate([np.cross(turn, arms[rows]) for turn, rows in zip(turns, column.rows)])
+
+
+def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
+    """Accelerations (n_owned, 3) that internal forces and gravity have brought to bodies, after these turn by `turn` (3, 3) or (nb, 3, 3).
+
+    Internal forces turn with a body. They have no resultant: the mean is that of gravity and the ground, and stays.
+    """
+    own = arms_of(column, accelerations)
+    return accelerations - own + out_of_frames(own, turn, column.rows)
 
 
 @dataclass(slots=True)
@@ -82,9 +151,13 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     for iteration in range(max_iterations + 1):
         rotation, internal, strain = system.kinematics.internal(x)
         halfway = polar_rotation(rotation + stage.rotation)
-        residual = operators.mass_factor * column.apply(column.mass, stage.target - x) + stage.load - operators.stiffness_factor * internal
-        if stage.velocity is not None:
-            residual -= operators.stiffness_factor * system.damping.force(stage.velocity + operators.rate_factor * (x - stage.target), rotation)
+        middle, inner = stage.middle(column, halfway), internal
+        if middle.velocity is not None:
+            inner = internal + system.damping.force(middle.velocity + operators.rate_factor * (x - middle.target), rotation)
+        if stage.turns and middle.memory is not None:
+            inner = out_of_frames(inner, halfway @ rotation.swapaxes(-1, -2), column.rows)
+        pushed = operators.mass_factor * (middle.target - x) + scale * stage.untwisting(system, x, internal, rotation, halfway)
+        residual = column.apply(column.mass, pushed) + middle.load - operators.stiffness_factor * inner
         if links:
             residual += scale * links.load(links.pulls(stage, x, rotation), halfway)
         total = residual + scale * interface.load(contact["force"], halfway)
@@ -110,7 +183,9 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
 
         # Newton about the present forces, so that a slightly turned compliance does not matter at convergence
         turn = rotation @ operators.rotation.swapaxes(-1, -2)
-        x = system.kinematics.moved(x, out_of_frames(operators.factor.solve(into_frames(total, turn, column.rows)), turn, column.rows))
+        # forces act in the frame halfway: as the body's own they meet the stiffness as it is, by which a turned one would be multiplied
+        acts = halfway @ operators.rotation.swapaxes(-1, -2) if stage.turns and middle.memory is not None else turn
+        x = system.kinematics.moved(x, out_of_frames(operators.factor.solve(into_frames(total, acts, column.rows)), turn, column.rows))
         old = contact["force"].copy()
         poses = interface.poses(x, rotation)
         stop, violation = interface.solve(nodal, poses, interface.positions(x, rotation, poses), stage.dt, stage.before, contact)

@@ -16,8 +16,9 @@ from fecolumn.dynamics.cuts import StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
-from fecolumn.dynamics.stage import Stage, equilibrate
+from fecolumn.dynamics.stage import Stage, carried, equilibrate
 from fecolumn.dynamics.system import State
+from fecolumn.fem.rotation import out_of_frames
 
 
 class Stepper:
@@ -99,12 +100,13 @@ class Stepper:
         turned = resistance.acceleration(start, dt) if resistance else 0.0
         resisted = column.apply(column.mass, turned) if resistance else 0.0
         stage = Stage(
-            target=start.x + dt * start.v + dt**2 * (0.5 - be) * start.a,
-            load=(1 + al) * F1 - al * F0 + al * (start.internal + damped) + resisted / (2 * be),
+            target=start.x + dt * start.v,
+            load=(1 + al) * F1 - al * F0 + resisted / (2 * be),
             start=system.kinematics.predicted(start.x, dt * start.v + dt**2 / 2 * (start.a + start.contact_a)),
             scale=1 / (2 * be) if self.plastic else 1.0, before=before, dt=dt, rotation=start.rotation,
-            velocity=start.v + dt * (1 - ga) * start.a if damping else None,
-            centers=column.centers(start.x) if links else None, ties=start.ties)
+            velocity=start.v if damping else None, centers=column.centers(start.x) if links else None, ties=start.ties,
+            memory=start.a, shares=(dt**2 * (0.5 - be), dt * (1 - ga)), held=al * (start.internal + damped), turns=self.plastic,
+            place=start.x, internal=start.internal)
         operators = system.operators(hht.mass_factor, hht.stiffness_factor, hht.rate_factor)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
         self.record.iterations += outcome.iterations
@@ -123,17 +125,22 @@ class Stepper:
             if links:
                 pulls = links.pulls(stage, after.x, after.rotation)
                 push, w = push + links.load(pulls, R), w + links.acceleration(pulls, R)
-            worked = push + resisted
+            worked, straight = push + resisted, stage.untwisting(system, after.x, after.internal, after.rotation, R)
+            w, untwists = w + straight, column.apply(column.mass, straight)
         else:
             w = np.zeros_like(start.x)
-            worked = (1 - ga) * interface.load(before["force"], R) + ga * push
-        after.contact_a = w
-        after.a = hht.mass_factor * (after.x - stage.target) - w / (2 * be)
-        after.v = start.v + dt * ((1 - ga) * start.a + ga * after.a + w)
+            worked, untwists = (1 - ga) * interface.load(before["force"], R) + ga * push, 0.0
+        middle = stage.middle(column, R)
+        first, last = middle.memory, hht.mass_factor * (after.x - middle.target) - w / (2 * be)
+        onward = after.rotation @ R.swapaxes(-1, -2)
+        after.contact_a, after.a = w, carried(column, last, onward) if self.plastic else last
+        after.v = start.v + dt * ((1 - ga) * first + ga * last + w)
+        ends, drags = [start.internal, after.internal], []
         if damping:
             # of the velocity without what of the contact's impulse has not moved the column yet; the same at alpha = 0
-            damped = damped + damping.force(after.v - dt * al**2 / (4 * be) * w, after.rotation)
-        contact_work = self._book(start, before, after, hht, F0 + F1, worked, damped, resisted, springs)
+            drags = [damped, damping.force(after.v - dt * al**2 / (4 * be) * w, after.rotation)]
+        inner, drag = (self._halfway(forces, start, after, R) for forces in (ends, drags))
+        contact_work = self._book(start, before, after, hht, (first, last), F0 + F1 - inner, untwists, worked, drag, resisted, springs)
         if self.plastic and rolled and contact_work > CREATED * system.weight * interface.width:
             # several points of the rim carry while it rolls fast: they stay for this step
             self.ledger.work.update(booked)
@@ -146,19 +153,28 @@ class Stepper:
                 raise
         return after
 
-    def _book(self, start, before, after, hht, load_sum, worked, damped, resisted, springs) -> float:
-        """Energy of an HHT step; returns the work of contact [J]. From the identity
-        dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean = (1-ga) a0 + ga a1.
+    def _halfway(self, forces, start, after, R):
+        """Sum (n_owned, 3) of internal forces at start and end of a step, as they act in it; 0 of none."""
+        if self.plastic:
+            forces = [out_of_frames(force, R @ state.rotation.swapaxes(-1, -2), self.system.column.rows) for force, state in zip(forces, (start, after))]
+        return sum(forces)
 
-        damped: sum of the damping forces at both ends, resisted: rolling resistance, part of `worked`, each (n_owned, 3) [N] or 0.
+    def _book(self, start, before, after, hht, ends, load_sum, untwists, worked, damped, resisted, springs) -> float:
+        """Energy of an HHT step; returns the work of contact [J]. From the identity
+        dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean = (1-ga) a0 + ga a1, push of contact and of what takes the moment of the
+        internal forces away, which does no work but theirs.
+
+        ends: a0 and a1 (n_owned, 3) as they act in the step [m/s2]. load_sum: sum of loads less internal forces at both ends,
+            untwists: what takes the moment of these away, damped: sum of damping forces,
+            resisted: rolling resistance, part of `worked`, each (n_owned, 3) [N] or 0.
         """
         column, interface, step = self.system.column, self.system.interface, after.x - start.x
-        mean = column.apply(column.mass, (1 - hht.gamma) * start.a + hht.gamma * after.a)
-        total = mean + worked if self.plastic else mean
+        mean = column.apply(column.mass, (1 - hht.gamma) * ends[0] + hht.gamma * ends[1])
+        total = mean + worked + untwists if self.plastic else mean
         smooth = mean if self.plastic else mean - worked
-        algorithmic = column.dot(step, smooth - (load_sum - start.internal - after.internal) / 2)
-        algorithmic -= hht.dt**2 * hht.alpha**2 / 4 * column.dot(after.a - start.a, total)
-        carried = column.sum(np.einsum("cna,na->c", column.unit_loads, step))
+        algorithmic = column.dot(step, smooth - load_sum / 2)
+        algorithmic -= hht.dt**2 * hht.alpha**2 / 4 * column.dot(ends[1] - ends[0], total)
+        shaken = column.sum(np.einsum("cna,na->c", column.unit_loads, step))
         damping = -column.dot(step, damped) / 2 if self.system.damping else 0.0
         rolling = column.dot(step, resisted) if self.system.resistance else 0.0
         dashed = lost = 0.0
@@ -167,7 +183,7 @@ class Stepper:
             after.static += tied
         contact = column.dot(step, worked) - rolling + after.static - start.static + lost + dashed
         friction, landed, dashpots = losses(interface.points, interface.interfaces, springs, interface.near, before, after.contact)
-        self.ledger.add(base_work=-np.dot((start.ground + after.ground) / 2, carried), algorithmic=algorithmic - damping,
+        self.ledger.add(base_work=-np.dot((start.ground + after.ground) / 2, shaken), algorithmic=algorithmic - damping,
                         friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots - dashed - lost, rolling=rolling)
         return contact
 

@@ -66,6 +66,10 @@ class Body:
         """As of `fem.composite.Composite`."""
         return [self]
 
+    def centers(self, values: np.ndarray) -> np.ndarray:
+        """As of `fem.composite.Composite`: mean (1, 3) over the mass of an owned array (n_owned, 3)."""
+        return self.sum(self.node_mass @ values)[None] / self.total_mass
+
     def _node_parts(self) -> np.ndarray:
         """Part of each owned node."""
         part = np.zeros(self.n_owned, np.int8)

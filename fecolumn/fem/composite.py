@@ -27,7 +27,7 @@ class Composite:
         self.n_owned, self.n_nodes = (sum(getattr(part, name) for part in parts) for name in ("n_owned", "n_nodes"))
         self.X, self.unturned = np.concatenate([part.X for part in parts]), np.tile(np.eye(3), (len(parts), 1, 1))
         #: Unstrained positions (n_owned, 3) in the table frame [m].
-        self.placed = np.concatenate([center + (part.X - part.center) @ R.T for part, center, R in zip(parts, centers, rotations)])
+        self.placed = self.places(centers, rotations)
         places = np.concatenate([center + (part.all_X - part.center) @ R.T for part, center, R in zip(parts, centers, rotations)])
         #: Largest extent along an axis [m].
         self.extent = np.ptp(places, axis=0).max()
@@ -37,6 +37,10 @@ class Composite:
         self.node_mass = np.concatenate([part.node_mass for part in parts])
         self.total_mass = sum(part.total_mass for part in parts)
         self.sum, self.max, self.dot = parts[0].sum, parts[0].max, parts[0].dot
+
+    def places(self, centers, rotations) -> np.ndarray:
+        """Positions (n_owned, 3) [m] of the unstrained bodies with centres of mass (nb, 3), turned by (nb, 3, 3)."""
+        return np.concatenate([center + (part.X - part.center) @ R.T for part, center, R in zip(self.parts, centers, rotations)])
 
     def apply(self, matrices, values: np.ndarray) -> np.ndarray:
         """Product of each body's matrix with its rows of an owned array (n_owned, 3)."""
@@ -59,6 +63,16 @@ def slices(counts) -> list[slice]:
     """Rows of bodies with so many rows each."""
     ends = np.cumsum([0, *counts]).tolist()
     return [slice(first, last) for first, last in zip(ends, ends[1:])]
+
+
+def of_copies(each: list, rows: list, values: np.ndarray, name: str) -> np.ndarray:
+    """What the methods `name` of `each` give of rows of values (n, 3), one below the other; copies are asked at once, so that what is large is read once."""
+    found = {}
+    for one in dict.fromkeys(each):
+        mine = [place for place, other in enumerate(each) if other is one]
+        given = values[rows[mine[0]]] if len(mine) == 1 else np.stack([values[rows[place]] for place in mine])
+        found |= zip(mine, getattr(one, name)(given).reshape(len(mine), -1, 3))
+    return np.concatenate([found[place] for place in range(len(each))])
 
 
 class CompositeKinematics:
@@ -105,7 +119,7 @@ class CompositeFactor:
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
         """Displacements (n_owned, 3), rows in the frames of their bodies."""
-        return np.concatenate([factor.solve(forces[rows]) for factor, rows in zip(self.each, self.column.rows)])
+        return of_copies(self.each, self.column.rows, forces, "solve")
 
     def destroy(self) -> None:
         for factor in dict.fromkeys(self.each):
@@ -131,13 +145,13 @@ class CompositeFoot:
 
     def position(self, displacement: np.ndarray) -> np.ndarray:
         """As of each body's, rows in the frames of their bodies."""
-        return np.concatenate([one.position(displacement[rows]) for one, rows in zip(self.each, self.column.rows)])
+        return of_copies(self.each, self.column.rows, displacement, "position")
 
     def load(self, forces: np.ndarray) -> np.ndarray:
-        return np.concatenate([one.load(forces[rows]) for one, rows in zip(self.each, self.rows)])
+        return of_copies(self.each, self.rows, forces, "load")
 
     def acceleration(self, forces: np.ndarray) -> np.ndarray:
-        return np.concatenate([one.acceleration(forces[rows]) for one, rows in zip(self.each, self.rows)])
+        return of_copies(self.each, self.rows, forces, "acceleration")
 
 
 class CompositeResponse:
@@ -152,7 +166,7 @@ class CompositeResponse:
         self.compliance = [one.compliance for one in self.each]
 
     def displacement(self, forces: np.ndarray) -> np.ndarray:
-        return np.concatenate([one.displacement(forces[rows]) for one, rows in zip(self.each, self._rows)])
+        return of_copies(self.each, self._rows, forces, "displacement")
 
 
 class CompositeDamping:

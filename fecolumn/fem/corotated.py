@@ -15,8 +15,8 @@ def mean_rotation(body, x: np.ndarray) -> np.ndarray:
 class Corotated:
     """Internal forces f = R K (R^T x - X), R the body's mean rotation.
 
-    The elastic energy is that of the co-rotated small strains; the moment it does on the rotation itself is of second
-    order in the strain and shows in the energy ledger's closure.
+    The elastic energy is that of the co-rotated small strains. Its gradient has besides what takes away the moment of these forces, which is of second order in
+    the strain: see `dynamics.stage.without_moment`.
     """
 
     name = "corotated"

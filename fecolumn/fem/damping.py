@@ -49,11 +49,11 @@ class DampedFactor:
         self._flat = shapes.reshape(len(shapes), -1)
 
     def _correction(self, forces: np.ndarray) -> np.ndarray:
-        flat = forces.reshape(self._flat.shape[1], -1)
-        return (self._flat.T @ (self._change[:, None] * self._factor.body.sum(self._flat @ flat))).reshape(forces.shape)
+        return self._flat.T @ (self._change[:, None] * self._factor.body.sum(self._flat @ forces))
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
-        return self._factor.solve(forces) + self._correction(forces)
+        copies = forces.reshape(-1, self._flat.shape[1])
+        return self._factor.solve(forces) + self._correction(copies.T).T.reshape(forces.shape)
 
     def solve_many(self, forces: np.ndarray) -> np.ndarray:
         return self._factor.solve_many(forces) + self._correction(forces)

@@ -24,7 +24,9 @@ class Factor:
         self._release = _dolfinx.release_with(self, self._solver, self._matrix)
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
-        """Displacements (n_owned, 3) of all nodes from reduced forces (n_owned, 3)."""
+        """Displacements (n_owned, 3) of all nodes from reduced forces (n_owned, 3); (k, n_owned, 3) of k copies at once, for which the factor is read once."""
+        if forces.ndim == 3:
+            return self.solve_many(forces.reshape(len(forces), -1).T).T.reshape(forces.shape)
         source, target = self.body.work
         source.array[:] = forces.reshape(-1)
         self._solver.solve(source, target)

@@ -45,11 +45,11 @@ class FilteredFoot:
         self.static = blocks(stiffness_factor / mass_factor * (s1 + s2 - 3 * s3 + s4))
 
     def position(self, displacement: np.ndarray) -> np.ndarray:
-        """Filtered displacement or velocity (n, 3) of the foot from a field (n_owned, 3), both in the body's frame."""
-        return self.body.sum(self.push.T @ displacement.reshape(-1)).reshape(-1, 3)
+        """Filtered displacement or velocity (..., n, 3) of the foot from fields (..., n_owned, 3) of as many copies, both in the body's frame."""
+        return self.body.sum(as_row(displacement) @ self.push).reshape(*displacement.shape[:-2], -1, 3)
 
     def load(self, forces: np.ndarray) -> np.ndarray:
-        """Nodal forces (n_owned, 3) of contact forces (n, 3), both in the body's frame."""
+        """Nodal forces (..., n_owned, 3) of contact forces (..., n, 3) on as many copies, both in the body's frame."""
         return _combine(self.push, forces)
 
     def acceleration(self, forces: np.ndarray) -> np.ndarray:
@@ -68,10 +68,12 @@ class PlainFoot:
         self.static = np.zeros((len(nodes), len(nodes), 3, 3))
 
     def position(self, displacement: np.ndarray) -> np.ndarray:
-        return self.body.gather(self.nodes, displacement)
+        """As of FilteredFoot."""
+        return self.body.gather(self.nodes, displacement) if displacement.ndim == 2 else np.stack([self.position(one) for one in displacement])
 
     def load(self, forces: np.ndarray) -> np.ndarray:
-        return self.body.spread(self.nodes, forces)
+        """As of FilteredFoot."""
+        return self.body.spread(self.nodes, forces) if forces.ndim == 2 else np.stack([self.load(one) for one in forces])
 
 
 class Response:
@@ -87,14 +89,20 @@ class Response:
         self.compliance = blocks(foot.body.sum(foot.push.T @ self._columns))
 
     def displacement(self, forces: np.ndarray) -> np.ndarray:
-        """Displacement (n_owned, 3) of contact forces (n, 3), both in the frame of the factored matrix."""
+        """Displacements (..., n_owned, 3) of contact forces (..., n, 3) on as many copies, both in the frame of the factored matrix."""
         return _combine(self._columns, forces)
 
 
+def as_row(values: np.ndarray) -> np.ndarray:
+    """Vectors (..., n, 3) as numbers (..., 3 n)."""
+    return values.reshape(*values.shape[:-2], -1)
+
+
 def _combine(columns: np.ndarray, forces: np.ndarray) -> np.ndarray:
-    """Sum of columns times forces, over the loaded nodes only: few while rocking."""
-    loaded = np.flatnonzero(np.any(forces != 0, axis=1))
+    """Sums (..., n_owned, 3) of columns times forces (..., n, 3), over the nodes that any of them loads only: few while rocking."""
+    loaded = np.flatnonzero(np.any(forces != 0, axis=(*range(forces.ndim - 2), -1)))
     if len(loaded) * 3 > columns.shape[1] // 2:
-        return (columns @ forces.ravel()).reshape(-1, 3)
-    picked = (3 * loaded[:, None] + np.arange(3)).ravel()
-    return (columns[:, picked] @ forces[loaded].ravel()).reshape(-1, 3)
+        sums = as_row(forces) @ columns.T
+    else:
+        sums = as_row(forces[..., loaded, :]) @ columns[:, (3 * loaded[:, None] + np.arange(3)).ravel()].T
+    return sums.reshape(*forces.shape[:-2], -1, 3)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import dataclasses
 import typing
 
-from fecolumn.case import Case
+from fecolumn.case import Cap, Case, Flange
+from fecolumn.rocking.model import TABLES, model_class
+from fecolumn.structures.case import NAMED
+from fecolumn.structures.keys import KINDS
 
 _SYMBOLS = {"integration.dt_s": r"$\Delta t$", "integration.alpha_hht": r"$\alpha$", "contact.friction_coefficient": r"$\mu$",
             "material.youngs_modulus_pa": "$E$"}
@@ -36,8 +39,13 @@ def level_number(value) -> str:
 
 
 def axis_unit(key: str) -> str:
-    """Unit of a key, from the case's own declaration; "-" where it has none."""
+    """Unit of a key, from its own declaration in a case of a column, of bodies or of a rocking model; "-" where it has none."""
     section, _, name = key.partition(".")
-    kind = typing.get_type_hints(Case)[section]
-    owner = next((k for k in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(k)), Case)
-    return next((f.metadata["unit"] for f in dataclasses.fields(owner) if f.name == name and "unit" in f.metadata), "-")
+    kind = typing.get_type_hints(Case).get(section)
+    owners = [one for one in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(one)] if kind else [Case]
+    if section in TABLES:
+        owners.append(model_class(TABLES[section]).SECTION)
+    if section in NAMED:  # [bodies.NAME] and the like
+        name = name.rpartition(".")[2]
+        owners += [*KINDS.values(), Flange, Cap] if section == "bodies" else [NAMED[section]]
+    return next((f.metadata["unit"] for owner in owners for f in dataclasses.fields(owner) if f.name == name and "unit" in f.metadata), "-")

@@ -14,6 +14,7 @@ from fecolumn.statistics.ecdf import Ecdf, proportion_interval
 
 _PANELS_A_ROW = 3
 _ROOM = 1.08  # of an axis over the largest peak, so that the level of what overturned is seen
+_FAR = 3.0  # times the peak that 95 % stay below, beyond which the others would be squeezed together
 SHADED = 2  # shades of more lines would hide each other: these get bars
 _BARS = 5  # of each line
 SHADES, BARS = "shades: pointwise 95 % bands", "bars: pointwise 95 % bands"
@@ -32,7 +33,7 @@ def cdf_figure(panels: list[Panel], path, formats=("png", "pdf"), width_in: floa
     """Write the figure, as PNG and PDF unless told otherwise.
 
     Each distribution ends at 1 - P(overturn) and runs on as a level to the end of the axis, a little beyond the largest peak of all
-    panels. The pointwise 95 % band of Greenwood is a shade where a panel has one or two lines, and bars beside each other where it
+    panels; peaks far beyond all others are named instead. The pointwise 95 % band of Greenwood is a shade where a panel has one or two lines, and bars beside each other where it
     has more; the legend gives P(overturn), or what else `Panel.p_lost` calls it, with Wilson's 95 % interval.
 
     Args:
@@ -41,13 +42,14 @@ def cdf_figure(panels: list[Panel], path, formats=("png", "pdf"), width_in: floa
         formats: of the files.
         width_in: of the figure; panels stand one above the other in one of a column's width.
     """
-    limit_mm = 1e3 * axis_end(distribution.x[-1] for panel in panels for _, distribution in panel.lines if distribution.x.size)
+    peaks = [peak for panel in panels for _, distribution in panel.lines for peak in distribution.x]
+    limit_mm = 1e3 * axis_end(common(peaks))
     columns = 1 if width_in <= COLUMN_WIDTH_IN else 2 if len(panels) == 4 else min(len(panels), _PANELS_A_ROW)
     rows = math.ceil(len(panels) / columns)
     deepest = max(len(panel.lines) for panel in panels)
     looks = {label: None for panel in panels for label, _ in panel.lines}  # one look a label, whatever a panel lacks
     looks = {label: LINES[number % len(LINES)] for number, label in enumerate(looks)}
-    legend_in = 0.3 + 0.145 * (deepest + 1)  # the legend has a strip of its own: a line of points leaves no free corner
+    legend_in = 0.3 + 0.145 * (deepest + 1 + (1e3 * max(peaks, default=0.0) > limit_mm))  # the legend has a strip of its own: a line of points leaves no free corner
     with styled():
         figure = new_figure(width_in if columns > 1 else min(width_in, 0.6 * PAGE_WIDTH_IN), rows * (2.35 + legend_in))
         figure.get_layout_engine().set(w_pad=0.08)
@@ -59,7 +61,7 @@ def cdf_figure(panels: list[Panel], path, formats=("png", "pdf"), width_in: floa
             if place >= len(panels):
                 axes.set_axis_off()
                 continue
-            note = _draw(axes, panels[place], looks, limit_mm)
+            note = _draw(axes, panels[place], looks, limit_mm) + _beyond(panels[place], limit_mm)
             if column == 0:
                 axes.set_ylabel(r"$P\,(u_{\max} \leq u)$")
             else:
@@ -74,6 +76,18 @@ def axis_end(peaks) -> float:
     """Where an axis of displacements ends [m]: a little beyond the largest of the peaks; 1 where there is none above 0."""
     largest = max(peaks, default=0.0)
     return _ROOM * largest if largest > 0 else 1.0
+
+
+def common(peaks) -> list[float]:
+    """The peaks without those so far beyond 95 % of all that they would leave the others no room on an axis."""
+    peaks = list(peaks)
+    return [peak for peak in peaks if peak <= _FAR * np.quantile(peaks, 0.95)]
+
+
+def _beyond(panel: Panel, limit_mm: float) -> str:
+    """A line on the peaks beyond the axis, "" where there are none."""
+    beyond = [1e3 * peak for _, distribution in panel.lines for peak in distribution.x if 1e3 * peak > limit_mm]
+    return f"\n{len(beyond)} beyond the axis, up to {max(beyond):.0f} mm" if beyond else ""
 
 
 def _draw(axes, panel: Panel, looks: dict, limit_mm: float) -> str:

@@ -17,6 +17,8 @@ from fecolumn.material.kinematics import linear_strain
 _TOPOLOGY = '<Topology TopologyType="{kind}" NumberOfElements="{cells}"><DataItem Dimensions="{numbers}" Format="HDF" NumberType="Int" Precision="8">mesh.h5:/cells</DataItem></Topology>'
 _GEOMETRY = '<Geometry GeometryType="XYZ"><DataItem Dimensions="{points} 3" Format="HDF" Precision="8">mesh.h5:/points</DataItem></Geometry>'
 _FIELD = '<Attribute Name="{title}" AttributeType="{kind}" Center="{center}"><DataItem Dimensions="{shape}" Format="HDF" Precision="8">{file}:/{name}</DataItem></Attribute>'
+# Numbers of elements in XDMF by their points: triangle, tetrahedron, brick
+_XDMF = {3: 4, 4: 6, 8: 9}
 
 
 class SpecimenFields:
@@ -30,10 +32,13 @@ class SpecimenFields:
 
     def __init__(self, column, plate, foot, specimen):
         self.specimen = specimen
-        self.column, self.plate, self.foot = column, plate, foot
+        self.column, self.plate, self.foot, self.comm = column, plate, foot, column.comm
+        #: Meshes that are drawn, and numbers of their cells by name, as `FieldWriter` takes them.
+        self.meshes = [specimen.body, specimen.base]
+        self.of_cells = {"part": np.concatenate([mesh.part for mesh in self.meshes])}
         bodies = (column, plate.body) if plate else (column,)
-        self._nodes = [_vertex_nodes(body) for body in bodies]
-        self._stress = {body: _StressField(body) for body in bodies}
+        self._nodes = [vertex_nodes(body) for body in bodies]
+        self._stress = {body: StressField(body) for body in bodies}
         self._pressure_points = self._points_of_foot()
 
     def _points_of_foot(self) -> np.ndarray:
@@ -45,7 +50,7 @@ class SpecimenFields:
 
         Args:
             x: (n_owned, 3) positions of the column [m]; local: its displacements in its own frame [m].
-            positions, forces: (n, 3) of the contact points [m, N]; at_nodes: (n, 3) these forces on the foot's nodes.
+            positions: (n, 3) of the contact points [m], asked for with a plate alone; forces: (n, 3) on them [N]; at_nodes: (n, 3) these forces on the foot's nodes.
         """
         column, plate = self.column, self.plate
         displacement, stress = [gather_all(column, x - column.X)], [self._stress[column].values(local)]
@@ -63,32 +68,28 @@ class SpecimenFields:
 
 
 class FieldWriter:
-    """Writes frames of column and base into a folder; `fields.xdmf` always lists complete frames only.
+    """Writes frames of bodies into a folder; `fields.xdmf` always lists complete frames only.
 
     Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and continued.
 
     Args:
-        fields: SpecimenFields.
+        fields: SpecimenFields, or what has `meshes`, `of_cells`, `comm` and `values` as it has.
     """
 
-    def __init__(self, folder: Path, fields: SpecimenFields):
-        self.folder, self.fields, self.specimen = folder, fields, fields.specimen
-        self._offset = len(self.specimen.body.points)
-        if fields.column.comm.rank == 0:
+    def __init__(self, folder: Path, fields):
+        self.folder, self.fields = folder, fields
+        self._mixed = any(mesh.cells.shape[1] != 8 for mesh in fields.meshes)
+        if fields.comm.rank == 0:
             folder.mkdir(parents=True, exist_ok=True)
             self._write_mesh()
 
     def _write_mesh(self) -> None:
-        body, base = self.specimen.body, self.specimen.base
-        if body.is_tetrahedral:
-            # XDMF tells elements of different kinds in one list by their numbers: 6 a tetrahedron, 9 a brick
-            lists = ((6, body.cells), (9, base.cells + self._offset))
-            cells = np.concatenate([np.insert(some, 0, number, axis=1).ravel() for number, some in lists])
-        else:
-            cells = np.vstack([body.cells, base.cells + self._offset])
-        _write_h5(self.folder / "mesh.h5", {
-            "points": np.vstack([body.points, base.points]), "cells": cells,
-            "part": np.concatenate([body.part, base.part]).astype(float)})
+        meshes = self.fields.meshes
+        lists = [mesh.cells + first for mesh, first in zip(meshes, np.cumsum([0] + [len(mesh.points) for mesh in meshes]))]
+        # XDMF tells elements of different kinds in one list by their numbers
+        cells = np.concatenate([np.insert(some, 0, _XDMF[some.shape[1]], axis=1).ravel() for some in lists]) if self._mixed else np.vstack(lists)
+        _write_h5(self.folder / "mesh.h5", {"points": np.vstack([mesh.points for mesh in meshes]), "cells": cells,
+                                            **{name: values.astype(float) for name, values in self.fields.of_cells.items()}})
 
     def write(self, time: float, x, local, positions, forces, at_nodes) -> None:
         """Add the frame of a time [s]; called on every rank, the other arguments as of `SpecimenFields.values`."""
@@ -101,17 +102,16 @@ class FieldWriter:
             self._write_index()
 
     def _write_index(self) -> None:
-        points = self._offset + len(self.specimen.base.points)
-        cells = len(self.specimen.body.cells) + len(self.specimen.base.cells)
-        mixed = self.specimen.body.is_tetrahedral
-        kind = "Mixed" if mixed else "Hexahedron"
-        numbers = 5 * len(self.specimen.body.cells) + 9 * len(self.specimen.base.cells) if mixed else f"{cells} 8"
+        meshes = self.fields.meshes
+        points, cells = sum(len(mesh.points) for mesh in meshes), sum(len(mesh.cells) for mesh in meshes)
+        kind = "Mixed" if self._mixed else "Hexahedron"
+        numbers = sum(len(mesh.cells) * (mesh.cells.shape[1] + 1) for mesh in meshes) if self._mixed else f"{cells} 8"
         grids = []
         for frame in sorted(self.folder.glob("frame_*.h5")):
             fields = [_FIELD.format(title="displacement [m]", kind="Vector", center="Node", shape=f"{points} 3", file=frame.name, name="displacement"),
                       _FIELD.format(title="von Mises stress [Pa]", kind="Scalar", center="Cell", shape=cells, file=frame.name, name="von_mises"),
                       _FIELD.format(title="contact pressure [Pa]", kind="Scalar", center="Node", shape=points, file=frame.name, name="pressure"),
-                      _FIELD.format(title="part", kind="Scalar", center="Cell", shape=cells, file="mesh.h5", name="part")]
+                      *(_FIELD.format(title=name, kind="Scalar", center="Cell", shape=cells, file="mesh.h5", name=name) for name in self.fields.of_cells)]
             time = int(frame.stem.split("_")[1]) / 1e6
             grids.append(f'<Grid Name="fecolumn" GridType="Uniform"><Time Value="{time}"/>' + _TOPOLOGY.format(cells=cells, kind=kind, numbers=numbers)
                          + _GEOMETRY.format(points=points) + "".join(fields) + "</Grid>")
@@ -120,7 +120,7 @@ class FieldWriter:
         write_bytes(self.folder / "fields.xdmf", text.encode())
 
 
-class _StressField:
+class StressField:
     """Von Mises stress at the middle of each element, in the order of the input mesh."""
 
     def __init__(self, body):
@@ -149,7 +149,7 @@ class _StressField:
         return stress
 
 
-def _vertex_nodes(body) -> np.ndarray:
+def vertex_nodes(body) -> np.ndarray:
     """Node of each point of the body's input mesh."""
     nodes = np.empty(len(body.bricks.points), np.int64)
     for part in np.unique(body.bricks.part):

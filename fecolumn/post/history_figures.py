@@ -12,6 +12,7 @@ from fecolumn.files import Unreadable, read_json
 from fecolumn.post.energy_figure import energy_figure
 from fecolumn.post.path_figure import path_figure
 from fecolumn.post.specimen_outline import Outline, specimen_outline
+from fecolumn.post.structure_figures import figure_names, structure_figures
 from fecolumn.post.top_figure import top_figure
 from fecolumn.schema import InputError
 
@@ -91,15 +92,31 @@ def has_figures(folder) -> bool:
     """Whether all figures of an analysis' folder are there and none is older than its history."""
     folder = Path(folder)
     try:
-        drawn = [(folder / f"{name}.{kind}").stat().st_mtime_ns for name in ("u_top", "path", "energy") for kind in ("png", "pdf")]
+        names = ("u_top", "path", "energy", *figure_names(_names(folder / "history.h5")))
+        drawn = [(folder / f"{name}.{kind}").stat().st_mtime_ns for name in names for kind in ("png", "pdf")]
         return min(drawn) >= (folder / "history.h5").stat().st_mtime_ns
     except FileNotFoundError:
         return False
 
 
 def history_figures(folder) -> list[Path]:
-    """Write u_top, path and energy of an analysis' folder, each as PNG and PDF; needs history.h5 and summary.json."""
+    """Write u_top, path and energy of an analysis' folder, of a structure interfaces and storeys besides, each as PNG and PDF; needs history.h5 and summary.json."""
     folder = Path(folder)
     history, ending = History.read(folder / "history.h5"), read_ending(folder)
-    return [*top_figure(history, ending, folder / "u_top"), *path_figure(history, ending, folder / "path"),
-            *energy_figure(history, folder / "energy")]
+    files = [*top_figure(history, ending, folder / "u_top"), *path_figure(history, ending, folder / "path"),
+             *energy_figure(history, folder / "energy")]
+    of_structure = tuple(name for name in _names(folder / "history.h5") if name.startswith(("interface/", "storey/")))
+    return files + (structure_figures(read_history(folder / "history.h5", ("time", *of_structure)), folder) if of_structure else [])
+
+
+def _names(file: Path) -> list[str]:
+    """Columns of a history; none of a file that cannot be read."""
+    import h5py
+
+    names: list[str] = []
+    try:
+        with h5py.File(file) as content:
+            content.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
+    except OSError:
+        return []
+    return names

@@ -83,7 +83,11 @@ class ReducedAnalysis(Analysis):
 
     def _states(self) -> States | None:
         every = self.case.output.states_every_s
-        return States(max(1, round(every / self.case.integration.dt_s))) if every else None
+        return States(max(1, round(every / self.case.integration.dt_s)), *self._bodies()) if every else None
+
+    def _bodies(self) -> tuple:
+        """Models of the bodies whose states are kept, and their names."""
+        return [self.model], ()
 
     def _keep(self) -> None:
         """Keep the state of this step, and write its fields, where they are due."""
@@ -126,7 +130,7 @@ class ReducedAnalysis(Analysis):
         fallen = engine.fallen(self.steepest(self.step)) if over else STANDS
         if self.states:
             self.states.add(engine, last=True)
-            self.states.write(self.folder, self.model, {"case_id": self.case.id, **self.code})
+            self.states.write(self.folder, {"case_id": self.case.id, **self.code})
         return self.finish(off or self.ending(fallen, engine.motion.rotation[0]), self.model.dofs + self.base.dofs, engine.record, 0)
 
     def _advance(self, count: int) -> bool:

@@ -34,10 +34,10 @@ class StateFields:
     def values(self, state: State) -> dict[str, np.ndarray]:
         """Fields by the names of `SpecimenFields.values`."""
         local, at_nodes = self.displacement(state), state.at_nodes(len(self._foot))
-        x = state.center + (self._body.X - self._model.center + local) @ state.rotation.T
+        x = state.center[0] + (self._body.X - self._model.center + local) @ state.rotation[0].T
         return self.specimen.values(x, local, state.position, state.force, at_nodes)
 
     def displacement(self, state: State) -> np.ndarray:
         """Displacement (n_nodes, 3) [m] in the column's frame."""
-        load = self._body.spread(self._foot, state.at_nodes(len(self._foot)) @ state.rotation).reshape(-1, 1)
-        return np.tensordot(state.modal, self._shapes, 1) + self._free.response(load).reshape(-1, 3)
+        load = self._body.spread(self._foot, state.at_nodes(len(self._foot)) @ state.rotation[0]).reshape(-1, 1)
+        return np.tensordot(state.modal[0], self._shapes, 1) + self._free.response(load).reshape(-1, 3)

@@ -9,7 +9,7 @@ from fecolumn.contact.joints import joints_of
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import poses_of
 from fecolumn.dynamics.links import links_of
-from fecolumn.dynamics.overturning import Stance
+from fecolumn.dynamics.overturning import never_alone
 from fecolumn.reduced.model import Structure, modal_sum
 from fecolumn.reduced.observe import MARK, View
 
@@ -63,6 +63,6 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
     place = names.index((body, name))
     feet = [joint for joint in model.joints if joint.slave == body]
     foot = model.parts[body].model.arms[model.parts[body].model.surfaces[feet[0].slave_surface].nodes].mean(axis=0) if feet else np.zeros(3)
-    stance = Stance(np.zeros((1, 2)), 1.0, np.inf, np.ascontiguousarray(model.parts[body].model.inertia, float), float(weight), 0.0, float(cap) if cap > 0 else np.inf)
+    stance = never_alone(model.parts[body].model.inertia, weight, cap)
     return View(centers, body, np.array(marks[place]["arm"]), np.ascontiguousarray(shapes[place]), foot, np.zeros((3, modes)), stance,
                 np.full(len(centers), float(lost)), np.array(poses_of(structure.interfaces, centers, rotations)["foot"]), marks, shapes)

@@ -13,6 +13,7 @@ def add_arguments(parser) -> None:
     parser.add_argument("--only", choices=("movie", "pictures"), help="the movie alone, or stills and sequence figure alone")
     parser.add_argument("--gif", action="store_true", help="the movie as GIF, smaller and of fewer pictures a second, not as MP4")
     parser.add_argument("--view", choices=VIEWS, default="lean", help="from where: lean (default) sees the largest lean at full length, front looks along y, side along -x")
+    parser.add_argument("--body", metavar="NAME", default="", help="of a structure: the body whose top is followed and at whose foot the view foot looks (default: the observed one)")
     parser.add_argument("--instants", metavar="T,T,...", help="times [s] of stills and sequence, one to ten (default: five, the peaks of the top's displacement)")
     parser.add_argument("--exaggerate", metavar="N", default="1", help="draw elastic displacements N times as large, or auto; needs fields (default: 1, true)")
     parser.add_argument("--color", choices=("stress", "displacement"), default="", help="by von Mises stress (default where fields were written), or by displacement")

@@ -12,9 +12,8 @@ import numpy as np
 from fecolumn.folder import written
 from fecolumn.progress import CountProgress
 from fecolumn.render.camera import VIEWS, camera
-from fecolumn.render.frames import Frames
 from fecolumn.render.instants import chosen_instants
-from fecolumn.render.result import Result, read_result
+from fecolumn.render.result import read_result
 from fecolumn.schema import InputError
 
 COMMAND = "fecolumn render"
@@ -36,7 +35,7 @@ class Wish:
         only: "movie", "pictures" or "" for both. gif, view, color, paraview: as of the command's options.
         instants: of stills and sequence, empty to choose. exaggerate: factor on elastic displacements, or "auto".
         start, end: of the movie; None for those of the analysis. fps: pictures a second. speed: seconds of motion in one of the movie.
-        size: (width, height) of the movie [pixels].
+        size: (width, height) of the movie [pixels]. body: of a structure, whose top is followed and at whose foot the view "foot" looks.
     """
 
     only: str = ""
@@ -51,6 +50,7 @@ class Wish:
     speed: float = 1.0
     size: tuple[int, int] = (1280, 720)
     paraview: bool = False
+    body: str = ""
 
     def __post_init__(self):
         _check(self.view in VIEWS, "--view", self.view, f"must be one of {', '.join(VIEWS)}")
@@ -72,7 +72,7 @@ class Wish:
         instants = tuple(_number("--instants", word, "must be times [s] such as 0.5,1.2") for word in args.instants.split(",")) if args.instants else ()
         exaggerate = "auto" if args.exaggerate == "auto" else _number("--exaggerate", args.exaggerate, "must be a number or auto")
         return cls(args.only or "", args.gif, args.view, instants, exaggerate, args.color, args.start, args.end, args.fps, args.speed,
-                   (int(size[1]), int(size[2])), args.paraview)
+                   (int(size[1]), int(size[2])), args.paraview, args.body)
 
 
 def _number(option: str, word: str, allowed: str) -> float:
@@ -95,7 +95,7 @@ def render(folder, wish: Wish = Wish(), quiet: bool = False) -> list[Path]:
     Raises:
         InputError: no finished analysis in the folder, times outside of it, or colours and exaggeration that need fields where there are none.
     """
-    result = read_result(folder)
+    result = read_result(folder, wish.body)
     target = result.folder / "render"
     if wish.paraview:
         from fecolumn.render.paraview import NAME, write_view
@@ -112,8 +112,8 @@ def render(folder, wish: Wish = Wish(), quiet: bool = False) -> list[Path]:
     return files
 
 
-def _window(result: Result, wish: Wish) -> tuple[float, float]:
-    time = result.history["time"]
+def _window(result, wish: Wish) -> tuple[float, float]:
+    time = result.time
     first, last = float(time[0]), float(time[-1])
     start, end = first if wish.start is None else wish.start, last if wish.end is None else wish.end
     for option, value in (("--start", start), ("--end", end), *(("--instants", value) for value in wish.instants)):
@@ -122,18 +122,13 @@ def _window(result: Result, wish: Wish) -> tuple[float, float]:
     return start, end
 
 
-def _frames(result: Result, wish: Wish, start: float, end: float, times: np.ndarray, interval: float) -> Frames:
+def _frames(result, wish: Wish, start: float, end: float, times: np.ndarray, interval: float):
     """Frames at `times` that range over the same colours, whichever they are of those from start to end [s]."""
-    whole = Frames(result, np.linspace(start, end, _SAMPLES), interval, wish.exaggerate, wish.color)
-    return Frames(result, times, interval, wish.exaggerate, wish.color, like=whole)
+    whole = result.frames_at(np.linspace(start, end, _SAMPLES), interval, wish.exaggerate, wish.color)
+    return result.frames_at(times, interval, wish.exaggerate, wish.color, like=whole)
 
 
-def _path(result: Result) -> np.ndarray:
-    """Positions (n, 3) [m] of the top's centre."""
-    return result.history["u_top"] + result.solid.top
-
-
-def _pictures(result: Result, wish: Wish, start: float, end: float, target: Path) -> list[Path]:
+def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> list[Path]:
     """Stills, and the sequence figure of them."""
     from fecolumn.render.scene import Scene
     from fecolumn.render.sequence import picture_size, sequence_figure
@@ -145,7 +140,7 @@ def _pictures(result: Result, wish: Wish, start: float, end: float, target: Path
     drawn = list(frames)
 
     def scene(size):
-        return Scene(frames, camera(result, wish.view, frames.times, size[0] / size[1]), size, _path(result), result.poses.time)
+        return Scene(frames, camera(result, wish.view, frames.times, size[0] / size[1]), size)
 
     with written(target, "render pictures", names=("sequence.png", "sequence.pdf")) as draft:
         natural = camera(result, wish.view, frames.times).natural
@@ -160,7 +155,7 @@ def _pictures(result: Result, wish: Wish, start: float, end: float, target: Path
     return [target / name for name in names]
 
 
-def _movie(result: Result, wish: Wish, start: float, end: float, target: Path, quiet: bool) -> list[Path]:
+def _movie(result, wish: Wish, start: float, end: float, target: Path, quiet: bool) -> list[Path]:
     from fecolumn.render.movie import GIF_RATE, Gif, Movie
     from fecolumn.render.panel import Panel
     from fecolumn.render.scene import Scene
@@ -174,7 +169,7 @@ def _movie(result: Result, wish: Wish, start: float, end: float, target: Path, q
     size = panel.scene_size
     with written(target, f"render {name}", names=(name,)) as draft:
         view = camera(result, wish.view, frames.times, size[0] / size[1])
-        with Scene(frames, view, size, _path(result), result.poses.time, quick=True) as scene:
+        with Scene(frames, view, size, quick=True) as scene:
 
             def picture(k):
                 frame = frames.frame(k)

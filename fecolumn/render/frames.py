@@ -13,17 +13,17 @@ from fecolumn.render.result import Result
 from fecolumn.schema import InputError
 
 COLOURS = ("stress", "displacement")
-# Largest elastic displacement as it is drawn under "auto", over the height of the column [-]
-_SEEN = 0.05
+#: Largest elastic displacement as it is drawn under "auto", over the height of the column [-]
+SEEN = 0.05
 # Points of the pressure's path a frame, so that it is a curve where the column rolls
 _FINER = 4
-# Share of the values [-] that colours range over: a single element under the edge on which the column stands would take all colours
-_RANGE = 99.8
-# Decades of stress and of pressure that colours show: under the edge on which a column rocks they are a hundred times those of standing
-_DECADES = 3
+#: Share of the values [-] that colours range over: a single element under the edge on which the column stands would take all colours
+RANGE = 99.8
+#: Decades of stress and of pressure that colours show: under the edge on which a column rocks they are a hundred times those of standing
+DECADES = 3
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Frame:
     """An instant.
 
@@ -34,6 +34,8 @@ class Frame:
         foot: (n_faces, k, 3) [m] corners of the foot's faces. pressure: (n_faces,) [Pa] on them, None where it was not written.
         centre: (2,) [m] of the contact pressure; nan in flight.
     """
+
+    links = struts = None
 
     time: float
     column: np.ndarray
@@ -90,11 +92,27 @@ class Frames:
             return
         self.exaggeration = 1.0 if exaggerate == "auto" else float(exaggerate)
         if exaggerate == "auto":
-            self.exaggeration = _round_down(_SEEN * result.solid.height / max(max(map(self._largest_elastic, range(len(self)))), 1e-12))
+            self.exaggeration = round_down(SEEN * result.solid.height / max(max(map(self._largest_elastic, range(len(self)))), 1e-12))
         self.colour_quantity, self.pressure_quantity = self._quantities()
 
     def __len__(self) -> int:
         return len(self.times)
+
+    @property
+    def surface(self):
+        """Surface of the column, whose points a Frame has."""
+        return self.result.solid.column
+
+    @property
+    def base_surface(self):
+        """Surface of the base; None where it has no bricks."""
+        return self.result.solid.base
+
+    def plan(self, figure):
+        """What the movie shows of the foot."""
+        from fecolumn.render.foot_plan import FootPlan
+
+        return FootPlan(self, figure)
 
     def __iter__(self):
         return (self.frame(k) for k in range(len(self)))
@@ -161,10 +179,10 @@ class Frames:
         if self.colour == "displacement":
             colour = Quantity.of("displacement", "m", max(frame.colour.max() for frame in frames))
         else:
-            colour = Quantity.of("von Mises stress", "Pa", max(np.percentile(frame.colour, _RANGE) for frame in frames), _DECADES)
+            colour = Quantity.of("von Mises stress", "Pa", max(np.percentile(frame.colour, RANGE) for frame in frames), DECADES)
         if not self.from_fields:
             return colour, None
-        return colour, Quantity.of("contact pressure", "Pa", max(np.percentile(frame.pressure, _RANGE) for frame in frames), _DECADES)
+        return colour, Quantity.of("contact pressure", "Pa", max(np.percentile(frame.pressure, RANGE) for frame in frames), DECADES)
 
 
 def _areas(faces: np.ndarray) -> np.ndarray:
@@ -173,7 +191,7 @@ def _areas(faces: np.ndarray) -> np.ndarray:
     return np.abs((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)) / 2
 
 
-def _round_down(factor: float) -> float:
+def round_down(factor: float) -> float:
     """The largest of ..., 1, 2, 5, 10, 20, ... that is not above `factor`, at least 1."""
     power = 10.0 ** np.floor(np.log10(max(factor, 1.0)))
     return float(max(step * power for step in (1, 2, 5) if step * power <= max(factor, 1.0)))

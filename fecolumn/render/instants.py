@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.render.result import Result
-
 #: How many are chosen where none are given
 CHOSEN = 5
 # Shares of the time shown [-]: between two instants at least, and a displacement that counts as a peak, of the largest
@@ -14,18 +12,18 @@ _APART, _PEAK = 1 / 25, 0.15
 _BEGUN = 0.01
 
 
-def chosen_instants(result: Result, start: float, end: float) -> np.ndarray:
+def chosen_instants(result, start: float, end: float) -> np.ndarray:
     """The peaks of the top's displacement between two times [s], the largest first to be taken, and the end where the column was lost; in order of time.
 
     Where there are fewer peaks than CHOSEN, as of a column that only slides, instants spread evenly from the begin of its motion are added.
     """
     from scipy.signal import find_peaks
 
-    time = result.history["time"]
+    time = result.time
     rows = np.flatnonzero((time >= start - 1e-9) & (time <= end + 1e-9))
     if len(rows) <= CHOSEN:
         return time[rows]
-    reach = np.hypot(*result.history["u_top"][rows, :2].T)
+    reach = np.hypot(*result.way[rows, :2].T)
     peaks = find_peaks(reach, height=_PEAK * reach.max())[0] if reach.max() > 0 else np.empty(0, int)
     lost = result.summary.get("overturned") or result.summary.get("slid_off")
     ranked = [*([len(rows) - 1] if lost else []), *peaks[np.argsort(-reach[peaks], kind="stable")]]

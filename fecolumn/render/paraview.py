@@ -10,7 +10,6 @@ from fecolumn.atomic import write_bytes
 from fecolumn.progress import CountProgress
 from fecolumn.render.camera import camera
 from fecolumn.render.field_frames import FieldFrames
-from fecolumn.render.result import Result
 from fecolumn.render.state_frames import write_fields
 from fecolumn.schema import InputError
 
@@ -19,7 +18,7 @@ NAME = "view.py"
 _TEMPLATE = Path(__file__).with_name("view.txt")
 
 
-def write_view(result: Result, folder: Path, view: str = "lean", quiet: bool = True) -> None:
+def write_view(result, folder: Path, view: str = "lean", quiet: bool = True) -> None:
     """Write view.py into a folder, and where the analysis wrote no fields, those made from its states into fields/ beside it.
 
     The script finds the fields from its own place, so that the result folder may be moved.
@@ -38,8 +37,8 @@ def write_view(result: Result, folder: Path, view: str = "lean", quiet: bool = T
         finally:
             progress.end()
         fields, place = FieldFrames(folder / "fields"), '"fields"'
-    seen = camera(result, view, result.poses.time[:: max(1, len(result.poses.time) // 500)], 16 / 9)
-    position = seen.focus + 10 * (seen.half_height + result.solid.height) * seen.toward
+    seen = camera(result, view, result.time[:: max(1, len(result.time) // 500)], 16 / 9)
+    position = seen.focus + 10 * (seen.half_height + result.height) * seen.toward
     values = dict(title=repr(result.case.title or "fecolumn"), fields=place, focus=_numbers(seen.focus), position=_numbers(position), up=_numbers(seen.up),
                   half_height=f"{seen.half_height:.6g}", largest=f"{_largest_stress(fields):.6g}")
     text = _TEMPLATE.read_text(encoding="utf-8")

@@ -8,7 +8,7 @@ import numpy as np
 
 # Prefixes that readers of each unit know, from small to large
 _PREFIXES = {"m": ((1e-6, "µm"), (1e-3, "mm"), (1.0, "m")), "rad": ((1e-6, "µrad"), (1e-3, "mrad")), "Pa": ((1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")),
-             "J": ((1e-9, "nJ"), (1e-6, "µJ"), (1e-3, "mJ"), (1.0, "J"), (1e3, "kJ"), (1e6, "MJ")), "m/s2": ((1.0, "m/s²"),)}
+             "J": ((1e-9, "nJ"), (1e-6, "µJ"), (1e-3, "mJ"), (1.0, "J"), (1e3, "kJ"), (1e6, "MJ")), "N": ((1.0, "N"), (1e3, "kN"), (1e6, "MN")), "m/s2": ((1.0, "m/s²"),)}
 # Lengths and angles are written in the smallest unit in which they stay below so much: engineers read 800 mm, not 0.8 m
 _LARGEST = {"m": 1e3, "rad": 2e3}
 

@@ -7,10 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.post.style import BLACK, PAGE_WIDTH_IN, new_figure, save, styled
-from fecolumn.render.frames import Frames
 from fecolumn.render.panel import draw_strip
 from fecolumn.render.scene import COLOUR_MAPS
-from fecolumn.render.strips import strips_of
 
 # Heights of the strips below the pictures, least and largest of the pictures, and gap between these; the colour bar's width [in]
 _STRIP_IN, _HEIGHTS_IN, _GAP_IN, _BAR_IN = 0.95, (1.3, 3.6), 0.06, 0.12
@@ -28,16 +26,16 @@ def picture_size(count: int, natural: float, dpi: int) -> tuple[int, int]:
     return round(width * dpi), round(float(np.clip(width / natural, *_HEIGHTS_IN)) * dpi)
 
 
-def sequence_figure(frames: Frames, images: list[np.ndarray], dpi: int, times: np.ndarray, path: Path, formats=("png", "pdf")) -> list[Path]:
+def sequence_figure(frames, images: list[np.ndarray], dpi: int, times: np.ndarray, path: Path, formats=("png", "pdf")) -> list[Path]:
     """Write the figure as PNG and PDF.
 
     Args:
-        frames: of the instants. images: of `Scene`, as many, of `picture_size` with `dpi`. times: (2,) [s] first and last of the history shown.
+        frames: Frames or StructureFrames of the instants. images: of `Scene`, as many, of `picture_size` with `dpi`. times: (2,) [s] first and last of the history shown.
         path: without suffix.
     """
     from matplotlib.cm import ScalarMappable
 
-    count, strips = len(images), strips_of(frames.result, times)[:2]
+    count, strips = len(images), frames.result.strips(times)[:2]
     picture = images[0].shape[0] / dpi
     height = picture + len(strips) * _STRIP_IN + 0.75
     with styled():

@@ -11,8 +11,8 @@ from fecolumn.reduced.states import read_states, signature, state_at
 from fecolumn.render.field_frames import Fields, FrameSeries
 from fecolumn.schema import InputError
 
-# Modes of a model made anew are those of the analysis when frequencies and signatures agree to this share: states are kept in single precision
-_SAME = 1e-5
+#: Modes of a model made anew are those of the analysis when frequencies and signatures agree to this share: states are kept in single precision
+SAME = 1e-5
 
 
 class StateFrames(FrameSeries):
@@ -47,6 +47,11 @@ class StateFrames(FrameSeries):
         return self.expand.values(state_at(self._arrays, k))
 
     @property
+    def drawn(self):
+        """What `post.fields.FieldWriter` takes."""
+        return self.expand.specimen
+
+    @property
     def expand(self):
         """StateFields of the case."""
         if self._expand is None:
@@ -60,17 +65,21 @@ class StateFrames(FrameSeries):
 
     def _check(self, model) -> None:
         kept, made = ((self._arrays["frequencies"], self._arrays["signature"]), (model.frequencies, signature(model)))
-        same = all(old.shape == new.shape and np.allclose(old, new, rtol=0, atol=_SAME * max(float(np.abs(old).max(initial=0.0)), 1e-300)) for old, new in zip(kept, made))
+        same = all(old.shape == new.shape and np.allclose(old, new, rtol=0, atol=SAME * max(float(np.abs(old).max(initial=0.0)), 1e-300)) for old, new in zip(kept, made))
         if not same:
             raise InputError(self._file, "", None, "is of other modes than those made of this column now: deformation, stress and pressure cannot be made from it; "
                              "--color displacement draws the history, and the case run into a new folder has them again")
 
 
-def write_fields(frames: StateFrames, folder: Path, tell=lambda done: None) -> None:
-    """Write the fields of all states into a folder, as `post.fields.FieldWriter` does."""
+def write_fields(frames, folder: Path, tell=lambda done: None) -> None:
+    """Write the fields of all states into a folder, as `post.fields.FieldWriter` does.
+
+    Args:
+        frames: StateFrames or StructureStates.
+    """
     from fecolumn.post.fields import FieldWriter
 
-    writer = FieldWriter(folder, frames.expand.specimen)
+    writer = FieldWriter(folder, frames.drawn)
     for k, time in enumerate(frames.time):
         writer.add(time, frames.values(k))
         tell(k + 1)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.post.style import COLUMN_WIDTH_IN, new_figure, save, styled
-from fecolumn.render.frames import Frame, Frames
+from fecolumn.render.frames import Frame
 from fecolumn.render.scene import COLOUR_MAPS
 
 # Beside and above the picture; least and largest height of the picture [in]
@@ -20,7 +20,7 @@ def still_size(natural: float, dpi: int) -> tuple[int, int]:
     return round(width * dpi), round(float(np.clip(width / natural, *_HEIGHTS_IN)) * dpi)
 
 
-def still_figure(frames: Frames, frame: Frame, image: np.ndarray, dpi: int, path: Path, formats=("png",)) -> list[Path]:
+def still_figure(frames, frame: Frame, image: np.ndarray, dpi: int, path: Path, formats=("png",)) -> list[Path]:
     """Write the picture (height, width, 3) of a frame, of `still_size`, with its time and the scale of its colours; `path` without suffix."""
     from matplotlib.cm import ScalarMappable
 

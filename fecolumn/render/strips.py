@@ -38,31 +38,42 @@ def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
     Of a column that never lifts off: slide and twist in place of tilt and uplift.
     """
     history = result.history
-    rows = np.flatnonzero((history["time"] >= times[0] - 1e-9) & (history["time"] <= times[-1] + 1e-9))
-    rows = rows if len(rows) > 1 else np.arange(len(history["time"]))
-    rows = _told_apart(history["tilt"], rows)
-    time = history["time"][rows]
-
-    def strip(title, symbol, unit, lines):
-        quantity = Quantity.of("", unit, max(np.abs(values[rows]).max() for values, _ in lines))
-        return Strip(title, f"{symbol} [{quantity.unit}]".strip(), time, tuple((values[rows] / quantity.scale, name) for values, name in lines))
-
-    ground, top = history["ground"], history["u_top"]
-    moving = [axis for axis in range(3) if np.abs(ground[:, axis]).max() > 0]
-    if moving:
-        shaken = strip("base", "$a_g$", "m/s2", [(ground[:, axis], f"${'xyz'[axis]}$") for axis in moving])
-    else:
-        shaken = strip("top", "$u$", "m", [(top[:, axis], f"${'xy'[axis]}$") for axis in range(2)])
-    kinetic, potential = history["energy/kinetic"], history["energy/gravity"] + history["energy/strain"]
-    standing = potential[np.argmin(history["tilt"])]
+    rows = rows_between(history["time"], history["tilt"], times)
     lifted = uplift(result.solid, result.poses)
     if lifted.max() > LIFTED * result.solid.foot_width:
-        motion = strip("tilt", r"$\theta$", "rad", [(history["tilt"], "")]), strip("uplift", "$w$", "m", [(lifted, "")])
+        motion = (strip_of(history, rows, "tilt", r"$\theta$", "rad", [(history["tilt"], "")]), strip_of(history, rows, "uplift", "$w$", "m", [(lifted, "")]))
     else:
-        motion = (strip("slide", "$s$", "m", [(history["slide"][:, axis], f"${'xy'[axis]}$") for axis in range(2)]),
-                  strip("twist", r"$\psi$", "rad", [(history["twist"], "")]))
-    return [shaken, *motion,
-            strip("energy", "$E$", "J", [(kinetic, "kinetic"), (potential - standing, "potential"), (kinetic + potential - standing, "sum")])]
+        motion = (strip_of(history, rows, "slide", "$s$", "m", [(history["slide"][:, axis], f"${'xy'[axis]}$") for axis in range(2)]),
+                  strip_of(history, rows, "twist", r"$\psi$", "rad", [(history["twist"], "")]))
+    return [ground_strip(history, history["u_top"], rows), *motion, energy_strip(history, rows, history["tilt"])]
+
+
+def rows_between(time: np.ndarray, values: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Rows from the first of `times` [s] to the last, as many as a line needs, the peaks of `values` among them."""
+    rows = np.flatnonzero((time >= times[0] - 1e-9) & (time <= times[-1] + 1e-9))
+    return _told_apart(values, rows if len(rows) > 1 else np.arange(len(time)))
+
+
+def strip_of(history: dict, rows: np.ndarray, title: str, symbol: str, unit: str, lines) -> Strip:
+    """Strip of the `rows` of lines (values (n,) [SI], name) in a unit that fits them."""
+    quantity = Quantity.of("", unit, max(np.abs(values[rows]).max() for values, _ in lines))
+    return Strip(title, f"{symbol} [{quantity.unit}]".strip(), history["time"][rows], tuple((values[rows] / quantity.scale, name) for values, name in lines))
+
+
+def ground_strip(history: dict, top: np.ndarray, rows: np.ndarray) -> Strip:
+    """Acceleration of the base; displacement of the top (n, 3) [m] where it is at rest."""
+    ground = history["ground"]
+    moving = [axis for axis in range(3) if np.abs(ground[:, axis]).max() > 0]
+    if moving:
+        return strip_of(history, rows, "base", "$a_g$", "m/s2", [(ground[:, axis], f"${'xyz'[axis]}$") for axis in moving])
+    return strip_of(history, rows, "top", "$u$", "m", [(top[:, axis], f"${'xy'[axis]}$") for axis in range(2)])
+
+
+def energy_strip(history: dict, rows: np.ndarray, moved: np.ndarray) -> Strip:
+    """Kinetic and potential energy, this above that where `moved` (n,) is least."""
+    kinetic, potential = history["energy/kinetic"], history["energy/gravity"] + history["energy/strain"]
+    potential = potential - potential[np.argmin(np.abs(moved))]
+    return strip_of(history, rows, "energy", "$E$", "J", [(kinetic, "kinetic"), (potential, "potential"), (kinetic + potential, "sum")])
 
 
 def uplift(solid: Solid, poses: Poses) -> np.ndarray:

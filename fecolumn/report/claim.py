@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
+from fecolumn.report.document import Column, Table
 from fecolumn.statistics.equivalence import detectable_distance
 
 SUPPORTED, NOT_SUPPORTED, UNDECIDED = "supported", "not supported", "undecided"
@@ -33,3 +35,18 @@ class Claim:
     ours: str
     rule: str
     verdict: str
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimList:
+    """Claims of a paper's authors as a block of the page."""
+
+    claims: list[Claim]
+    authors: str = "Katsamakas and Vassiliou"
+    kind: str = "claims"
+
+    def write_csv(self, folder: Path) -> Path:
+        """Write claims.csv, the whole of every claim."""
+        names = ("key", "paper", "verdict", "ours", "rule")
+        rows = [tuple(getattr(claim, name) for name in names) for claim in self.claims]
+        return Table("claims", tuple(Column(name, name) for name in names), rows, "").write_csv(folder)

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import ast
+from pathlib import Path
+
 import numpy as np
 
 from fecolumn.case import MODEL_ENGINES
+from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.cdf_figure import Panel, cdf_figure
 from fecolumn.report.distributions import axis_columns
@@ -19,8 +23,9 @@ ENGINE = "integration.engine"
 #: What the others are measured against: the first of these that a study has.
 NEAREST = ("full", "reduced", "rigid")
 NAMES = {"full": "finite elements, full order", "reduced": "finite elements, reduced", "rigid": "rigid body with contact", "housner": "planar block (Housner)",
-         "wobbling": "wobbling body", "podium": "rocking podium"}
-_PANELS = 4
+         "wobbling": "wobbling body", "rocking_frame": "rocking frame", "wobbling_frame": "wobbling frame", "podium": "rocking podium"}
+ALL = "all"
+_PANELS, _MOST = 6, 12
 
 
 def models(sweep: Sweep, gallery: Gallery) -> Section | None:
@@ -30,7 +35,8 @@ def models(sweep: Sweep, gallery: Gallery) -> Section | None:
     if not lines:
         return None
     others = [axis for axis in sweep.varied if axis != ENGINE]
-    rows = [row for line, reference in lines for row in _rows(line, reference, others)]
+    ensembles = _ensembles(lines)
+    rows = [row for line, reference in lines for name, some in ensembles.items() for row in _rows(line, reference, others, name if len(ensembles) > 1 else "", some)]
     nearest = {reference.values[ENGINE] for _, reference in lines}
     told = " or ".join(NAMES[one] for one in NEAREST if one in nearest)
     motions = sorted({len(line.motions()) for line, _ in lines})
@@ -42,12 +48,14 @@ def models(sweep: Sweep, gallery: Gallery) -> Section | None:
     blocks = [Paragraph(text)]
     if any(one in MODEL_ENGINES for one in sweep.axes[ENGINE]):
         blocks.append(Paragraph("Rocking models of rigid bodies do not slide, and know nothing of the time step but the sampling of the motion; α has no effect on them."))
-    panels = [Panel(", ".join(axis_text(axis, value) for axis, value in line.others.items()),
-                    tuple((NAMES.get(one.values[ENGINE], one.values[ENGINE]), ecdf(*one.peaks(line.motions()))) for one in line.settings), sweep.p_lost)
-              for line, _ in lines[:_PANELS]]
-    left_out = f" {len(lines) - _PANELS} more settings are in [[engines]]." if len(lines) > _PANELS else ""
+    chosen = [(line, name, motions) for line, _ in lines for name, some in ensembles.items() if (name != ALL or len(ensembles) == 1) and (motions := _of(line, some))]
+    panels = [Panel(", ".join([*([name] if name != ALL else []), *(axis_text(axis, value) for axis, value in line.others.items())]),
+                    tuple((NAMES.get(one.values[ENGINE], one.values[ENGINE]), ecdf(*one.peaks(motions))) for one in line.settings), sweep.p_lost)
+              for line, name, motions in chosen[:_PANELS]]
+    left_out = f" {len(chosen) - _PANELS} more panels are in [[engines]]." if len(chosen) > _PANELS else ""
     blocks.append(gallery.draw("models", f"Distributions of u_max by engine, on the same motions.{left_out}", cdf_figure, panels))
-    columns = (*axis_columns(others), Column("engine", "engine", lambda one: NAMES.get(one, one), text=True), Column("n", "n"), Column("overturned", "over\N{SOFT HYPHEN}turned"),
+    named = (Column("ensemble", "motions of", text=True),) if len(ensembles) > 1 else ()
+    columns = (*axis_columns(others), *named, Column("engine", "engine", lambda one: NAMES.get(one, one), text=True), Column("n", "n"), Column("overturned", "over\N{SOFT HYPHEN}turned"),
                Column("p_overturn", "P(overturn)", percent), Column("p_low p_high", "95 % interval", lambda low, high: interval(low, high, percent)),
                Column("u50_m", "u₅₀ [mm]", millimetres), Column("distance", "D", number), Column("p", "p", p_value),
                Column("same_outcome", "same outcome", percent), Column("cpu_s", "CPU an analysis [s]", number))
@@ -62,14 +70,32 @@ def _reference(line: Line) -> Setting | None:
     return next((found[name] for name in NEAREST if name in found), None)
 
 
-def _rows(line: Line, reference: Setting, others):
-    motions = line.motions()
+def _ensembles(lines) -> dict[str, set | None]:
+    """Motions by the ensemble file that they are of, ALL of them first; ALL alone where the study has no two such files, or motions of none."""
+    found: dict[str, set] = {}
+    for motion in (motion for line, _ in lines for motion in line.motions()):
+        member = next((place for value in ast.literal_eval(motion) if isinstance(value, str) and (place := file_and_number(value))), None)
+        if member is None:
+            return {ALL: None}
+        found.setdefault(Path(member[0]).stem, set()).add(motion)
+    return {ALL: None} | (found if 1 < len(found) <= _MOST else {})
+
+
+def _of(line: Line, some: set | None) -> list[str]:
+    """The motions of a line that are among some, all for None."""
+    return [motion for motion in line.motions() if some is None or motion in some]
+
+
+def _rows(line: Line, reference: Setting, others, ensemble: str, some: set | None):
+    motions = _of(line, some)
+    if not motions:
+        return
     base, base_lost = reference.peaks(motions)
     for setting in line.settings:
         u, lost = setting.peaks(motions)
         fallen = setting.column("overturned", motions).astype(bool)
         test = None if setting is reference else paired_kolmogorov_smirnov(censored(u, lost), censored(base, base_lost))
-        yield (*(setting.values[axis] for axis in others), setting.values[ENGINE], len(motions), int(fallen.sum()), float(fallen.mean()),
+        yield (*(setting.values[axis] for axis in others), *([ensemble] if ensemble else []), setting.values[ENGINE], len(motions), int(fallen.sum()), float(fallen.mean()),
                *proportion_interval(int(fallen.sum()), len(motions)), percentile(u, lost, 0.5), None if test is None else float(test.statistic),
                None if test is None else float(test.p), None if test is None else float((lost == base_lost).mean()), _cost(setting, motions))
 

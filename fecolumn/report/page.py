@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import datetime
-from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.atomic import write_bytes
 from fecolumn.folder import written
 from fecolumn.report.all_motions import all_motions
 from fecolumn.report.audit import audit
-from fecolumn.report.claim import MARGIN, SUPPORTED, Claim
+from fecolumn.report.claim import MARGIN, SUPPORTED, Claim, ClaimList
 from fecolumn.report.cost import cost_claims
 from fecolumn.report.distribution_claims import distribution_claims
 from fecolumn.report.distributions import TARGET_NOTE, distributions
@@ -26,6 +25,7 @@ from fecolumn.report.intensity import Intensities
 from fecolumn.report.models import models
 from fecolumn.report.notation import axis_name, count, percent, typeset
 from fecolumn.report.pair import Pair, read_pairs
+from fecolumn.report.podium import podium
 from fecolumn.report.power import power
 from fecolumn.report.provenance import provenance
 from fecolumn.report.sensitivity import sensitivity_section
@@ -36,20 +36,6 @@ from fecolumn.schema import InputError
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.alpha import ALPHA
 from fecolumn.study.store import DONE, FAILED
-
-
-@dataclass(frozen=True, slots=True)
-class ClaimList:
-    """The claims as a block of the page."""
-
-    claims: list[Claim]
-    kind: str = "claims"
-
-    def write_csv(self, folder: Path) -> Path:
-        """Write claims.csv, the whole of every claim."""
-        names = ("key", "paper", "verdict", "ours", "rule")
-        rows = [tuple(getattr(claim, name) for name in names) for claim in self.claims]
-        return Table("claims", tuple(Column(name, name) for name in names), rows, "").write_csv(folder)
 
 
 def write_report(folder, output=None, files=("pdf", "png")) -> Path:
@@ -92,7 +78,7 @@ def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
     pairs = read_pairs(sweep)
     claims = claims_of(sweep, pairs) if gallery.paper else []
     intensities, histories = Intensities(sweep.folder), read_histories(sweep)
-    parts = [specimen(sweep, gallery, intensities), _claims_section(sweep, claims) if claims else None, distributions(sweep, pairs, gallery), models(sweep, gallery),
+    parts = [specimen(sweep, gallery, intensities), _claims_section(sweep, claims) if claims else None, distributions(sweep, pairs, gallery), models(sweep, gallery), podium(sweep, gallery),
              all_motions(sweep, histories, gallery), explorer(sweep, histories), individual(sweep, gallery), sensitivity_section(sweep, gallery), incremental(sweep, gallery, intensities),
              fragility(sweep, gallery, intensities), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
     return [part for part in parts if part]
@@ -134,7 +120,7 @@ def _abstract(sweep: Sweep, sections: list[Section]) -> str:
     done, failed, total = sum(row["state"] == DONE for row in sweep.rows), sum(row["state"] == FAILED for row in sweep.rows), sweep.analyses
     shares = {id(setting): setting.column("overturned").mean() for setting in sweep.done}
     low, high = min(shares.values()), max(shares.values())
-    parts = [f"{count(len(sweep.motions), 'ground motion')} {'was' if len(sweep.motions) == 1 else 'were'} run through a free-standing column"
+    parts = [f"{count(len(sweep.motions), 'ground motion')} {'was' if len(sweep.motions) == 1 else 'were'} run through {_specimen(sweep.case)}"
              + (f", varying {_listed([axis_name(axis) for axis in sweep.varied])} in {count(len(sweep.settings), 'setting')}." if sweep.varied else ".")]
     if done < total:
         parts.append(f"{total - done - failed} of {total} analyses not run yet" + (f", {failed} failed." if failed else ".") if total - done - failed
@@ -148,13 +134,22 @@ def _abstract(sweep: Sweep, sections: list[Section]) -> str:
                      f"{percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
     else:
         parts.append(f"P(overturn) is {percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
-    claims = next((block.claims for section in sections for block in section.blocks if isinstance(block, ClaimList)), [])
-    if claims:
+    told = next((block for section in sections for block in section.blocks if isinstance(block, ClaimList)), None)
+    if told:
+        claims = told.claims
         tally = {verdict: [claim.key for claim in claims if claim.verdict == verdict] for verdict in dict.fromkeys(c.verdict for c in claims)}
-        parts.append(f"Of {len(claims)} findings of Katsamakas and Vassiliou put to it, " + _listed([
+        parts.append(f"Of {len(claims)} findings of {told.authors} put to it, " + _listed([
             f"{len(keys)} {'is' if len(keys) == 1 else 'are'} {verdict}" + ("" if verdict == SUPPORTED else f" ({'; '.join(keys)})")
             for verdict, keys in tally.items()]) + ".")
     return " ".join(parts)
+
+
+def _specimen(case: dict) -> str:
+    """What was analysed."""
+    if case.get("bodies"):
+        return "a structure of free-standing bodies"
+    names = {"frame": "a rocking frame", "wobbling_frame": "a wobbling frame", "podium": "a building on a rocking storey", "block": "a rocking block"}
+    return next((words for name, words in names.items() if case.get(name)), "a free-standing column")
 
 
 def _listed(words: list[str]) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.dynamics.history import MEANING, UNITS, read_history
+from fecolumn.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS, read_history
 from fecolumn.files import is_file
 from fecolumn.results.frames import installed
 from fecolumn.results.picture import Picture
@@ -75,7 +75,7 @@ class AnalysisResult:
     @property
     def units(self) -> dict[str, str]:
         """Unit of each array."""
-        return {name: UNITS.get(name, "J") for name in self.history}
+        return {name: UNITS.get(name) or UNITS_OF_PARTS.get(name.rpartition("/")[2], "J") for name in self.history}
 
     @property
     def energy(self) -> dict[str, np.ndarray]:
@@ -113,7 +113,7 @@ class AnalysisResult:
 
     @property
     def plot(self) -> AnalysisPlots:
-        """Figures: `plot.top()`, `plot.path()`, `plot.energy()`."""
+        """Figures: `plot.top()`, `plot.path()`, `plot.energy()`, of a structure `plot.interfaces()` and `plot.storeys()`."""
         return AnalysisPlots(self.folder)
 
     def render(self, **wishes) -> list[Path]:
@@ -168,6 +168,19 @@ class AnalysisPlots:
         from fecolumn.post.path_figure import path_figure
 
         return Picture(lambda path: path_figure(History.read(self.folder / "history.h5"), read_ending(self.folder), path))
+
+    def interfaces(self, *names: str) -> Picture:
+        """Of a structure: tilt, uplift, slide and normal force at interfaces, of all unless named."""
+        from fecolumn.post.structure_figures import interface_figure, interface_names
+
+        columns = AnalysisResult(self.folder).history
+        return Picture(lambda path: interface_figure(columns, path, list(names) or interface_names(columns)))
+
+    def storeys(self) -> Picture:
+        """Of a structure with storeys: their drifts and shears."""
+        from fecolumn.post.structure_figures import storey_figure
+
+        return Picture(lambda path: storey_figure(AnalysisResult(self.folder).history, path))
 
     def energy(self) -> Picture:
         """The energy ledger against time."""

@@ -13,16 +13,17 @@ from fecolumn.atomic import write_json
 from fecolumn.ending import AT_REST, OVERTURNED, REST_SHARE, STILL_ROCKING, Ending
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.model import Response, model_class
+from fecolumn.rocking.table_case import TableCase
 from fecolumn.summary import NAME
 
 
 class ModelAnalysis(Analysis):
-    """An analysis whose engine is a rocking model of the case's column. It takes milliseconds, has no checkpoint and is made again where it was stopped."""
+    """An analysis whose engine is a rocking model, of a table of its own or of the case's column. It takes milliseconds, has no checkpoint and is made again where it was stopped."""
 
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
         self.file = file
-        self.model = model_class(case.integration.engine).of_case(case, file)
+        self.model = case.model(file) if isinstance(case, TableCase) else model_class(case.integration.engine).of_case(case, file)
         self.model.respond(GroundMotion(np.zeros((2, 3)), 1e-3, "", ""))  # compiles what is missing on this machine
         self.began, self.cpu_began = time.perf_counter(), time.process_time()
 

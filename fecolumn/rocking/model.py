@@ -10,6 +10,8 @@ import importlib
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
+from fecolumn.schema import InputError
+
 if TYPE_CHECKING:  # the command line asks for the names alone, and must not wait for libraries
     import numpy as np
 
@@ -23,6 +25,8 @@ MODELS = {
     "wobbling_frame": "wobbling_frame:WobblingFrame",
     "podium": "podium:Podium",
 }
+#: Name of a model's own table in a case file: name of the model.
+TABLES = {"block": "housner", "frame": "rocking_frame", "wobbling": "wobbling", "wobbling_frame": "wobbling_frame", "podium": "podium"}
 SAFE, OVERTURNED = "safe", "overturned"
 
 
@@ -109,3 +113,23 @@ def model_class(name: str) -> type:
     """Class of a model of MODELS."""
     module, _, attribute = MODELS[name].partition(":")
     return getattr(importlib.import_module(f"fecolumn.rocking.{module}"), attribute)
+
+
+def engine_of(tables: dict, file) -> str | None:
+    """Name of the model that a case's tables ask for by a table of its own; None where an engine of finite elements is asked for, or no model's table is there.
+
+    Raises:
+        InputError: integration.engine is not that of the model's table, or several tables and no engine.
+    """
+    there = {TABLES[name]: name for name in TABLES if isinstance(tables.get(name), dict)}
+    if not there or "column" in tables:
+        return None
+    plan = tables.get("integration")
+    engine = plan.get("engine") if isinstance(plan, dict) else None
+    if engine in there:
+        return engine
+    if "bodies" in tables and engine not in MODELS:
+        return None
+    if engine is None and len(there) == 1:
+        return next(iter(there))
+    raise InputError(file, "integration.engine", engine, f"must be {' or '.join(there)}, as the case has {' and '.join(f'[{name}]' for name in there.values())}")

@@ -28,29 +28,11 @@ class _Whole(NamedTuple):
     arms: np.ndarray
 
 
-class StructureAnalysis(ReducedAnalysis):
-    """A running analysis of a structure of many bodies.
+class OfStructure:
+    """What an Analysis of a structure is, whatever its engine. structure: StructureModel at its start."""
 
-    Attributes beside those of Analysis: structure: StructureModel at its start.
-    """
-
-    def __init__(self, case, folder, comm, file, quiet):
-        Analysis.__init__(self, case, folder, comm, file, quiet)
-        self.structure, self.fields, self.states = structure_model(case, file, self.say), None, None
-        different = {id(part.model): part.model.dofs for part in self.structure.parts}
-        self.base, self.model = self.structure.base, _Whole(sum(different.values()), self.structure.parts[0].model.arms)
-        if not compiled(advance):
-            self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
-        self.engine = engine_of(case, self.structure, file)
-        self.began, self.cpu_began = time.perf_counter(), time.process_time()  # what was made and compiled so far was so for all analyses
-        self.stance, self.top_arm = self.engine.eye.stance, self.engine.eye.top_arm
-        self._barrier_j = least_barrier(self.structure, standing_of(case, self.structure))
-        if self.went_on(self._take):
-            self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
-        else:
-            self.standing_j = engine_of(case, upright(case, self.structure), file).mechanical() if leans(self.structure) else self.engine.mechanical()
-            self.engine.motion.whole["ground"] = self.ground(0)
-            self._note(self.engine.row()[None])
+    structure: StructureModel
+    _barrier_j = None
 
     def expected(self) -> str:
         """What is analysed, in words."""
@@ -60,6 +42,8 @@ class StructureAnalysis(ReducedAnalysis):
     @property
     def barrier_j(self) -> float:
         """As `barrier.least_barrier`: below a share of it the structure is at rest."""
+        if self._barrier_j is None:
+            self._barrier_j = least_barrier(self.structure, standing_of(self.case, self.structure))
         return self._barrier_j
 
     def limits(self) -> dict:
@@ -80,6 +64,32 @@ class StructureAnalysis(ReducedAnalysis):
         if self.comm.rank == 0:
             write_json(self.folder / NAME, summary)
         return summary
+
+
+class StructureAnalysis(OfStructure, ReducedAnalysis):
+    """A running analysis of a structure of many bodies with the reduced engine."""
+
+    def __init__(self, case, folder, comm, file, quiet):
+        Analysis.__init__(self, case, folder, comm, file, quiet)
+        self.structure, self.fields = structure_model(case, file, self.say), None
+        self.states = self._states()
+        different = {id(part.model): part.model.dofs for part in self.structure.parts}
+        self.base, self.model = self.structure.base, _Whole(sum(different.values()), self.structure.parts[0].model.arms)
+        if not compiled(advance):
+            self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
+        self.engine = engine_of(case, self.structure, file)
+        self.began, self.cpu_began = time.perf_counter(), time.process_time()  # what was made and compiled so far was so for all analyses
+        self.stance, self.top_arm = self.engine.eye.stance, self.engine.eye.top_arm
+        if self.went_on(self._take):
+            self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
+        else:
+            self.standing_j = engine_of(case, upright(case, self.structure), file).mechanical() if leans(self.structure) else self.engine.mechanical()
+            self.engine.motion.whole["ground"] = self.ground(0)
+            self._note(self.engine.row()[None])
+            self._keep()
+
+    def _bodies(self) -> tuple:
+        return [part.model for part in self.structure.parts], [part.name for part in self.structure.parts]
 
     def _note(self, rows: np.ndarray) -> None:
         self.history.extend(columns_of(rows, self.structure))

@@ -20,14 +20,14 @@ from fecolumn.case import (FULL_ORDER_KEYS, DEFAULT, MOST_STEPS, Contact, Initia
 from fecolumn.content import content
 from fecolumn.files import is_file
 from fecolumn.schema import InputError, build, merge, stated
-from fecolumn.structures.keys import FILES, GROUND, KINDS, Interface, LinkKeys, Placed
+from fecolumn.structures.keys import FILES, GROUND, KINDS, Interface, LinkKeys, Placed, Storeys
 
 #: Tables of tables by name, and the class of each.
 NAMED = {"bodies": Placed, "materials": Material, "interfaces": Interface, "links": LinkKeys, "initial": Initial}
 #: Sections that a structure's case has in common with a column's.
 COMMON = {"contact": Contact, "integration": Integration, "motion": Motion, "overturn": Overturn, "output": Output}
 #: What holds where a structure's case says nothing else: a step takes all modes of all bodies.
-DEFAULTS = {"integration": {"engine": "reduced", "n_modes": 30}, "output": {"states_every_s": 0.0}}
+DEFAULTS = {"integration": {"engine": "reduced", "n_modes": 30}}
 # Characters of a name that stand for something else in dotted keys, and in names of copies and marks
 _TAKEN = set('."\'[]/ ')
 
@@ -213,6 +213,10 @@ def check(case: StructureCase, file) -> None:
         _check_name(case, "observed", body, refuse, ground=False)
         if len(case.meant_by(body)[1]) > 1:
             refuse("observed", case.observed, f'must be one of its copies, such as "{case.names_of(body)[0]}"')
+    for name, body in case.bodies.items():
+        if isinstance(body, Storeys) and not case.modes_of(name):
+            key, value = ("integration.engine", "rigid") if case.integration.engine == "rigid" else (f"bodies.{name}.modes", 0)
+            refuse(key, value, f'leaves the storeys of "{name}" their springs and no inertia: choose integration.engine = "reduced" with modes, of which {2 * body.floors} are all')
     _check_integration(case, refuse)
 
 
@@ -229,15 +233,14 @@ def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
 
 def _check_integration(case, refuse) -> None:
     plan = case.integration
-    if plan.engine not in ("reduced", "rigid"):
-        refuse("integration.engine", plan.engine, "must be reduced or rigid for a structure of [bodies]")
+    if plan.engine not in ("full", "reduced", "rigid"):
+        refuse("integration.engine", plan.engine, "must be full, reduced or rigid for a structure of [bodies]")
     for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic"), ("contact", "rolling_resistance", 0.0)):
         if (value := getattr(getattr(case, section), key)) != needed:
             refuse(f"{section}.{key}", value, f"must be {needed} for a structure of [bodies]")
-    for key in ("fields_every_s", "states_every_s"):
-        if value := getattr(case.output, key):
-            refuse(f"output.{key}", value, "must be 0 for a structure of [bodies]: its history has bodies, interfaces and marks")
-    for key in FULL_ORDER_KEYS:
+    if (value := case.output.fields_every_s) and plan.engine != "full":
+        refuse("output.fields_every_s", value, f"must be 0 for a structure of [bodies] where integration.engine = {plan.engine!r}: fecolumn render --paraview makes fields of its states")
+    for key in FULL_ORDER_KEYS if plan.engine != "full" else ():
         if (value := getattr(plan, key)) != DEFAULT[key]:
             refuse(f"integration.{key}", value, f"has no effect where integration.engine = {plan.engine!r}: leave it out")
     time = plan.duration_s or (case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0)

@@ -7,17 +7,16 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.atomic import write_bytes
-from fecolumn.mesh.bricks import FACES, outer_faces
 from fecolumn.mesh.picture import rendered, view
-from fecolumn.structures.keys import Storeys
-from fecolumn.structures.model import GROUND
-from fecolumn.structures.storeys import building_of
+from fecolumn.structures.drawn import link_ends, outside
 
 _COLOURS = ("#c67b5c", "#9fb2c1", "#d8c08a", "#7f9a75", "#b58fa8", "#8c8fb5", "#c9a27e", "#86aeb0")
 _GROUND, _EDGE, _LINK, _JOINT = "#dcded9", "#2f3437", "#1f4e79", "#a02020"
 _WIDTH_MM, _HEIGHT_MM, _LABELS_MM, _DPI = 120.0, 120.0, 62.0, 200
-# Over the structure's width: margin of the ground around it
-_MARGIN = 0.15
+# Over the structure's width: margin of the ground around it, and half of the middle part, from which a label may go to either side
+_MARGIN, _MIDDLE = 0.15, 0.1
+# Where on a link its name points, from its first end [-]
+_ON_LINK = 0.3
 
 
 def structure_picture(layout, structure, copies, path) -> Path:
@@ -49,9 +48,7 @@ def structure_picture(layout, structure, copies, path) -> Path:
     colours = [_COLOURS[names.index(name) % len(_COLOURS)] for name, _ in copies]
     image = _rendered(solids, colours, structure, (right, up, toward), right * centre[0] + up * centre[1], half[1], millimetres)
     axes.imshow(image, extent=(*(centre[0] + half[0] * np.array([-1, 1])), *(centre[1] + half[1] * np.array([-1, 1]))), interpolation="antialiased", aspect="auto")
-    labels = [(part.name, part.center, _EDGE, "left") for part in structure.parts]
-    labels += [(link.name, _ends(structure, link).mean(axis=0), _LINK, "left") for link in structure.links]
-    labels += [(joint.name, _meeting_point(structure, joint), _JOINT, "right") for joint in structure.joints]
+    labels = _labels(structure, right, centre[0], half[0])
     for side in ("left", "right"):
         _write(axes, [label for label in labels if label[3] == side], (right, up), centre, half, millimetres, side)
     content = io.BytesIO()
@@ -70,32 +67,24 @@ def _ground(solids) -> tuple[np.ndarray, np.ndarray]:
 
 def _solid(drawing, part) -> tuple[np.ndarray, list]:
     """Points (n, 3) [m] of a part where it is, and its outer faces."""
-    if drawing.shape is None:
-        points, faces = drawing.points, [drawing.system.triangles]
-    else:
-        mesh = drawing.shape.mesh
-        points, faces = mesh.points, [outer_faces(mesh, one) for one in sorted(set(mesh.part.tolist()))]
-    if isinstance(drawing.body, Storeys):
-        floors, quads = _floors(drawing.body)
-        points, faces = np.concatenate([points, floors]), [*faces, quads + len(points)]
+    points, faces = outside(drawing)
     return (points - part.model.center) @ part.rotation.T + part.center, faces
 
 
-def _floors(body: Storeys) -> tuple[np.ndarray, np.ndarray]:
-    """Corners (8 n, 3) [m] and faces (6 n, 4) of the floors of a building, drawn a tenth of their storey thick."""
-    top = building_of(body).heights
-    thick = np.diff(top, prepend=body.thickness_m) / 10
-    plan = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * [body.length_m / 2, body.width_m / 2]
-    boxes = [np.column_stack([plan, np.full(4, level)]) for high, depth in zip(top, thick) for level in (high - depth, high)]
-    return np.concatenate(boxes), np.concatenate([FACES + 8 * floor for floor in range(body.floors)])
+def _labels(structure, along: np.ndarray, middle: float, width: float) -> list:
+    """(text, point (3,), colour, side) of every body, link and interface; the side is that to which it is nearer, so that no line crosses the structure.
 
+    What stands one above the other in the middle has bodies and links to the left, interfaces to the right. along: (3,) direction to the right.
+    """
+    def side(point, otherwise):
+        return otherwise if abs(point @ along - middle) < _MIDDLE * width else "left" if point @ along < middle else "right"
 
-def _ends(structure, link) -> np.ndarray:
-    """Both ends (2, 3) [m] of a link."""
-    def at(place, arm):
-        return arm if place == GROUND else structure.parts[place].center + structure.parts[place].rotation @ arm
-
-    return np.array([at(link.a, link.arm_a), at(link.b, link.arm_b)])
+    labels = [(part.name, part.center, _EDGE, side(part.center, "left")) for part in structure.parts]
+    for link in structure.links:
+        a, b = link_ends(link, structure.parts)
+        named = a + _ON_LINK * (b - a)  # off the middle of the column in which it may run
+        labels.append((link.name, named, _LINK, side(named, "left")))
+    return labels + [(joint.name, point, _JOINT, side(point, "right")) for joint in structure.joints for point in [_meeting_point(structure, joint)]]
 
 
 def _meeting_point(structure, joint) -> np.ndarray:
@@ -139,6 +128,6 @@ def _rendered(solids, colours, structure, axes, focus, half_height, millimetres)
                 plotter.add_mesh(pyvista.PolyData.from_regular_faces(nodes, quads), color=colour, show_edges=True, edge_color=_EDGE, line_width=1.0, ambient=0.5,
                                  diffuse=0.55, specular=0.05, smooth_shading=False, opacity=0.85 if structure.links else 1.0)
         for link in structure.links:
-            plotter.add_mesh(pyvista.Line(*_ends(structure, link)), color=_LINK, line_width=5.0)
+            plotter.add_mesh(pyvista.Line(*link_ends(link, structure.parts)), color=_LINK, line_width=5.0)
 
     return rendered(fill, [round(2 * _DPI * side / 25.4) for side in millimetres], focus, axes, half_height, 10 * (np.linalg.norm(high - low) + half_height), 0.5)

@@ -26,14 +26,14 @@ class _Column(NamedTuple):
     mesh: _Meshing
 
 
-def body_of(shape: Shape, material: Material):
-    """The `fem.body.Body` of a mesh with its ties."""
+def body_of(shape: Shape, material: Material, comm=None):
+    """The `fem.body.Body` of a mesh with its ties, of this process alone unless `comm` says more."""
     from mpi4py import MPI
 
     from fecolumn.dynamics.assembly import column_body
     from fecolumn.mesh.specimen import SpecimenMesh
 
-    return column_body(_Column(material, _Meshing(shape.order)), SpecimenMesh(shape.mesh, None, shape.ties, np.zeros(0, int)), MPI.COMM_SELF)
+    return column_body(_Column(material, _Meshing(shape.order)), SpecimenMesh(shape.mesh, None, shape.ties, np.zeros(0, int)), comm or MPI.COMM_SELF)
 
 
 def elastic_model(shape: Shape, faces: list[Face], patches: dict[str, Patch], material: Material, n_modes: int) -> tuple[BodyModel, np.ndarray]:

@@ -35,13 +35,24 @@ def structure_model(case, file="case", say=lambda text: None) -> StructureModel:
     Raises:
         InputError: a structure that cannot be, told by the names of its bodies, interfaces and links.
     """
+    found = _layout(case, file, say)
+    wanted = {name: kept_body(one) for name, one in found["models"].items()}
+    return assembled(case, wanted, found, file)
+
+
+def kept_keys(case, file="case") -> dict[str, str]:
+    """Key of each body's reduced model in `store`, on disk."""
+    return _layout(case, file, lambda text: None)["models"]
+
+
+def _layout(case, file, say) -> dict:
+    """The layout as `store.keep_layout` keeps it, made if it is not on disk."""
     key = key_of(_geometry(case))
     found = kept_layout(key)
     if found is None:
         found = keep_models(case, layout_of(case, file), file, say)
         keep_layout(key, found)
-    wanted = {name: kept_body(one) for name, one in found["models"].items()}
-    return assembled(case, wanted, found, file)
+    return found
 
 
 def _geometry(case) -> dict:
@@ -66,11 +77,10 @@ def _made_of(case, name: str) -> dict:
 
 def keep_models(case, layout: Layout, file, say) -> dict:
     """Check a layout and have its bodies on disk; what `store.keep_layout` keeps of it."""
-    check_layout(case, layout, file)
+    check_drawings(case, layout, file)
     keys = {}
     for name, one in layout.drawings.items():
         patches = layout.patches[name]
-        check_points(name, patches, file)
         said = {surface: [patch.positions.tolist(), patch.axes.tolist(), len(patch.triangles)] for surface, patch in patches.items()}
         keys[name] = key_of([_made_of(case, name), said])
         count = max(case.modes_of(name), KEPT_MODES)
@@ -80,9 +90,21 @@ def keep_models(case, layout: Layout, file, say) -> dict:
             return one.model(patches, count)
 
         keep_body(keys[name], make)
+    return {"models": keys} | said_of(layout)
+
+
+def check_drawings(case, layout: Layout, file) -> None:
+    """Refuse bodies that overlap or stand on nothing, and those with too many contact points."""
+    check_layout(case, layout, file)
+    for name in layout.drawings:
+        check_points(name, layout.patches[name], file)
+
+
+def said_of(layout: Layout) -> dict:
+    """What `assembled` takes of a layout."""
     sizes = {name: one.shape.size for name, one in layout.drawings.items() if one.shape}
     extents = {name: [one.points.min(axis=0).tolist(), one.points.max(axis=0).tolist()] for name, one in layout.drawings.items()}
-    return {"models": keys, "sizes": sizes, "extents": extents, "contacts": [dataclasses.asdict(contact) for contact in layout.contacts]}
+    return {"sizes": sizes, "extents": extents, "contacts": [dataclasses.asdict(contact) for contact in layout.contacts]}
 
 
 def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> StructureModel:

@@ -27,6 +27,7 @@ from pathlib import Path
 
 from fecolumn.case import Case
 from fecolumn.motions.chosen import chosen_motions
+from fecolumn.rocking.model import TABLES as TABLES_OF_MODELS
 from fecolumn.schema import InputError, build
 from fecolumn.structures.case import type_of
 from fecolumn.study.keys import LatinHypercube
@@ -132,7 +133,7 @@ def _latin_hypercube(table, path: Path) -> Factor:
     kinds = _known_keys()
     for key, values in ranges.items():
         _known(key, name, path)
-        kinds.setdefault(key, type_of(key))
+        kinds.setdefault(key, type_of(key) or _of_model(key))
         if kinds[key] not in (int, float):
             raise InputError(path, f"{name}.{key}", values, "only a number has a range; give its values under [axes]")
         _refuse_range(values, f"{name}.{key}", path)
@@ -168,8 +169,17 @@ def _flat(table: dict, prefix: str = ""):
 
 
 def _known(key: str, table: str, path: Path) -> None:
-    if key not in (known := _known_keys()) and type_of(key) is None:
+    if key not in (known := _known_keys()) and type_of(key) is None and _of_model(key) is None:
         raise InputError(path, f"{table}.{key}", None, f"unknown key of a case{hint(key, tuple(known))}")
+
+
+def _of_model(key: str):
+    """Type of a dotted key of a rocking model's own table, such as podium.storeys, or None."""
+    if key.partition(".")[0] not in TABLES_OF_MODELS:
+        return None
+    from fecolumn.rocking import table_case  # only now: the models need libraries
+
+    return table_case.type_of(key)
 
 
 def _known_keys(section=Case, prefix: str = "") -> dict[str, type]:

@@ -23,6 +23,7 @@ from pathlib import Path
 from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check_duration, digest, finished, located, section_text
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
+from fecolumn.rocking.model import TABLES
 from fecolumn.schema import InputError, build, merge, read_toml, shown
 from fecolumn.structures.keys import FILES as BODY_FILES
 from fecolumn.study.axes import Factor, hint, read_factors
@@ -121,7 +122,7 @@ def read_plan(path) -> Plan:
     if not isinstance(tables.get("title", ""), str):
         raise InputError(path, "title", tables["title"], "must be text in quotes")
     own = {key: value for key, value in _case_tables(tables.get("case"), path).items() if value is not False or key not in _KINDS}
-    common, factors = merge(DEFAULTS, own), read_factors(tables, path)
+    common, factors = merge(_defaults(own), own), read_factors(tables, path)
     if (number := math.prod(len(factor.levels) for factor in factors)) > _MOST:
         raise InputError(path, "axes", None, f"make {shown(number)} analyses; at most {_MOST:,}")
     makers = _Maker(common, factors, path)
@@ -129,6 +130,12 @@ def read_plan(path) -> Plan:
     _refuse_duplicates(analyses, path)
     axes = {key: values for factor in factors for key, values in zip(factor.keys, zip(*factor.levels))}
     return Plan(path, tables.get("title", "") or path.stem, axes, analyses, common)
+
+
+def _defaults(case: dict) -> dict:
+    """DEFAULTS; of a rocking model's own table without bodies the engine follows from the table."""
+    alone = not {"bodies", "column"} & set(case) and any(name in case for name in TABLES)
+    return {name: table for name, table in DEFAULTS.items() if not (alone and name == "integration")}
 
 
 def _case_tables(case, path: Path) -> dict:
@@ -175,16 +182,16 @@ class _Maker:
         """The analysis at a level of each factor; an error names the study file and the key there."""
         levels = tuple(value for factor, place in zip(self.factors, places) for value in factor.levels[place])
         try:
-            if "bodies" in self.common:
-                case = self._structure(places)
+            if "bodies" in self.common or "column" not in self.common and any(name in self.common for name in TABLES):
+                case = self._of_tables(places)
                 return Analysis(case, case.id, self.keys, levels)
             case, texts = self._case(places)
         except InputError as error:
             self._refuse(error, levels)
         return Analysis(case, digest(texts), self.keys, levels)
 
-    def _structure(self, places):
-        """The StructureCase at a level of each factor."""
+    def _of_tables(self, places):
+        """The StructureCase, or the TableCase of a rocking model, at a level of each factor."""
         case = case_from_tables(self._tables(places), self.path)
         check_duration(case, self.path)
         if case.motion:

@@ -18,7 +18,7 @@ import numpy as np
 
 from fecolumn.case import GRAVITY
 from fecolumn.rocking.impact import rectangular_restitution
-from fecolumn.rocking.masonry_displacement import bilinear, oscillator, performance_point, rigid_wall_curve, trilinear
+from fecolumn.rocking.masonry_displacement import bilinear, limit_state, oscillator, performance_point, rigid_wall_curve, trilinear
 from fecolumn.rocking.masonry_force import facade_multiplier, floor_friction, free_wall_multiplier, hinged_wall_multiplier, side_wall_friction, side_wall_lever
 from fecolumn.rocking.masonry_limit import associated, non_associated, running_bond, wall_of_boxes
 from fecolumn.verification.result import Result, Row
@@ -50,7 +50,10 @@ def _force():
     yield Row("the same without either: the free wall [-]", free, facade_multiplier(weight, HEIGHT, THICKNESS), 1e-12)
     for mu in (2, 4, 8):
         yield Row(f"e_H of h/b = {mu}: both forms [-] (R, Eq. 3)", 1 - 1.5 * math.sin(math.atan(1 / mu))**2, rectangular_restitution(mu), 1e-12)
-    yield Row("patterns of n = 3 blocks, 3^n - 1 (R, Eq. 7)", 26, sum(any(pattern) for pattern in np.ndindex(3, 3, 3)), 0.0)
+    for n, patterns in ((2, 8), (3, 26)):
+        yield Row(f"patterns of n = {n} blocks, 3^n - 1 (R, Eq. 7)", patterns, sum(any(pattern) for pattern in np.ndindex(*(3,) * n)), 0.0)
+    for tilt, state in ((0.0, "at rest"), (0.2, "limited rocking"), (0.4, "limited rocking"), (0.41, "rocking"), (1.0, "collapse")):
+        yield Row(f"limit state at theta_max/alpha = {tilt:g} is {state} (R, 7.1)", 1, float(limit_state(tilt) == state), 0.0)
 
 
 def _displacement():

@@ -4,7 +4,7 @@ Requirement: restitution and kinetic energy kept at an impact are those of the p
 fixed base has the period, the profile and the damping that it was made for; a stiff building makes the podium a rocking frame whose beam
 carries its mass; between impacts the energy balance closes.
 
-Source: the paper on impact modelling of multi-storey podium structures; [D] derived from its equations 1, 5 and 6.
+Source: the paper on impact modelling of multi-storey podium structures; [P] printed there, by section; [D] derived from its equations 1, 5 and 6.
 
 Tolerances. Restitution and energy: half of the digits of the table. Stiff building: its deformation goes with the square of the period
 T; what two periods leave when extrapolated to none goes with (T p)^4, 1e-6. Energy: fourth-order steps of T_n/30 leave 1e-6.
@@ -16,6 +16,8 @@ import math
 
 import numpy as np
 
+from fecolumn.motions.directivity_pulse import MEAN_GAMMA, MEAN_PHASE
+from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.frame import Frame
 from fecolumn.rocking.podium import Podium, study_podium
@@ -56,6 +58,12 @@ def _sizes():
     yield Row("p of a column [rad/s] (D, g 9.81)", 2.215, podium.describe()["frequency parameter p of a column"][0], 1e-3, scale=1.0)
     yield Row("half width of a column [m] (D)", 0.2225, podium.half_diagonal * math.sin(ALPHA), 5e-5, scale=1.0)
     yield Row("half height of a column [m] (D)", 1.4834, podium.half_diagonal * math.cos(ALPHA), 5e-4, scale=1.0)
+    for words, exact, found in (("I_0/(m_c R^2)", 4 / 3, podium.inertia), ("gamma", 10.0, podium.gamma), ("eta, the number of storeys", 6.0, podium.eta),
+                                ("period over n/10 s", 1.0, 2 * math.pi / podium.building.omega[0] / 0.6), ("damping of mode 1", 0.05, float(podium.building.damping[0]))):
+        yield Row(f"building of the study: {words} [-] (P, 5)", exact, found, 1e-9)
+    yield Row("motions of the study: magnitudes, distances and 100 of each (P, 4)", 3500, 100 * len(MAGNITUDES) * len(DISTANCES), 0.0)
+    yield Row("their pulses: mean phase nu_p [rad] (P, 4)", 1.93, MEAN_PHASE, 1e-12)
+    yield Row("their pulses: mean gamma_p [-] (P, 4)", 1.83, MEAN_GAMMA, 1e-12)
     # a steady acceleration of g tan alpha bends the building by its static shear, and lifts
     yield Row("static base shear at uplift over M g tan alpha [-] (D of Eq. 4)", 1.0, steady_shear(podium), 2e-3)
 

@@ -62,6 +62,11 @@ def _statics(frame):
             ("displacement capacity, slender [m]", 0.378, told["displacement capacity, slender"][0], 5e-4),
             ("the same without tendons [m]", 0.197, loose["displacement capacity, slender"][0], 5e-4)):
         yield Row(f"restrained frame: {words} (D of W)", exact, found, digits, scale=1.0)
+    yield Row("restrained frame: height of the columns at prototype [m] (W, 3.1)", 7.25, 5 * frame.body[2], 5e-3, scale=1.0)
+    for model, prototype in ((16.75, 37.5), (33.5, 75.0)):
+        yield Row(f"resultant PGV of {model:g} cm/s at prototype, times sqrt(5) [cm/s] (W, 3.3)", prototype, math.sqrt(5) * model, 0.1, scale=1.0)
+    weight = frame.columns * (frame.body[3] / 2 + frame.body[4]) * GRAVITY
+    yield Row("force at uplift over (1/2 + gamma) N m_c g is alpha, which Eq. 1 lacks in print [-] (D of W)", 0.1359, told["horizontal force at uplift, slender"][0] / weight, 1e-12)
     s, c, gamma = math.sin(0.1359), math.cos(0.1359), frame.mass_ratio
     printed = math.sqrt(12 * (2 * gamma + 1) / (48 * gamma + 15 + c**2) * GRAVITY / math.hypot(*frame.body[:2]))
     yield Row("p_hat of the derivation beside Eq. 6 as printed [rad/s] (W)", printed, frame.frequency, 1e-12)

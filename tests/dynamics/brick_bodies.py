@@ -10,7 +10,8 @@ from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.stepper import Stepper
-from fecolumn.dynamics.structure import of_parts, structure_system
+from fecolumn.dynamics.gravity import standing
+from fecolumn.dynamics.structure import released, structure_system
 from fecolumn.fem.body import Body
 from fecolumn.fem.effective import blocks, unit_loads
 from fecolumn.fem.free_body import FreeBody
@@ -109,7 +110,7 @@ class FullRun:
 
     def __init__(self, system, model, stands=True, state=None):
         self.system, self.model = system, model
-        self.state = of_parts(system, model.parts, stands) if state is None else state
+        self.state = released(system, model.parts, standing(system) if stands else None) if state is None else state
         self.ledger = Ledger(system)
         self.ledger.open(self.state)
         self.stepper = Stepper(system, self.ledger)

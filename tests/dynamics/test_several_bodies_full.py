@@ -9,6 +9,7 @@ import pytest
 from brick_bodies import FullRun, Structure, brick_body, closure, frame, pulse, stack
 
 from fecolumn._mpi import launch_environment
+from fecolumn.case import Material
 from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
 from fecolumn.dynamics.energy import TERMS
 from fecolumn.reduced.observe import ENERGY, WIDTH
@@ -67,19 +68,16 @@ def until_the_third_impact(step, record, most=600):
 
 @pytest.fixture(scope="module")
 def rocked():
-    """The rocking stack in full order until its third impact: the run, rows, the ledger, and what the internal forces did beside storing strain energy."""
-    run, energies, lacking = rocking().full(), [], []
+    """The rocking stack in full order until its third impact: the run, rows, the ledger."""
+    run, energies = rocking().full(), []
 
     def step():
-        before = run.state
         row, energy = run.advance(np.zeros((1, 3)))
-        after = run.state
         energies.append(energy[0])
-        lacking.append(run.system.column.dot(after.x - before.x, (before.internal + after.internal) / 2) - (after.strain - before.strain))
         return row[0]
 
     rows = until_the_third_impact(step, lambda: run.stepper.record)
-    return run, rows, np.array(energies), np.cumsum(lacking)
+    return run, rows, np.array(energies)
 
 
 @pytest.mark.parametrize("modes", [100, 129])
@@ -93,13 +91,33 @@ def test_full_order_and_reduced_stacks_agree_until_the_third_impact(rocked, mode
 
 
 def test_energy_of_a_rocking_stack_of_bricks_is_accounted_for(rocked):
-    """All but what corotated kinematics lack: the work of internal forces in a turn within a step, of second order in it, which the closure shows."""
-    _, _, energies, lacking = rocked
+    """However far bodies turn within a step: the work of internal forces is the change of the strain energy."""
+    _, _, energies = rocked
     moved = np.ptp(energies[:, TERMS.index("gravity")])
-    assert np.abs(energies[:, -1] + lacking).max() < 1e-9 * moved
-    assert np.abs(energies[:, -1]).max() < 1e-4 * moved
+    assert np.abs(energies[:, -1]).max() < 1e-9 * moved
     # contact makes no energy: what is not friction or impact takes some
     assert energies[-1, TERMS.index("contact")] < 1e-6 * moved and energies[-1, TERMS.index("impact")] < 0
+
+
+def test_internal_forces_neither_make_energy_nor_turn_a_body_that_spins_in_the_air():
+    """A soft bar, thrown with a fast spin about a skew axis and struck by nothing: it stretches and vibrates by the spin, and turns by 0.06 rad in a step.
+
+    Means of forces in the table frame leave 3e-3 of the kinetic energy unaccounted for, whatever the stiffness, and turn the angular momentum by 5e-4.
+    """
+    soft = Material(youngs_modulus_pa=1e9, poissons_ratio=0.3, density_kg_m3=1000.0)
+    bar = brick_body(0.1, 0.1, 0.6, (1, 1, 4), soft)
+    thrown = dict(spin=np.array([30.0, 50.0, 5.0]), velocity=np.array([0.3, 0.0, 2.0]))
+    run = Structure([("bar", bar, (0, 0, 1.0), thrown)], [(0, "foot", GROUND, None)]).full(alpha=0.0, stands=False)
+    column = run.system.column
+
+    def angular_momentum(state):
+        return np.cross(state.x - column.centers(state.x), column.apply(column.mass, state.v)).sum(axis=0)
+
+    start, kinetic = angular_momentum(run.state), run.ledger.state_terms(run.state)["kinetic"]
+    _, energies = run.advance(np.zeros((100, 3)))
+    assert energies[:, TERMS.index("strain")].max() > 3e-4 * kinetic
+    assert np.abs(energies[:, -1]).max() < 1e-6 * kinetic and np.abs(energies[:, TERMS.index("algorithmic")]).max() < 1e-6 * kinetic
+    assert np.linalg.norm(angular_momentum(run.state) - start) < 1e-4 * np.linalg.norm(start)
 
 
 def test_full_order_motion_does_not_depend_on_the_order_of_bodies_and_contacts():
@@ -173,5 +191,5 @@ def test_links_do_the_same_in_full_order_and_reduced(settings):
     damping = TERMS.index("damping")
     assert energies[-1, damping] == pytest.approx(other[-1, ENERGY + damping], rel=1e-3, abs=1e-9)
     assert (energies[-1, damping] < -1e-3) == bool({"damping", "yield_n", "breaking_n"} & set(settings))
-    assert closure(energies) < 1e-6
+    assert closure(energies) < 1e-9
     assert run.state.ties["broken"] == made.motion.ties["broken"] and rows[:, 0, 3].max() > 0.01

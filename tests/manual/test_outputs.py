@@ -13,13 +13,15 @@ from documents import PAGES, ROOT, listed
 
 from fecolumn.cli import main
 
-sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("study", "report")]
+sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("study", "report", "structures")]
 
 from rocking_block import ENTRY  # noqa: E402
+from small_structures import stack, structure  # noqa: E402
 from study_files import write_study  # noqa: E402
 from synthetic_study import write_synthetic  # noqa: E402
 
 from fecolumn.report.page import write_report  # noqa: E402
+from fecolumn.simulation import run  # noqa: E402
 from fecolumn.study.plan import read_plan  # noqa: E402
 from fecolumn.study.run import run_study  # noqa: E402
 from fecolumn.study.table import write_tables  # noqa: E402
@@ -66,6 +68,12 @@ def test_every_dataset_of_a_history_with_its_unit(analysis):
 def test_every_dataset_of_the_states_with_its_unit(analysis):
     with h5py.File(analysis / "states.h5") as file:
         assert listed("outputs", "states.h5") == {name: file[name].attrs["unit"] for name in file}
+
+
+def test_every_dataset_of_the_states_of_a_structure_with_its_unit(tmp_path):
+    run(structure(**stack(integration={"duration_s": 0.01})), tmp_path / "out", quiet=True)
+    with h5py.File(tmp_path / "out" / "states.h5") as file:
+        assert listed("outputs", "states.h5") | listed("outputs", "states.h5 of a structure") == {name: file[name].attrs["unit"] for name in file}
 
 
 def test_every_entry_of_a_comparison_of_two_analyses(analysis, tmp_path):

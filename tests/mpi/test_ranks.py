@@ -68,3 +68,46 @@ def test_refusal_is_said_once_and_ends_both_ranks(tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
     assert done.returncode == 2
     assert done.stderr.count("unknown key") == 1
+
+
+STACKED = """
+integration = {engine = "full", duration_s = 0.15, dt_s = 1e-3}
+contact = {friction_coefficient = 0.7, interior_points = 0}
+initial.upper.tilt_rad = 0.02
+output.fields_every_s = 0.1
+interfaces.foot = {slave = "lower", on = "ground"}
+interfaces.joint = {slave = "upper", on = "lower"}
+[bodies.lower]
+kind = "block"
+length_m = 0.6
+width_m = 0.6
+height_m = 0.5
+element_size_m = 0.2
+[bodies.upper]
+kind = "cylinder"
+outer_diameter_m = 0.3
+height_m = 0.9
+element_size_m = 0.07
+coarse_size_m = 0.3
+at_m = [0, 0, 0.5]
+"""
+
+
+def test_two_ranks_give_the_motion_of_a_structure_that_one_gives(tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text(STACKED)
+    one, two = (_run(n, case, tmp_path / str(n)) for n in (1, 2))
+    assert (one[0]["ranks"], two[0]["ranks"]) == (1, 2) and one[0]["dofs"] == two[0]["dofs"]
+    np.testing.assert_allclose(two[1], one[1], rtol=0, atol=1e-9)
+    assert np.ptp(one[1][:, 0]) > 5e-3 and one[0]["impacts"] == two[0]["impacts"] > 0
+    with h5py.File(tmp_path / "1" / "fields" / "frame_000000100000.h5") as first, h5py.File(tmp_path / "2" / "fields" / "frame_000000100000.h5") as second:
+        for name in ("displacement", "von_mises", "pressure"):
+            np.testing.assert_allclose(second[name][:], first[name][:], rtol=0, atol=1e-6 * np.abs(first[name][:]).max())
+
+
+def test_a_structure_of_the_reduced_engine_is_refused_on_two_ranks(tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text(STACKED.replace('"full"', '"reduced"').replace("output.fields_every_s = 0.1", ""))
+    command = [*MPIRUN, "-n", "2", sys.executable, "-m", "fecolumn.cli", "run", str(case), "-o", str(tmp_path / "out")]
+    done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
+    assert done.returncode == 2 and done.stderr.count("runs on one process") == 1

@@ -5,7 +5,7 @@ import pytest
 from synthetic_history import write_history
 
 from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import Panel, axis_end, cdf_figure, overturn_text
+from fecolumn.post.cdf_figure import Panel, axis_end, cdf_figure, common, overturn_text
 from fecolumn.post.energy_figure import energy_figure
 from fecolumn.post.history_figures import History, history_figures
 from fecolumn.post.specimen_figure import specimen_figure
@@ -57,6 +57,12 @@ def test_band_is_as_large_as_the_distribution_says(tmp_path):
 
 def test_axis_of_displacements_follows_the_data_not_a_cap():
     assert axis_end([0.01, 0.03]) == pytest.approx(0.0324) and axis_end([]) == axis_end([0.0]) == 1.0
+
+
+def test_one_peak_far_beyond_the_others_does_not_squeeze_them():
+    near = list(np.linspace(0.01, 0.06, 40))
+    assert common([*near, 0.78]) == near
+    assert common(near) == near and common([]) == [] and common([0.0]) == [0.0]
 
 
 def test_same_data_same_bytes(tmp_path):

@@ -1,4 +1,5 @@
 import pytest
+import rocking_structures
 from rocking_analyses import BLOCK, DRUM, analysed
 
 
@@ -10,3 +11,14 @@ def drum(tmp_path_factory):
 @pytest.fixture(scope="session")
 def block(tmp_path_factory):
     return analysed(BLOCK, tmp_path_factory.mktemp("block") / "run")
+
+
+@pytest.fixture(scope="session")
+def gate(tmp_path_factory):
+    """Two columns that rock below a lintel."""
+    return rocking_structures.analysed(tmp_path_factory.mktemp("gate") / "run", rocking_structures.GATE, rocking_structures.TILTED)
+
+
+@pytest.fixture(scope="session")
+def building(tmp_path_factory):
+    return rocking_structures.analysed(tmp_path_factory.mktemp("building") / "run", rocking_structures.BUILDING)

@@ -137,6 +137,5 @@ def test_displacement_colours_the_points_of_a_tube_that_has_as_many_points_as_fa
     surface = result.solid.column
     assert len(surface.points) == len(surface.faces)  # of a torus, what a tube's surface is; both have a value for each
     frames = Frames(result, np.array([0.0]), 0.04)
-    path = result.history["u_top"] + result.solid.top
-    with Scene(frames, camera.camera(result, "lean", frames.times, 1.0), (128, 128), path, result.poses.time) as scene:
+    with Scene(frames, camera.camera(result, "lean", frames.times, 1.0), (128, 128)) as scene:
         assert scene._column.point_data["colour"] == pytest.approx(frames.frame(0).colour) and "colour" not in scene._column.cell_data

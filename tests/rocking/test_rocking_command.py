@@ -62,9 +62,9 @@ def test_case_of_finite_elements_serves_as_it_is(tmp_path, ensemble, capsys):
 
 
 @pytest.mark.parametrize("text, said", [
-    (BLOCK, "integration.duration_s = 0: must be greater than 0 s where there is no motion"),
+    (BLOCK, "integration.duration_s = 0: must be greater than 0 s where the case has no motion"),
     (BLOCK + "block.colour = 1\nintegration.duration_s = 1.0\n", "block.colour"),
-    (BLOCK + "walls = 2\n", "walls: unknown key; a case of the model housner has title, block, motion, initial, integration"),
+    (BLOCK + "walls = 2\n", "walls: unknown key; a case of the model housner has title, block, integration, initial, overturn, output, motion"),
     ("title = \"x\"\n", "block: missing: the model housner is made from [block]"),
     (BLOCK + "motion.source = \"lick:3-2\"\n", "must be two rising numbers from 1 to 115"),
     (BLOCK + "motion.source = \"none.csv\"\n", "no such file")])

@@ -43,6 +43,15 @@ def test_units_of_the_columns_are_stated(leaning):
     assert list(units.values()) == ["m", "rad", "N", "m", "J"]
 
 
+def test_results_of_a_structure_have_its_units_and_figures(leaning):
+    from fecolumn.results.analysis import AnalysisResult
+
+    result = AnalysisResult(leaning[0])
+    assert [result.units[name] for name in ("u_top", "body/upper/tilt", "interface/foot: lower on ground/force", "energy/strain")] == ["m", "rad", "N", "J"]
+    assert "body/upper/displacement_x [m]" in result.columns()
+    assert result.plot.interfaces("joint")._repr_png_().startswith(b"\x89PNG")
+
+
 def test_stopped_analysis_goes_on_to_the_same_motion(leaning, tmp_path):
     asked = []
 

@@ -139,3 +139,19 @@ def test_triangles_cover_a_face_of_any_order(order):
     areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
     assert areas.min() > 0 and areas.sum() == pytest.approx(0.08) and patch.areas.sum() == pytest.approx(0.08)
     assert patch.outlines.sum() == 2 * order * (4 + 2)
+
+
+def test_labels_of_a_picture_stand_on_the_side_of_what_they_name():
+    """So that no line from a label to a column crosses another column: left ones are named to the left."""
+    from fecolumn.mesh.picture import view
+    from fecolumn.structures.picture import _labels
+    from fecolumn.structures.structure import structure_model
+
+    tendon = dict(kind="tendon", body="column", to="slab", to_point_m=[0, 0, 1.5], stiffness_n_m=1e5)
+    right = view()[0]
+    labels = _labels(structure_model(structure(**frame(links=dict(tendon=tendon)))), right, 0.0, 2.0)
+    sides = {text: (point @ right, side) for text, point, _, side in labels}
+    assert len(labels) == 5 + 4 + 8 and sides["slab"][1] == "left"
+    assert all(side == ("left" if along < 0 else "right") for text, (along, side) in sides.items() if text != "slab")
+    named = {text: tuple(np.round(point, 6)) for text, point, _, _ in labels}
+    assert len(set(named.values())) == len(labels)  # a tendon in a column is named beside the column's name

@@ -38,7 +38,9 @@ WRONG = [
     (stack(bodies=dict(upper=dict(copies_m=[[0, 1, "x"]], at_m=[0, 0, 0]))), "bodies.upper.copies_m", "a list of lists of numbers"),
     (stack(bodies=dict(upper=dict(copies_m=[[0, 0, float("nan")]], at_m=[0, 0, 0]))), "bodies.upper.copies_m", "[-10000, 10000]"),
     (stack(column=dict(height_m=1.0)), "column", "says nothing of a structure"),
-    (stack(integration=dict(engine="full")), "integration.engine", "reduced or rigid"),
+    (stack(integration=dict(engine="housner")), "integration.engine", "full, reduced or rigid"),
+    (stack(bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], at_m=[0, 0, 0.8])), integration=dict(engine="rigid")), "integration.engine", '"upper" their springs and no inertia'),
+    (stack(bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], modes=0, at_m=[0, 0, 0.8]))), "bodies.upper.modes", '"upper" their springs and no inertia'),
     (stack(bodies=dict(upper=STOREYS | dict(at_m=[0, 0, 0.8]))), "bodies.upper.floor_masses_kg", "floors = 3 numbers"),
     (stack(observed="lower.floor 1"), "observed", "no such mark"),
     (stack(interfaces=dict(joint=dict(law="penalty"), foot=dict(slave="lower", on="upper"))), "interfaces", "no contact path"),
@@ -48,7 +50,7 @@ WRONG = [
 def _case(tables):
     bodies = dict(tables["bodies"])
     if bodies.get("upper", {}).get("kind") == "storeys":  # its own keys, none of the block's
-        bodies["upper"] = {key: value for key, value in bodies["upper"].items() if key in (*STOREYS, "at_m")}
+        bodies["upper"] = {key: value for key, value in bodies["upper"].items() if key in (*STOREYS, "at_m", "modes")}
     return structure(**tables | dict(bodies=bodies))
 
 

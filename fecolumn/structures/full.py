@@ -1,0 +1,51 @@
+"""One analysis of a structure with the full-order engine."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.case import GRAVITY
+from fecolumn.dynamics.analysis import FullAnalysis
+from fecolumn.schema import InputError
+from fecolumn.structures.analysis import OfStructure
+from fecolumn.structures.engine import leans, upright
+
+
+class FullStructureAnalysis(OfStructure, FullAnalysis):
+    """A running analysis of a structure of many bodies with all their degrees of freedom."""
+
+    def built(self, file):
+        from fecolumn.dynamics.hht import HHT
+        from fecolumn.dynamics.structure import structure_system
+        from fecolumn.structures.elements import structure_of_elements
+        from fecolumn.structures.observer import StructureObserver
+
+        case, plan = self.case, self.case.integration
+        self.structure, self.meshed = structure_of_elements(case, self.comm, file)
+        #: The structure before any body leans or moves: gravity energy and displacements are measured from there.
+        self.standing = upright(case, self.structure)
+        damped = [case.modes_of(name) for name in case.bodies for _ in case.names_of(name)]
+        try:
+            system = structure_system(self.standing, [one.body for one in self.meshed], HHT(plan.dt_s, plan.alpha_hht), np.array([0.0, 0.0, -GRAVITY]),
+                                      nodes=[one.nodes for one in self.meshed], damped=damped)
+        except ValueError as error:
+            name, _, told = str(error).partition(": ")
+            raise InputError(file, name, None, told) from None
+        return system, StructureObserver(system, self.meshed, self.standing, case.overturn.displacement_m)
+
+    @property
+    def leans(self) -> bool:
+        return leans(self.structure)
+
+    def released(self, standing):
+        from fecolumn.dynamics.structure import released
+
+        return released(self.system, self.structure.parts, None if self.leans else standing)
+
+    def drawn(self):
+        from fecolumn.structures.fields import StructureFields
+
+        return StructureFields(self.system.column, self.meshed, self.standing, self.system.interface.points)
+
+    def foot(self) -> np.ndarray:
+        return self.system.interface.node_positions(self.state.x, self.state.rotation)

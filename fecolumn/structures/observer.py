@@ -1,0 +1,63 @@
+"""What is watched of a structure in full order: the columns that the reduced engine writes, of the bodies' mean motion and the tops' nodes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import SLAVE, poses_of
+from fecolumn.dynamics.overturning import CAPPED, NO_RETURN, STANDS, never_alone
+from fecolumn.fem.rotation import tilt_angle, twist_angle
+from fecolumn.reduced.structure import LOST
+
+
+class StructureObserver:
+    """Measures states of a System of many bodies.
+
+    Args:
+        system: of `dynamics.structure.structure_system`. meshed: `elements.Meshed` of each part. structure: StructureModel, as it stands upright: displacements are
+            measured from there. cap: horizontal displacement of the observed mark that counts as overturned [m], 0 for none.
+    """
+
+    def __init__(self, system, meshed: list, structure, cap: float):
+        self.system, self.structure, self._meshed = system, structure, meshed
+        self.body, self._mark = structure.observed
+        part = structure.parts[self.body]
+        self.stance, self.top_arm = never_alone(part.model.inertia, system.weight, cap), part.model.marks[self._mark][0]
+        self._centers, upright = (np.array([getattr(part, name) for part in structure.parts]) for name in ("center", "rotation"))
+        self._feet = poses_of(system.interface.interfaces, self._centers, upright)["foot"]
+        standing = [joint for joint in structure.joints if joint.slave == self.body]
+        nodes = part.model.surfaces[standing[0].slave_surface].nodes if standing else []
+        self._foot_arm = part.model.arms[nodes].mean(axis=0) if standing else np.zeros(3)
+
+    def measure(self, state) -> dict:
+        """Measures of a state by the names of the history file, in SI units; as `analysis.columns_of` tells them."""
+        system, structure, interface, R = self.system, self.structure, self.system.interface, state.rotation
+        moved, forces, own = system.column.centers(state.x) - self._centers, state.forces, R[self.body]
+        carries = forces[:, 2] > 0
+        tops = [self._top(b, state.x) for b in range(len(structure.parts))]
+        row = dict(
+            time=state.time, u_top=tops[self.body], tilt=tilt_angle(own), twist=twist_angle(own), slide=(moved[self.body] + (own - np.eye(3)) @ self._foot_arm)[:2],
+            contact_force=forces[carries & (interface.points["master"] == BASE)].sum(axis=0), active_nodes=int(carries.sum()),
+            penetration=max(0.0, -float(state.relative[state.contact["located"], 2].min(initial=0.0))), ground=state.ground)
+        for b, part in enumerate(structure.parts):
+            row |= {f"body/{part.name}/displacement": moved[b], f"body/{part.name}/tilt": tilt_angle(R[b]), f"mark/{part.name}.top/displacement": tops[b]}
+        poses = poses_of(interface.interfaces, moved + self._centers, R)
+        normal = np.bincount(interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses))
+        for joint, pose, foot, force in zip(structure.joints, poses, self._feet, normal):
+            turned, risen = pose["turned"][SLAVE], pose["foot"] - foot
+            # of a slave that is drawn upside down the same
+            tilt = float(np.arctan2(np.hypot(turned[2, 0], turned[2, 1]), abs(turned[2, 2])))
+            row |= {f"interface/{joint.name}/{name}": value for name, value in dict(tilt=tilt, rise=float(risen[2]), slide=risen[:2], force=float(force)).items()}
+        return row
+
+    def _top(self, b: int, x: np.ndarray) -> np.ndarray:
+        """Displacement (3,) [m] of the mean of a body's top face."""
+        one, part = self._meshed[b], self.structure.parts[b]
+        return one.shares @ one.body.gather(one.top, x[self.system.column.rows[b]]) - (part.center + part.model.marks["top"][0])
+
+    def fallen(self, state, measures: dict, steepest: float) -> int:
+        """As `overturning.fallen`: lost where any body has tilted by LOST."""
+        if any(measures[f"body/{part.name}/tilt"] > LOST for part in self.structure.parts):
+            return NO_RETURN
+        return CAPPED if np.hypot(*measures["u_top"][:2]) >= self.stance.cap else STANDS
