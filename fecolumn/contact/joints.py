@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.bodies import FACET
+from fecolumn.contact.bodies import FACET, GOES_ON
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import BASE, node_points
 from fecolumn.contact.rim import Rim
@@ -42,6 +42,11 @@ def joints_of(parts, joints) -> Joints:
         rim = Rim.find(arms) if joint.round else None
         interface = interface_of(arms, rim, joint.restitution, slave=joint.slave, master=joint.master)
         interface["width"] = np.ptp(arms @ touching.axes[:, :2], axis=0).max()
+        if joint.ball is not None:
+            outward = touching.axes[:, 2]
+            interface["ball"], interface["edge"] = joint.ball.radius, joint.ball.edge
+            interface["foot"] += joint.ball.radius * outward
+            interface["width"] = max(interface["width"][0], 2 * max(joint.ball.edge))
         interface["rim_first"] = sum(map(len, rims))
         rims.append(sum(map(len, points)) + np.asarray(rim.nodes if rim else [], np.int64))
         if joint.master != BASE:
@@ -52,9 +57,14 @@ def joints_of(parts, joints) -> Joints:
                 facets = np.concatenate([facets, facets_of(surface, parts[joint.master].model.arms, first[joint.master])])
             interface["facet_first"], interface["facet_count"] = found[key], len(surface.triangles)
             interface["origin"], interface["axes"] = surface.origin, surface.axes
+            around = Rim.find(surface.plane(parts[joint.master].model.arms[surface.nodes]))
+            # a rim that rolls on it stands on the circle, too
+            interface["bulge"] = around.radius * (1 - np.cos(around.sector / 2)) if around else 0.0
         own = node_points(arms, joint.friction, joint.law, slave=joint.slave, master=joint.master, interface=k)
         own["node"] = first[joint.slave] + touching.nodes
         own["carriers"] = own["node"][:, None]
+        if joint.ball is not None:
+            own["arm"] += joint.ball.radius * outward
         points.append(own)
         interfaces.append(interface)
     return Joints(np.concatenate(points), np.concatenate(interfaces), np.concatenate(rims), facets)
@@ -74,4 +84,7 @@ def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
                 facets["neighbours"][number, q], facets["neighbours"][other, place] = other, number
             else:
                 sides[side] = number, q
+    for side, (number, q) in sides.items():
+        if not surface.outlines[list(side)].all():
+            facets["neighbours"][number, q] = GOES_ON
     return facets

@@ -6,7 +6,8 @@ import numpy as np
 
 from fecolumn._compiled import compile_for, interpreted, njit
 from fecolumn.contact.arrays import put, put_matrix
-from fecolumn.contact.points import BASE
+from fecolumn.contact.ball import from_center, lay_down
+from fecolumn.contact.points import BASE, UNPREPARED
 from fecolumn.contact.projection import base_for_steps
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
@@ -19,6 +20,7 @@ from fecolumn.contact.problem import (
     N_ITERATIONS,
     N_PARTS,
     OFF_BASE,
+    OFF_PATCH,
     OK,
     ROLLS_FAST,
 )
@@ -29,20 +31,21 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS, steepest_to_come
 from fecolumn.dynamics.record import Record
 from fecolumn.reduced import motion as motions
+from fecolumn.reduced.balls import roll_balls
 from fecolumn.reduced.equilibrium import equilibrate, work_of
 from fecolumn.reduced.ledger import N_PLACES
 from fecolumn.dynamics.links import end_links, span
 from fecolumn.reduced.model import scheme, structure_of
 from fecolumn.reduced.elastic import COORDINATE, END, START
 from fecolumn.reduced.observe import ENERGY, lost, observe
-from fecolumn.contact.pose import frames_at, poses_of
+from fecolumn.contact.pose import SLAVE, find_poses, frames_at, poses_of
 from fecolumn.reduced.step import step
 
 # step lengths from a whole step to its smallest part
 LENGTHS = PARTS.bit_length()
 # of the halves of a step, whose end alone counts: nothing is past returning
 _NO_END = np.array([np.inf])
-_STOPS = {CONTACT_FAILED: Stop.CONTACT, IMPACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.ITERATIONS, OFF_BASE: Stop.OFF_BASE}
+_STOPS = {CONTACT_FAILED: Stop.CONTACT, IMPACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.ITERATIONS, OFF_BASE: Stop.OFF_BASE, OFF_PATCH: Stop.OFF_PATCH}
 
 
 @njit
@@ -166,7 +169,16 @@ def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, s
 
 @njit
 def settled(structure, base, scheme, work, motion, fall, bent, still, spare, counts):
-    """A proximal step towards equilibrium: a way to end. The seats of points and the links are brought along, which a step does elsewhere."""
+    """A proximal step towards equilibrium: a way to end. The places of points on balls and the links are brought along, which a step does elsewhere."""
+    for i in range(len(motion.contact)):
+        work.before[i] = motion.contact[i]
+    for when in (START, END):
+        find_poses(structure.interfaces, motion.frames, motion.rotation, work.poses[when])
+    for k in range(len(structure.interfaces)):
+        spare.rims[k] = motion.rims[k]
+        if structure.interfaces[k].ball > 0.0:
+            lay_down(work.points, k)
+            roll_balls(structure, k, work, motion, spare)
     answer = equilibrate(structure, base, scheme, work, motion, fall, bent, still, motion.rims, spare, counts)
     if answer == OK:
         spare.whole[0].static += end_links(structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt)[1]
@@ -218,9 +230,13 @@ class Engine:
         return centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
 
     def places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Places (P, 3) [m] of the points' nodes in the frames of their interfaces, of bodies with centres of mass (nb, 3) turned by (nb, 3, 3)."""
-        points, poses = self.points, poses_of(self.structure.interfaces, centers, rotations)[self.points["interface"]]
-        table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], self.structure.bodies.arms[points["node"]])
+        """Places (P, 3) [m] of the points in the frames of their interfaces, of bodies with centres of mass (nb, 3) turned by (nb, 3, 3)."""
+        points, interfaces = self.points, self.structure.interfaces
+        each, offsets = poses_of(interfaces, centers, rotations), np.zeros((len(interfaces), 3))
+        for interface, pose, offset in zip(interfaces, each, offsets):
+            interpreted(from_center)(interface, pose["turned"][SLAVE, 2], offset)
+        poses, arms = each[points["interface"]], self.structure.bodies.arms[points["node"]] + offsets[points["interface"]]
+        table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
         return np.einsum("pba,pb->pa", poses["frame"], table - poses["origin"])
 
     def link_lengths(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
@@ -310,7 +326,7 @@ class Engine:
             if answer not in (OK, ENDED):
                 raise StepFailed(_STOPS[answer], _STOPS[answer].value)
 
-        failure = StepFailed(_STOPS[answer], _STOPS[answer].value)
+        failure = StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
         try:
             in_halves(take, None, self.motion.whole["ground"][0].copy(), ground, self.hht, self.max_cuts, failure, self._count_cut)
         except BaseException as error:
@@ -319,6 +335,13 @@ class Engine:
             if isinstance(error, StepFailed):
                 raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None
             raise
+
+    def _left(self, answer) -> str:
+        """Which interface a body has left and what helps, after a step that failed with OFF_PATCH."""
+        if answer != OFF_PATCH:
+            return ""
+        names = sorted({self.model.joints[k].name for k in self.work.points["interface"][self.work.points["beyond"] == UNPREPARED]})
+        return f": {', '.join(names)}; a larger interfaces.{names[0].partition(':')[0]}.allowance_m prepares more of it"
 
     def _count_cut(self) -> None:
         self.counts[N_CUTS] += 1

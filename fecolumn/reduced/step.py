@@ -6,14 +6,16 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
+from fecolumn.contact.ball import lay_down
 from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, touched, what_happens
 from fecolumn.contact.problem import N_IMPACTS, OK, near_points
 from fecolumn.contact.rolling import mark_rolling, plan_roll, roll_points, rolling_moment, stay
 from fecolumn.contact.tolerances import CREATED
-from fecolumn.contact.work import move_anchors
+from fecolumn.contact.work import book_impulses, move_anchors
+from fecolumn.reduced.balls import roll_balls
 from fecolumn.reduced.equilibrium import equilibrate
-from fecolumn.reduced.ledger import FRICTION, HIT, book, kinetic
+from fecolumn.reduced.ledger import CONTACT_WORK, FRICTION, HIT, book, kinetic
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START, find_elastic, find_places, find_velocity
 from fecolumn.reduced.motion import push_bodies
 from fecolumn.contact.pose import find_poses
@@ -26,27 +28,30 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
 
     Returns: a way to end, OK or the reason why not; then `start` is unharmed and `ledger` is not to be used.
     """
-    booked, interfaces, weight = ledger.copy(), structure.interfaces, 0.0
+    booked, interfaces, weight, width = ledger.copy(), structure.interfaces, 0.0, np.inf
     rolled = place_points_of_step(structure, scheme.dt, work, start, end, True)
     answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
     for b in range(len(start.frames)):
         weight += structure.bodies.body[b].mass
+    for k in range(len(interfaces)):
+        if interfaces[k].rim_count > 0:
+            width = min(width, interfaces[k].width)
     weight *= np.sqrt(structure.gravity[0] ** 2 + structure.gravity[1] ** 2 + structure.gravity[2] ** 2)
-    if answer == OK and rolled and contact_work > CREATED * weight * interfaces[0].width:
+    if answer == OK and rolled and contact_work > CREATED * weight * width:
         # several points of the rim carry while it rolls fast: they stay for this step. No recursion: numba cannot load it from its cache
         put(booked, ledger)
         place_points_of_step(structure, scheme.dt, work, start, end, False)
         answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
     # the springs of a pad bring a landing foot to rest in their own time: there is no impact
     if answer == OK and not interfaces[0].on_pad:
-        answer = _collide(structure, base, scheme, work, start, end, contact_work, ledger, counts)
+        answer = _collide(structure, base, scheme, work, start, end, contact_work, booked, ledger, counts)
     return answer
 
 
 @njit
 def place_points_of_step(structure, dt, work, start, end, allowed):
     """Place the points of a step, and bring what they carry to them; end gets the state of the rims. Returns: whether any rim rolled."""
-    points, rolled, part, halfway, poses = work.points, False, np.empty(3), work.action.halfway, work.poses
+    rolled, part, halfway, poses = False, np.empty(3), work.action.halfway, work.poses
     find_poses(structure.interfaces, start.frames, start.rotation, poses[START])
     for b in range(len(start.frames)):
         for a in range(3):
@@ -54,24 +59,33 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
         turn_by(start.rotation[b], part, halfway[b])
     # turned alone: where the bodies go does not matter here
     find_poses(structure.interfaces, start.frames, halfway, poses[END])
-    for i in range(len(points)):
+    for i in range(len(work.points)):
         work.before[i] = start.contact[i]
     for k in range(len(structure.interfaces)):
         end.rims[k] = start.rims[k]
         n, first = structure.interfaces[k].rim_count, structure.interfaces[k].rim_first
-        if n == 0:
-            continue
-        rim, now, then = structure.rim[first:first + n], poses[START, k].turned, poses[END, k].turned
-        rolls, tilt, roll = plan_roll(structure.interfaces[k], rim, start.rims[k], start.contact, now[SLAVE], then[SLAVE], allowed)
-        if rolls:
-            work.wanted[:] = False
-            mark_rolling(roll, rim, points, start.contact, work.wanted)
-            find_places(structure, points, start, poses[START, k], work.elastic, work.wanted, work.places)
-            roll_points(roll, rim, end.rims[k], structure.bodies.arms, work.places, start.contact, points, work.before)
-            rolled = True
-        else:
-            stay(roll, rim, end.rims[k], tilt, structure.bodies.arms, points)
+        if structure.interfaces[k].ball > 0.0:
+            lay_down(work.points, k)
+        if n > 0:
+            rolled |= _place_rim(structure, k, structure.rim[first:first + n], work, start, end, allowed)
+        if structure.interfaces[k].ball > 0.0:
+            roll_balls(structure, k, work, start, end)
     return rolled
+
+
+@njit
+def _place_rim(structure, k, rim, work, start, end, allowed):
+    """`place_points_of_step` of the round rim of interface k: whether it rolled."""
+    points, now, then = work.points, work.poses[START, k].turned, work.poses[END, k].turned
+    rolls, tilt, roll = plan_roll(structure.interfaces[k], rim, start.rims[k], start.contact, now[SLAVE], then[SLAVE], allowed)
+    if rolls:
+        work.wanted[:] = False
+        mark_rolling(roll, rim, points, start.contact, work.wanted)
+        find_places(structure, points, start, work.poses[START, k], work.elastic, work.wanted, work.places)
+        roll_points(roll, rim, end.rims[k], structure.bodies.arms, work.places, start.contact, points, work.before)
+    else:
+        stay(roll, rim, end.rims[k], tilt, structure.bodies.arms, points)
+    return rolls
 
 
 @njit
@@ -159,8 +173,8 @@ def _finish(structure, scheme, work, start, ground, end):
 
 
 @njit
-def _collide(structure, base, scheme, work, start, end, contact_work, ledger, counts):
-    """Take the velocities of `end` anew where a point lands or slip ends: a way to end."""
+def _collide(structure, base, scheme, work, start, end, contact_work, booked, ledger, counts):
+    """Take the velocities of `end` anew where a point lands or slip ends: a way to end; booked: the ledger at the start of the step."""
     interfaces, points, before, elastic = structure.interfaces, work.points, work.before, work.elastic
     listed = near_points(work.problem)
     lands = mark_landing(interfaces, points, listed, before, end.contact, work.landing) > 0
@@ -183,7 +197,9 @@ def _collide(structure, base, scheme, work, start, end, contact_work, ledger, co
         return answer
     energy = kinetic(structure, end)
     push_bodies(structure, scheme, points, arms, work.poses[END], impulses, end)
-    ledger[HIT if happens == LANDS else FRICTION] += kinetic(structure, end) - energy
+    own, other = (HIT, FRICTION) if happens == LANDS else (FRICTION, HIT)
+    terms = book_impulses(kinetic(structure, end) - energy, ledger[own] - booked[own], ledger[CONTACT_WORK] - booked[CONTACT_WORK], ledger[other] - booked[other])
+    ledger[own], ledger[CONTACT_WORK], ledger[other] = booked[own] + terms[0], booked[CONTACT_WORK] + terms[1], booked[other] + terms[2]
     counts[N_IMPACTS] += happens == LANDS
     return OK
 

@@ -62,7 +62,10 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
         marks[n]["body"], marks[n]["arm"], shapes[n, :, :shape.shape[1]] = b, arm, shape
     place = names.index((body, name))
     feet = [joint for joint in model.joints if joint.slave == body]
-    foot = model.parts[body].model.arms[model.parts[body].model.surfaces[feet[0].slave_surface].nodes].mean(axis=0) if feet else np.zeros(3)
+    foot = np.zeros(3)
+    if feet:
+        surface = model.parts[body].model.surfaces[feet[0].slave_surface]
+        foot = model.parts[body].model.arms[surface.nodes].mean(axis=0) + (feet[0].ball.radius * surface.normal if feet[0].ball else 0.0)
     stance = never_alone(model.parts[body].model.inertia, weight, cap)
     return View(centers, body, np.array(marks[place]["arm"]), np.ascontiguousarray(shapes[place]), foot, np.zeros((3, modes)), stance,
                 np.full(len(centers), float(lost)), np.array(poses_of(structure.interfaces, centers, rotations)["foot"]), marks, shapes)

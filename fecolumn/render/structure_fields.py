@@ -7,6 +7,7 @@ import numpy as np
 from fecolumn.mesh.bricks import BrickMesh
 from fecolumn.reduced.states import State
 from fecolumn.render.structure_solid import StructureSolid
+from fecolumn.structures.feet import ball_of
 from fecolumn.structures.keys import Matrices, Storeys
 
 
@@ -90,7 +91,8 @@ def _moving(piece, model, fields):
     """How the points of a piece move in the frame of its body."""
     if isinstance(piece.drawing.body, Storeys):
         return _Building(piece, model)
-    if isinstance(piece.drawing.body, Matrices) or piece.drawing.is_rigid:
+    # the contact points of a foot that is not flat are no nodes of its mesh
+    if isinstance(piece.drawing.body, Matrices) or piece.drawing.is_rigid or ball_of(piece.drawing.body):
         return _Rigid(piece)
     return _Continuum(piece, model, fields)
 

@@ -10,6 +10,7 @@ from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES, outline_edges
 from fecolumn.render.solid import Surface
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.drawn import floor_boxes, outside
+from fecolumn.structures.feet import rise
 from fecolumn.structures.keys import Storeys
 from fecolumn.structures.model import GROUND, StructureModel
 
@@ -165,15 +166,16 @@ def _joined(faces: list[np.ndarray]) -> np.ndarray:
 
 
 def _face(piece: Piece, part, name: str) -> np.ndarray:
-    """Faces (n, 3 or 4) of a piece in the plane of a surface of its part, those of one kind."""
-    surface = part.model.surfaces[name]
+    """Faces (n, 3 or 4) of a piece in the plane of a surface of its part, those of one kind; of a dome those that look down."""
+    surface, body = part.model.surfaces[name], piece.drawing.body
     size, found = np.ptp(piece.points, axis=0).max(), []
+    near = _SAME * size + (rise(body) if name == "foot" and getattr(body, "foot_radius_m", None) else 0.0)
     for faces in piece.faces:
-        level = np.abs(surface.plane(piece.points - part.model.center)[:, 2]) < _SAME * size
+        level = np.abs(surface.plane(piece.points - part.model.center)[:, 2]) < near
         chosen = faces[level[faces].all(axis=1)]
         corners = piece.points[chosen]
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, -1] - corners[:, 0])
-        found.append(chosen[normals @ surface.normal > 0])
+        found.append(chosen[normals @ surface.normal > _SAME * np.linalg.norm(normals, axis=1)])
     return max(found, key=len)
 
 

@@ -48,7 +48,7 @@ class OfStructure:
 
     def limits(self) -> dict:
         """Of the summary: the least tilt of a body at which it would overturn by itself; of a structure no displacement is known beyond which it falls."""
-        return dict(critical_tilt_rad=min(foot.critical for foot in stances(self.structure).values()), u_critical_m=None)
+        return dict(critical_tilt_rad=min(foot.critical for foot in stances(self.structure, standing_of(self.case, self.structure)).values()), u_critical_m=None)
 
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
         tilts = {part.name: float(last[f"body/{part.name}/tilt"]) for part in self.structure.parts}

@@ -12,6 +12,7 @@ from fecolumn.mesh.quality import mass_properties
 from fecolumn.schema import InputError
 from fecolumn.structures.check_keys import material_of
 from fecolumn.structures.faces import Face, plane_faces
+from fecolumn.structures.feet import domed, with_balls
 from fecolumn.structures.keys import Matrices, Storeys
 from fecolumn.structures.matrices import System, matrices_model, read_system
 from fecolumn.structures.model import BodyModel
@@ -54,6 +55,10 @@ class Drawing:
 
     def model(self, patches: dict[str, Patch], n_modes: int) -> tuple[BodyModel, np.ndarray | None]:
         """The body reduced to its patches; with the modes (m, n_nodes, 3) all over it where it is of finite elements."""
+        model, fields = self._flat_model(patches, n_modes)
+        return with_balls(model, self.body), fields
+
+    def _flat_model(self, patches: dict[str, Patch], n_modes: int) -> tuple[BodyModel, np.ndarray | None]:
         if isinstance(self.body, Matrices):
             def refuse(allowed):
                 raise InputError(self.file, f"{self.key}.stiffness_file", self.body.stiffness_file, allowed)
@@ -78,6 +83,9 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
         system = read_system(key, body, file)
         return Drawing(key, body, None, system, system.faces(), None, file)
     shape = shape_of(key, body, file, spots)
+    faces = plane_faces(shape.mesh)
+    if getattr(body, "foot_radius_m", None):
+        shape, faces = domed(body, shape, faces)
     material = material_of(body, case.materials)
     if body.mass_kg is not None:
         volume = mass_properties(shape.mesh, 1.0).volume
@@ -85,4 +93,4 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
             material = dataclasses.replace(material, density_kg_m3=body.mass_kg / volume)
         except InputError as error:
             raise InputError(file, f"{key}.mass_kg", body.mass_kg, f"makes a density of {body.mass_kg / volume:.4g} kg/m3 in {volume:.4g} m3: {error.allowed}") from None
-    return Drawing(key, body, shape, None, plane_faces(shape.mesh), material, file)
+    return Drawing(key, body, shape, None, faces, material, file)

@@ -233,6 +233,11 @@ def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
 
 def _check_integration(case, refuse) -> None:
     plan = case.integration
+    if plan.engine == "full":
+        for name, body in case.bodies.items():
+            for key in ("foot_radius_m", "edge_radius_m"):
+                if value := getattr(body, key, None):
+                    refuse(f"bodies.{name}.{key}", value, 'must be left out with integration.engine = "full": feet that are not flat are computed by the reduced and the rigid engine')
     if plan.engine not in ("full", "reduced", "rigid"):
         refuse("integration.engine", plan.engine, "must be full, reduced or rigid for a structure of [bodies]")
     for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic"), ("contact", "rolling_resistance", 0.0)):

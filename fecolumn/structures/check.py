@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 
 import numpy as np
 from scipy.optimize import linprog
@@ -89,8 +90,11 @@ def _to_surface(drawing, point) -> float:
 
 def check_joints(joints, standing, file) -> None:
     """Refuse slaves that hardly have a node on their master."""
+    count = Counter()
     for joint in joints:
-        if len(touching(standing, joint)) < 3:
+        count[frozenset((joint.slave, joint.master))] += len(touching(standing, joint))
+    for joint in joints:
+        if count[frozenset((joint.slave, joint.master))] < (1 if joint.ball and joint.ball.is_dome else 3):
             raise InputError(file, f"interfaces.{joint.name.partition(':')[0]}", None, f'fewer than three nodes of "{standing[joint.slave].name}" lie on '
                              f'"{standing[joint.master].name}": exchange slave and on, or make its elements smaller')
 
@@ -123,7 +127,7 @@ def _check_rest(structure, standing, file) -> None:
     """Refuse bodies that no contact forces within their cones, and no forces of links, hold at rest: what is missing least is a linear programme."""
     columns, bounds, rows = [], [], 6 * len(structure.parts)
     weights = np.array([part.model.mass for part in structure.parts]) * GRAVITY
-    sizes = np.array([np.ptp(part.model.arms, axis=0).max() for part in structure.parts])
+    sizes = np.array([math.sqrt(np.trace(part.model.inertia) / part.model.mass) for part in structure.parts])
 
     def act(column, place, force, point):
         if place != GROUND:
@@ -134,7 +138,7 @@ def _check_rest(structure, standing, file) -> None:
         slave = standing[joint.slave]
         surface = slave.model.surfaces[joint.slave_surface]
         for row in touching(standing, joint):
-            point = slave.center + slave.model.arms[surface.nodes[row]]
+            point = slave.center + slave.model.arms[surface.nodes[row]] + (joint.ball.radius * surface.normal if joint.ball else 0.0)
             for angle in 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS if joint.friction else [None]:
                 along = np.zeros(3) if angle is None else joint.friction * (math.cos(angle) * surface.axes[:, 0] + math.sin(angle) * surface.axes[:, 1])
                 force, column = along - surface.normal, np.zeros(rows)

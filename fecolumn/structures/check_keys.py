@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from fecolumn.case import Material
-from fecolumn.structures.keys import Block, Matrices, Meshed, Plate, Solid, Storeys, Stuff, Tube
+from fecolumn.structures.feet import half_sides, rise
+from fecolumn.structures.keys import Block, Footed, Matrices, Meshed, Plate, Solid, Storeys, Stuff, Tube
 
 
 def material_of(body: Stuff, materials: dict[str, Material]) -> Material:
@@ -50,6 +51,8 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
         return
     if body.coarse_size_m is not None and body.coarse_size_m < (body.element_size_m or 0.0):
         refuse(f"{key}.coarse_size_m", body.coarse_size_m, f"must be at least element_size_m = {body.element_size_m:g} m")
+    if isinstance(body, Footed):
+        _check_foot(key, body, refuse)
     if isinstance(body, (Block, Plate)):
         shorter = min(body.length_m, body.width_m)
         if (size := body.element_size_m) is not None and size > shorter:
@@ -67,6 +70,22 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
     around = math.pi * body.outer_diameter_m
     if (size := body.element_size_m) is not None and size > around / 12:
         refuse(f"{key}.element_size_m", size, f"must be at most {around / 12:.4g} m: fewer than 12 elements around do not make a round body")
+
+
+def _check_foot(key: str, body: Footed, refuse) -> None:
+    """Refuse spheres and edges that the foot has no room for."""
+    halves = half_sides(body)
+    if (radius := body.foot_radius_m) is not None:
+        if body.edge_radius_m:
+            refuse(f"{key}.edge_radius_m", body.edge_radius_m, "must be 0 where foot_radius_m makes the foot a dome")
+        if getattr(body, "flange", None):
+            refuse(f"{key}.foot_radius_m", radius, "must stand without a flange: the foot of a flange is flat, or has an edge_radius_m")
+        if radius < (least := math.hypot(*halves)) * (1 - 1e-9):
+            refuse(f"{key}.foot_radius_m", radius, f"must be at least {least:.6g} m, the {'half diagonal' if halves[1] else 'radius'} of the foot")
+        if rise(body) >= body.height_m:
+            refuse(f"{key}.foot_radius_m", radius, f"makes a dome {rise(body):.4g} m high, which must be less than height_m = {body.height_m:g} m")
+    if body.edge_radius_m >= (least := min(half for half in halves if half)):
+        refuse(f"{key}.edge_radius_m", body.edge_radius_m, f"must be less than {least:g} m, half the smaller side of the foot")
 
 
 def _check_storeys(key: str, body: Storeys, refuse) -> None:

@@ -82,7 +82,6 @@ def _alike(planes: np.ndarray) -> list[np.ndarray]:
 
 
 
-
 def over(points: np.ndarray, triangles: np.ndarray, tolerance: float) -> np.ndarray:
     """Which points (n, 2) lie in any of the triangles (t, 3, 2) of a plane, or within `tolerance` [m] of one."""
     inside = np.zeros(len(points), bool)
@@ -97,3 +96,8 @@ def over(points: np.ndarray, triangles: np.ndarray, tolerance: float) -> np.ndar
         t = (offset[..., 1] * ab[:, 0] - offset[..., 0] * ab[:, 1]) / double
         inside[first:first + 256] = ((s >= -slack) & (t >= -slack) & (s + t <= 1 + slack)).any(axis=1)
     return inside
+
+
+def triangles_of(quads: np.ndarray) -> np.ndarray:
+    """Triangles (t, 3, 2) of faces (n, 4 or 3, 2)."""
+    return quads if quads.shape[1] == 3 else np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

@@ -49,7 +49,15 @@ class Solid(Stuff):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Tube(Solid):
+class Footed(Solid):
+    """Tubes, cylinders and blocks: a foot that is not flat, in the reduced and rigid engine."""
+
+    foot_radius_m: float | None = parameter(None, doc="radius of the sphere of which the foot is a cap, its lowest point at the place of the body; the body rolls on it, and beyond its edge on that; at least the radius of a round body, the half diagonal of a block; left out: a flat foot", unit="m", above=0, high=1e5, since="0.6")
+    edge_radius_m: float = parameter(0.0, doc="radius by which the outer edge of a flat foot is rounded; less than half its smaller side", unit="m", low=0, high=50, since="0.6")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tube(Footed):
     """kind = "tube": a hollow cylinder, its axis along z."""
 
     kind: str = parameter("tube", doc="what the body is", choices=("tube",))
@@ -61,7 +69,7 @@ class Tube(Solid):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Cylinder(Solid):
+class Cylinder(Footed):
     """kind = "cylinder": a solid cylinder, its axis along z: a column, a drum."""
 
     kind: str = parameter("cylinder", doc="what the body is", choices=("cylinder",))
@@ -72,7 +80,7 @@ class Cylinder(Solid):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Block(Solid):
+class Block(Footed):
     """kind = "block": a rectangular block."""
 
     kind: str = parameter("block", doc="what the body is", choices=("block",))

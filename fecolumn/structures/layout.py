@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 
+import numpy as np
+
+from fecolumn.schema import InputError
 from fecolumn.structures.bodies import Drawing, drawing
+from fecolumn.structures.edges import Edge, edge_patch, edges_of
 from fecolumn.structures.faces import Face
+from fecolumn.structures.feet import ball_of, lifted
 from fecolumn.structures.keys import Plate, Storeys
 from fecolumn.structures.meetings import Meeting, meetings_of, place_of
 from fecolumn.structures.patches import Patch, master_patch, slave_patch
@@ -43,13 +49,19 @@ def layout_of(case, file) -> Layout:
     if spots:
         drawings |= {name: drawing(case, name, file, places) for name, places in spots.items()}
         meetings = meetings_of(case, {name: one.faces for name, one in drawings.items()}, file)
-    patches, contacts = {name: {} for name in case.bodies}, []
+    for meeting in meetings:
+        if meeting.master and ball_of(case.bodies[meeting.master[0]]) and _surface_name(drawings[meeting.master[0]].faces, meeting.master_face, "slave") == "foot":
+            raise InputError(file, f"interfaces.{meeting.interface}.on", case.interfaces[meeting.interface].on, f'must be the slave: the foot of "{meeting.master[0]}" is not flat')
+    patches, contacts, edges = {name: {} for name in case.bodies}, [], edges_of(case, drawings, meetings)
     for body in case.bodies:
-        patches[body] = _patches(case, body, drawings[body], meetings)
+        patches[body] = _patches(case, body, drawings[body], meetings, edges)
     for meeting in meetings:
         slave = _surface_name(drawings[meeting.slave[0]].faces, meeting.slave_face, "slave")
         master = meeting.master and _surface_name(drawings[meeting.master[0]].faces, meeting.master_face, "master")
         contacts.append(Contact(meeting.interface, meeting.slave, slave, meeting.master, master))
+    for edge in edges:
+        slave = _surface_name(drawings[edge.lower[0]].faces, edge.lower_face, "edge")
+        contacts.append(Contact(edge.interface, edge.lower, slave, edge.upper, _surface_name(drawings[edge.upper[0]].faces, edge.upper_face, "master")))
     return Layout(drawings, patches, tuple(contacts))
 
 
@@ -70,7 +82,7 @@ def _spots(case, drawings, meetings: list[Meeting]) -> dict[str, list]:
     return found
 
 
-def _patches(case, body: str, one: Drawing, meetings: list[Meeting]) -> dict[str, Patch]:
+def _patches(case, body: str, one: Drawing, meetings: list[Meeting], edges: list[Edge]) -> dict[str, Patch]:
     """Contact points of a body by the names of its surfaces, all copies together."""
     slaves, masters = {}, {}
     for meeting in meetings:
@@ -80,15 +92,27 @@ def _patches(case, body: str, one: Drawing, meetings: list[Meeting]) -> dict[str
             slaves[meeting.slave_face] = max(interior, slaves.get(meeting.slave_face, 0))
         if meeting.master and meeting.master[0] == body:
             masters.setdefault(meeting.master_face, set()).add(meeting.zone)
-    found = {_surface_name(one.faces, face, "slave"): slave_patch(one.faces[face], one.order, interior) for face, interior in slaves.items()}
+    found = {}
+    for face, interior in slaves.items():
+        drawn, name = one.faces[face], _surface_name(one.faces, face, "slave")
+        if name == "foot" and getattr(one.body, "foot_radius_m", None):
+            drawn = dataclasses.replace(drawn, corners=lifted(one.body, drawn.corners))
+        avoided = [edge.avoided for edge in edges if edge.upper[0] == body and edge.upper_face == face]
+        found[name] = slave_patch(drawn, one.order, interior, np.concatenate(avoided) if avoided else None)
+    for face in sorted({edge.lower_face for edge in edges if edge.lower[0] == body}):
+        points = [edge.points for edge in edges if edge.lower[0] == body and edge.lower_face == face]
+        found[_surface_name(one.faces, face, "edge")] = edge_patch(one.faces[face], one.order, np.concatenate(points))
+    for edge in edges:
+        if edge.upper[0] == body:
+            masters.setdefault(edge.upper_face, set()).add(edge.zone)
     found |= {_surface_name(one.faces, face, "master"): master_patch(one.faces[face], one.order, sorted(zones)) for face, zones in masters.items()}
     return found
 
 
 def _surface_name(faces: list[Face], number: int, role: str) -> str:
-    """Name of a face: "foot", "head" or "face 3"; of a master with ", master", as its nodes are others."""
+    """Name of a face: "foot", "head" or "face 3"; of a master with ", master", of the edge of one with ", edge", as its nodes are others."""
     level = [k for k, face in enumerate(faces) if abs(face.normal[2]) > 1 - 1e-9]
     bottom = min((k for k in level if faces[k].normal[2] < 0), key=lambda k: -faces[k].offset, default=None)
     top = max((k for k in level if faces[k].normal[2] > 0), key=lambda k: faces[k].offset, default=None)
     name = "foot" if number == bottom else "head" if number == top else f"face {number + 1}"
-    return f"{name}, master" if role == "master" else name
+    return name if role == "slave" else f"{name}, {role}"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.schema import InputError
-from fecolumn.structures.faces import SAME_PLANE, Face, over
+from fecolumn.structures.faces import SAME_PLANE, Face, over, triangles_of
 from fecolumn.structures.keys import GROUND
 from fecolumn.structures.patches import plane_box
 
@@ -15,6 +15,8 @@ from fecolumn.structures.patches import plane_box
 _NEAR = 0.05
 # Cosine from which faces look at one another
 _OPPOSITE = 1e-5
+# Shares of an element face's corners in a point of it that no regular grid has
+_OFF_MIDDLE = np.array([0.41, 0.29, 0.17, 0.13])
 
 
 @dataclass(frozen=True)
@@ -92,6 +94,12 @@ def place_of(case, copy: tuple[str, int]) -> np.ndarray:
     return np.array(case.bodies[copy[0]].places[copy[1]])
 
 
+def allowance_of(interface, face: Face) -> float:
+    """How far [m] a slave with this face may slide."""
+    box = plane_box(face)
+    return min(box[1] - box[0], box[3] - box[2]) / 4 if interface.allowance_m is None else interface.allowance_m
+
+
 def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list[tuple[float, float, int]]]:
     """Meetings of two copies; and gap, slave's width [m] and slave's face of those faces that look at one another elsewhere."""
     found, gaps, interface = [], [], case.interfaces[name]
@@ -116,7 +124,7 @@ def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list
             if not _overlap(face, corners, other):
                 continue
             if abs(gap) <= SAME_PLANE * width:
-                allowance = width / 4 if interface.allowance_m is None else interface.allowance_m
+                allowance = allowance_of(interface, face)
                 low, high = corners.min(axis=(0, 1)) - allowance, corners.max(axis=(0, 1)) + allowance
                 found.append(Meeting(name, slave, number, master, other_number, (low[0], high[0], low[1], high[1])))
             else:
@@ -139,12 +147,9 @@ def _overlap(face: Face, corners: np.ndarray, other: Face) -> bool:
         return False
 
     def tried(quads):
-        return np.concatenate([quads.reshape(-1, 2), quads.mean(axis=1)])
+        # besides a point off the middle: corners and middles may all lie on edges of the other's elements
+        shares = _OFF_MIDDLE[:quads.shape[1]] / _OFF_MIDDLE[:quads.shape[1]].sum()
+        return np.concatenate([quads.reshape(-1, 2), quads.mean(axis=1), np.einsum("k,nka->na", shares, quads)])
 
-    mine, theirs = (_triangles(quads) for quads in (corners, plane))
+    mine, theirs = (triangles_of(quads) for quads in (corners, plane))
     return bool(over(tried(corners), theirs, edge).any() or over(tried(plane), mine, edge).any())
-
-
-def _triangles(quads: np.ndarray) -> np.ndarray:
-    """Triangles (t, 3, 2) of faces (n, 4 or 3, 2)."""
-    return quads if quads.shape[1] == 3 else np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

@@ -120,6 +120,24 @@ class Part:
 
 
 @dataclass(frozen=True)
+class Ball:
+    """A slave's foot that is not flat: its nodes are the centres of balls with which it touches, see `contact.ball`.
+
+    radius: [m]. edge: (2,) [m] of a dome, which is a part of one ball: the radius of the circle where it ends and 0, or half the sides of a rectangle. The
+        surface then has one node, the centre of the ball, which moves as the foot does on the mean; the two rows after it are the foot's tilts,
+        by which its places along x and y move. (0, 0) where each node is the centre of a ball of its own.
+    """
+
+    radius: float
+    edge: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def is_dome(self) -> bool:
+        """Whether it is a dome, else a rounded edge."""
+        return self.edge[0] > 0.0
+
+
+@dataclass(frozen=True)
 class Joint:
     """A surface of one body on a surface of another, or on the ground: it may open, slide and roll.
 
@@ -128,6 +146,7 @@ class Joint:
     master: place of the other part, or GROUND; master_surface: None of the ground.
     friction: Coulomb's coefficient. law: (k, 3) [m/N] compliance of the contact law at each point, zero for a rigid interface.
     round: whether the slave's outer outline is a round rim, on which it rolls. restitution: velocity after over before an impact.
+    ball: of a slave whose foot is not flat.
     """
 
     name: str
@@ -139,6 +158,7 @@ class Joint:
     law: np.ndarray
     round: bool
     restitution: float
+    ball: Ball | None = None
 
 
 @dataclass(frozen=True)

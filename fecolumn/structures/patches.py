@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.footprint import footprint
+from fecolumn.contact.tolerances import EDGE
 from fecolumn.mesh.bricks import outline_edges
 from fecolumn.mesh.surface import face_points, nodal_areas
 from fecolumn.structures.faces import Face
@@ -37,17 +38,29 @@ class Patch:
         return Surface(np.asarray(nodes, np.int64), self.origin - center, self.axes, self.areas, self.outlines, self.triangles)
 
 
-def slave_patch(face: Face, order: int, interior: int) -> Patch:
-    """Contact points of a slave: all nodes on the outlines of its face, and about `interior` inside; see `contact.footprint`."""
-    whole = _whole(face, order)
+def slave_patch(face: Face, order: int, interior: int, avoided: np.ndarray | None = None) -> Patch:
+    """Contact points of a slave: all nodes on the outlines of its face, and about `interior` inside; see `contact.footprint`.
+
+    avoided: places (k, 3) [m] at which none is wanted, as a point of the master is there: of two in one place no contact law says how much each carries.
+    """
+    whole = whole_face(face, order)
     chosen = footprint(np.arange(len(whole.positions)), (whole.positions - whole.origin) @ whole.axes, whole.areas, whole.outlines, interior)
-    kept = chosen.nodes
-    return Patch(face.part, whole.positions[kept], whole.origin, whole.axes, chosen.areas, whole.outlines[kept], np.zeros((0, 3), np.int64))
+    kept = np.ones(len(chosen.nodes), bool)
+    if avoided is not None:
+        size = np.ptp(whole.positions, axis=0).max()
+        kept = (cKDTree(avoided).query(whole.positions[chosen.nodes])[0] > EDGE * size)
+    patch = node_patch(whole, chosen.nodes[kept])
+    return replace(patch, areas=chosen.areas[kept] * (chosen.areas.sum() / chosen.areas[kept].sum()))
+
+
+def node_patch(whole: Patch, nodes: np.ndarray) -> Patch:
+    """Some nodes (k,) of a face, as contact points of a slave."""
+    return replace(whole, positions=whole.positions[nodes], areas=whole.areas[nodes], outlines=whole.outlines[nodes], triangles=np.zeros((0, 3), np.int64))
 
 
 def master_patch(face: Face, order: int, zones) -> Patch:
     """Nodes of a master's face in and around `zones`, rectangles (low 1, high 1, low 2, high 2) [m] along its tangents in the drawing."""
-    whole = _whole(face, order)
+    whole = whole_face(face, order)
     plane = whole.positions @ whole.axes[:, :2]
     corners = plane[whole.triangles]
     low, high = corners.min(axis=1), corners.max(axis=1)
@@ -66,11 +79,11 @@ def plane_box(face: Face) -> tuple[float, float, float, float]:
 
 def face_weights(face: Face, order: int) -> tuple[np.ndarray, np.ndarray]:
     """Positions (k, 3) [m] of a face's nodes and their shares (k,) in a mean over it."""
-    whole = _whole(face, order)
+    whole = whole_face(face, order)
     return whole.positions, whole.areas / whole.areas.sum()
 
 
-def _whole(face: Face, order: int) -> Patch:
+def whole_face(face: Face, order: int) -> Patch:
     """All nodes of a face, row by row in an order that only their places decide."""
     axes = face.axes
     points = face_points(face.corners, order)

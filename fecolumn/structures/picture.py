@@ -91,7 +91,8 @@ def _meeting_point(structure, joint) -> np.ndarray:
     """Middle (3,) [m] of a joint's slave surface."""
     part = structure.parts[joint.slave]
     surface = part.model.surfaces[joint.slave_surface]
-    return part.center + part.rotation @ part.model.arms[surface.nodes].mean(axis=0)
+    middle = part.model.arms[surface.nodes].mean(axis=0)
+    return part.center + part.rotation @ (middle + (joint.ball.radius * surface.normal if joint.ball else 0.0))
 
 
 def _write(axes, labels, view_axes, centre, half, millimetres, side) -> None:

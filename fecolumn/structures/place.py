@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from fecolumn._compiled import interpreted
+from fecolumn.case import GRAVITY
+from fecolumn.contact.ball import from_center
+from fecolumn.contact.interface import interface_of
 from fecolumn.contact.rim import Rim
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.schema import InputError
@@ -61,12 +66,12 @@ def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placed]:
         InputError: a part whose supports lead it to different places.
     """
     turns = [_turn(part.start) for part in standing]
-    supports = _supports(standing, joints)
+    supports = supports_of(standing, joints)
     found: dict[int, Placed] = {}
     for place in _from_below(supports):
         part, centers, pivot = standing[place], [], None
-        for below, joint in supports[place]:
-            pivot, center = _on(standing, joint, place, below, turns, found)
+        for below, between in supports[place]:
+            pivot, center = _on(standing, between, place, below, turns, found)
             centers.append(center)
         center = np.mean(centers, axis=0) if centers else part.center
         if centers and np.abs(np.array(centers) - center).max() > _AGREE * (1 + np.ptp(part.model.arms, axis=0).max()):
@@ -84,16 +89,29 @@ def _turn(start) -> np.ndarray:
     return rotation_matrix(start.tilt_rad * np.array([-np.sin(direction), np.cos(direction), 0.0]))
 
 
-def _supports(standing, joints) -> list[list[tuple[int, Joint]]]:
-    """Of each part what it stands on, GROUND or a part, and the joint between."""
-    found = [[] for _ in standing]
+def supports_of(standing, joints) -> list[list[tuple[int, list[Joint]]]]:
+    """Of each part what it stands on, GROUND or a part, and the joints between."""
+    found = [{} for _ in standing]
     for joint in joints:
         down = standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]
         if down < -_EDGE:
-            found[joint.slave].append((joint.master, joint))
+            found[joint.slave].setdefault(joint.master, []).append(joint)
         elif down > _EDGE and joint.master != GROUND:
-            found[joint.master].append((joint.slave, joint))
-    return found
+            found[joint.master].setdefault(joint.slave, []).append(joint)
+    return [list(one.items()) for one in found]
+
+
+def loads(standing, joints) -> list[float]:
+    """Force [N] that each joint carries at rest: what a part and all on it weigh, in equal shares on what it stands on."""
+    supports, carried = supports_of(standing, joints), [part.model.mass * GRAVITY for part in standing]
+    found = {id(joint): 0.0 for joint in joints}
+    for place in reversed(_from_below(supports)):
+        for below, between in supports[place]:
+            share = carried[place] / len(supports[place])
+            found |= {id(joint): share for joint in between}
+            if below != GROUND:
+                carried[below] += share
+    return [found[id(joint)] for joint in joints]
 
 
 def _from_below(supports) -> list[int]:
@@ -106,37 +124,66 @@ def _from_below(supports) -> list[int]:
     return order
 
 
-def _on(standing, joint: Joint, upper: int, below: int, turns, found) -> tuple[np.ndarray, np.ndarray]:
+def _on(standing, joints: list[Joint], upper: int, below: int, turns, found) -> tuple[np.ndarray, np.ndarray]:
     """Point (3,) [m] about which a part is turned on what is below it, and where its centre (3,) of mass comes."""
     part = standing[upper]
     base = np.eye(3) if below == GROUND or below not in found else found[below].rotation
     relative = base.T @ turns[upper]
-    pivot = _pivot(standing, joint, relative[:, 2] * [1.0, 1.0, 0.0])
+    pivot, joint = _pivot(standing, joints, relative[:, 2] * [1.0, 1.0, 0.0])
 
     def carried(point):
         if below == GROUND or below not in found:
             return point
         return found[below].center + base @ (point - standing[below].center)
 
-    return carried(pivot), carried(pivot + relative @ (part.center - pivot))
+    touched, offset = _rolled(standing, joint, pivot, relative)
+    return carried(touched), carried(touched + relative @ (part.center - pivot - offset))
 
 
-def _pivot(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
-    """Point (3,) [m] of a joint farthest in the direction `ahead`, as the bodies stand; of a round rim on its circle, of an edge its middle."""
+def _rolled(standing, joint: Joint, pivot: np.ndarray, turn: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where a slave that is turned by (3, 3) touches (3,) [m], and its way (3,) there from the pivot, in its own frame: a ball about the pivot has rolled there."""
+    if joint.ball is None:
+        return pivot, np.zeros(3)
+    normal = -standing[joint.slave].model.surfaces[joint.slave_surface].normal
+    interface, offset, lean = interface_of(np.zeros((1, 3))), np.zeros(3), turn[:, 2] - normal * (turn[:, 2] @ normal)
+    interface["ball"], interface["edge"] = joint.ball.radius, joint.ball.edge
+    interpreted(from_center)(interface[0], turn.T @ normal, offset)
+    across = np.linalg.norm(offset - normal * (offset @ normal))
+    length = np.linalg.norm(lean)
+    way = joint.ball.radius * math.asin(min(across / joint.ball.radius, 1.0)) * lean / length if length > _UPRIGHT else np.zeros(3)
+    return pivot - joint.ball.radius * normal + way, offset
+
+
+def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray, Joint]:
+    """Point (3,) [m] of joints farthest in the direction `ahead`, as the bodies stand, and its joint; of a round rim on its circle, of an edge its middle.
+
+    Of a foot that touches with balls it is the centre of one.
+    """
+    length = np.linalg.norm(ahead)
+    if length >= _UPRIGHT:
+        ahead = ahead / length
+    farthest = [_farthest(standing, joint, ahead, length >= _UPRIGHT) for joint in joints]
+    reached = [point @ ahead if len(touching(standing, joint)) else -math.inf for point, joint in zip(farthest, joints)]
+    first = int(np.argmax(np.array(reached) + 0.0)) if length >= _UPRIGHT else 0
+    return farthest[first], joints[first]
+
+
+def _farthest(standing, joint: Joint, ahead: np.ndarray, leans: bool) -> np.ndarray:
+    """As `_pivot`, of one joint; ahead: unit vector (3,) where it leans."""
     slave = standing[joint.slave]
     surface = slave.model.surfaces[joint.slave_surface]
     arms = slave.model.arms[surface.nodes]
-    points = slave.center + arms[touching(standing, joint)]
-    middle = points.mean(axis=0)
-    length = np.linalg.norm(ahead)
-    if length < _UPRIGHT:
-        return middle
-    ahead = ahead / length
+    rows = touching(standing, joint)
+    points = slave.center + arms[rows]
+    if not len(points):
+        return slave.center + arms.mean(axis=0)
+    if not leans:
+        return points.mean(axis=0)
     rim = Rim.find(surface.plane(arms)) if joint.round else None
-    if rim is not None:
+    if rim is not None and np.isin(rim.nodes, rows).all():
         return slave.center + arms[rim.nodes].mean(axis=0) + rim.radius * ahead
     far = points @ ahead
-    return points[far > far.max() - _EDGE * np.ptp(points, axis=0).max()].mean(axis=0)
+    return points[far >= far.max() - _EDGE * np.ptp(points, axis=0).max()].mean(axis=0)
 
 
 def _moving(part: Standing, center, pivot, turn, supports, joints, standing) -> tuple[np.ndarray, np.ndarray]:
@@ -148,8 +195,7 @@ def _moving(part: Standing, center, pivot, turn, supports, joints, standing) -> 
         return velocity, spin
     axis = pivot
     if not part.start.tilt_rad:
-        joint = supports[0][1]
-        pivot = _pivot(standing, joint, np.array([spin[1], -spin[0], 0.0])) + center - part.center
-        axis = _pivot(standing, joint, np.zeros(3)) + center - part.center
+        pivot, axis = (_rolled(standing, joint, point, np.eye(3))[0] + center - part.center for point, joint in (
+            _pivot(standing, supports[0][1], ahead) for ahead in (np.array([spin[1], -spin[0], 0.0]), np.zeros(3))))
     level = spin * [1.0, 1.0, 0.0]
     return velocity + np.cross(level, center - pivot) + np.cross(spin - level, center - axis), spin

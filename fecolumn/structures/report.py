@@ -51,7 +51,7 @@ def _interfaces(case, structure):
     for joint in structure.joints:
         surface = structure.parts[joint.slave].model.surfaces[joint.slave_surface]
         over = touching(standing, joint)
-        yield f"{joint.name:<50}{len(surface.nodes):>8}{len(over):>15}{surface.areas[over].sum():>12.5g}{joint.friction:>10.3g}{'round' if joint.round else 'edges':>8}"
+        yield f"{joint.name:<50}{len(surface.nodes):>8}{len(over):>15}{surface.areas[over].sum():>12.5g}{joint.friction:>10.3g}{'dome' if joint.ball and joint.ball.is_dome else 'round' if joint.round else 'edges':>8}"
 
 
 def _links(structure):

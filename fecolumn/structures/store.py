@@ -29,7 +29,7 @@ SOURCES = (
     "_dolfinx.py", "material", "fem/body.py", "fem/effective.py", "fem/free_body.py", "fem/modes.py", "fem/rayleigh.py",
     "mesh/base_plate.py", "mesh/bricks.py", "mesh/gmsh_section.py", "mesh/imported.py", "mesh/jacobian.py", "mesh/quality.py", "mesh/section.py",
     "mesh/surface.py", "mesh/tie.py", "contact/footprint.py", "contact/tolerances.py", "dynamics/assembly.py", "reduced/build.py",
-    *(f"structures/{name}.py" for name in ("bodies", "faces", "layout", "lines", "matrices", "meetings", "model", "patches", "reduction",
+    *(f"structures/{name}.py" for name in ("bodies", "edges", "faces", "feet", "layout", "lines", "matrices", "meetings", "model", "patches", "reduction",
                                            "shapes", "store", "storeys")))
 #: Modes that a body keeps at least, so that analyses with fewer share it.
 KEPT_MODES = 30

@@ -16,10 +16,11 @@ from fecolumn.structures import model as models
 from fecolumn.structures.case import identity
 from fecolumn.structures.check import check_joints, check_layout, check_points, check_structure
 from fecolumn.structures.check_keys import material_of
+from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.keys import GROUND, Matrices, Storeys
 from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
-from fecolumn.structures.place import Standing, placed
+from fecolumn.structures.place import Standing, loads, placed
 from fecolumn.structures.store import KEPT_MODES, keep_body, keep_layout, kept_body, kept_layout, key_of
 
 # Keys of a body that no operator has
@@ -119,11 +120,14 @@ def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> Structu
     standing = _standing(case, copies, [kept[name] for name, _ in copies])
     joints = [_joint(case, contact, kept, places, layout["sizes"], file) for contact in layout["contacts"]]
     check_joints(joints, standing, file)
+    joints = _with_hertz(case, joints, standing, copies)
     parts = tuple(Part(one.name, one.model, there.center, there.rotation, _damping(case, name, one.model), there.velocity, there.spin)
                   for (name, _), one, there in zip(copies, standing, placed(standing, joints, file)))
     links = tuple(link for name in case.links for link in _links(case, name, places, standing))
-    structure = StructureModel(parts, tuple(joints), links, rigid_base(np.concatenate([one.center + one.model.arms for one in standing])), _observed(case, parts, places, file))
     extents = [np.array(layout["extents"][name]) - one.model.center for (name, _), one in zip(copies, standing)]
+    # a dome has one node, which is no measure of it
+    ground = rigid_base(np.concatenate([one.center + reach for one, own in zip(standing, extents) for reach in (one.model.arms, own)]))
+    structure = StructureModel(parts, tuple(joints), links, ground, _observed(case, parts, places, file))
     check_structure(case, structure, standing, extents, file)
     return structure
 
@@ -159,11 +163,26 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
         raise InputError(file, f"interfaces.{name}.law", contact_keys.law, f'must be augmented_lagrange where the slave, "{body}", has no elements')
     youngs = 0.0 if body not in sizes else material_of(case.bodies[body], case.materials).youngs_modulus_pa
     law = interface_compliance(contact_keys, youngs, sizes.get(body, 1.0), surface.areas)
-    round_rim = Rim.find(surface.plane(model.arms[surface.nodes])) is not None
+    ball = ball_of(case.bodies[body]) if contact["slave_surface"] == "foot" else None
+    round_rim = not (ball and ball.is_dome) and Rim.find(surface.plane(model.arms[surface.nodes])) is not None
     title = case.names_of(body)[number]
     where = GROUND if master is None else case.names_of(master[0])[master[1]]
-    return Joint(f"{name}: {title} on {where}", places[body, number], contact["slave_surface"], models.GROUND if master is None else places[tuple(master)],
-                 contact["master_surface"], contact_keys.friction_coefficient, law, round_rim, contact_keys.restitution)
+    shown = f"{name}, edge" if contact["slave_surface"].endswith(", edge") else name
+    return Joint(f"{shown}: {title} on {where}", places[body, number], contact["slave_surface"], models.GROUND if master is None else places[tuple(master)],
+                 contact["master_surface"], contact_keys.friction_coefficient, law, round_rim, contact_keys.restitution, ball)
+
+
+def _with_hertz(case, joints, standing, copies) -> list[Joint]:
+    """The joints, domes with the compliance of a sphere on what they stand on, linear about what they carry at rest."""
+    found = []
+    for joint, load in zip(joints, loads(standing, joints)):
+        if joint.ball and joint.ball.is_dome:
+            bodies = [case.bodies[copies[place][0]] for place in (joint.slave, joint.master) if place != models.GROUND]
+            if bodies[0].contact_stiffness_n_m3 is None:
+                materials = [material_of(body, case.materials) for body in bodies if not isinstance(body, Matrices)]
+                joint = dataclasses.replace(joint, law=joint.law + hertz(joint.ball.radius, load, *materials))
+        found.append(joint)
+    return found
 
 
 def _damping(case, name: str, model: BodyModel):

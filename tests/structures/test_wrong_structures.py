@@ -6,7 +6,8 @@ from small_structures import block, frame, stack, structure
 
 from fecolumn.case import case_from_tables, read_case
 from fecolumn.schema import InputError, merge
-from fecolumn.structures.structure import structure_model
+from fecolumn.structures.check import check_joints
+from fecolumn.structures.structure import standing_of, structure_model
 
 LINK = dict(kind="spring", body="upper", point_m=[0, 0, 0.3], to="ground", to_point_m=[0, 1, 0.3], stiffness_n_m=1e5)
 STOREYS = dict(kind="storeys", length_m=1.0, width_m=1.0, thickness_m=0.2, floors=3, floor_masses_kg=[1.0, 2.0], storey_heights_m=[1.0], period_s=1.0)
@@ -108,10 +109,13 @@ def test_mesh_file_of_a_body_counts_by_content_and_from_the_cases_folder(tmp_pat
         read_case(tmp_path / "case.toml")
 
 
-def test_foot_of_a_plate_on_columns_needs_the_columns_as_slaves():
-    tables = merge(frame(slab=dict(element_size_m=0.6)), dict(interfaces=dict(heads=dict(slave="slab", on="column"))))
-    with pytest.raises(InputError, match="exchange slave and on"):
-        structure_model(structure(**tables))
+def test_coarse_plate_on_columns_stands_on_the_edges_of_their_heads_and_not_on_its_own_nodes():
+    case = structure(**merge(frame(slab=dict(element_size_m=0.6)), dict(interfaces=dict(heads=dict(slave="slab", on="column")))))
+    made = structure_model(case)
+    edges = [joint for joint in made.joints if joint.name.startswith("heads, edge: column")]
+    assert len(edges) == 4 and all(joint.round and joint.master == 4 for joint in edges)
+    with pytest.raises(InputError, match="interfaces.heads.*exchange slave and on"):
+        check_joints([joint for joint in made.joints if joint not in edges], standing_of(case, made), "small.toml")
 
 
 def test_block_alone_is_a_structure():
