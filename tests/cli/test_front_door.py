@@ -36,7 +36,7 @@ def test_manual_has_the_table_of_keys_as_it_is_now():
 @pytest.mark.parametrize("name, words", [
     ("contact.friction_coefficient", ["friction_coefficient: in [0, 10]; default 0.3", "Coulomb"]),
     ("dt_s", ["[integration]", "dt_s [s]: greater than 0 and at most 0.1; default 0.001", "[motion]"]),
-    ("integration.engine", ["one of full, reduced, rigid, housner, wobbling; default full (in a study reduced)"]),
+    ("integration.engine", ["one of full, reduced, rigid, housner, wobbling, rocking_frame, wobbling_frame, podium; default full (in a study reduced)"]),
     ("study", ["samples: whole number, in [1, 1000000]; default required", "[[zip]]"])])
 def test_keys_of_a_section_tell_range_unit_and_default(name, words, capsys):
     assert main(["keys", name]) == 0

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.signal import StateSpace, lsim
 
 from benchmarks.podium.ensemble import batches, gathered, responses
 from fecolumn.motions.record import GroundMotion
@@ -11,6 +12,7 @@ from fecolumn.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED
 from fecolumn.report.podium_claims import compared, podium_claims
 from fecolumn.rocking.podium import Podium, PodiumSection, study_podium
 from fecolumn.rocking.podium_impact import CAV, CRV, LAWS, kinetic_energy_kept
+from fecolumn.rocking.podium_motion import DAMPED, KINETIC, SHEAR, STRAIN, WORK
 from fecolumn.rocking.storeys import PROFILES, storeys
 from fecolumn.schema import InputError
 from fecolumn.verification.podium import run
@@ -60,6 +62,21 @@ def test_a_steady_ground_acceleration_below_g_tan_alpha_starts_no_rocking_and_ab
         ramp = np.clip(np.arange(3000) / 2500, 0, 1) * share * 9.80665 * 0.15
         peak = podium.shake(np.column_stack([ramp, 0 * ramp]), 0.01)[3]
         assert (peak > 0) == rocks
+
+
+def test_a_standing_building_is_stepped_exactly():
+    """Base shear below a motion too weak to lift it, against scipy's exact response of each mode to a straight-line input; and the energy balance."""
+    podium, dt = study_podium("shear", 6, CRV), 0.02
+    building, ground = podium.building, 0.3 * np.random.default_rng(5).standard_normal(400)
+    rows, impacts, *_ = podium.shake(np.column_stack([ground, 0 * ground]), dt)
+    shear, parts = np.zeros(len(ground)), building.participation / math.sqrt(podium.building_mass)
+    for omega, xi, part in zip(building.omega, building.damping, parts):
+        mode = StateSpace([[0, 1], [-omega**2, -2 * xi * omega]], [[0], [-part]], np.eye(2), np.zeros((2, 1)))
+        _, states, _ = lsim(mode, ground, dt * np.arange(len(ground)))
+        shear += part * (omega**2 * states[:, 0] + 2 * xi * omega * states[:, 1])
+    assert not len(impacts) and rows[:, SHEAR] == pytest.approx(shear, abs=1e-10 * np.abs(shear).max())
+    total = rows[:, KINETIC] + rows[:, STRAIN] - rows[:, WORK] - rows[:, DAMPED]
+    assert np.abs(total).max() < 1e-10 * rows[:, KINETIC].max() and (np.diff(rows[:, DAMPED]) < 0).all()
 
 
 def test_it_falls_when_released_beyond_its_critical_tilt_or_pushed_hard():
