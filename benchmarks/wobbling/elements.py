@@ -81,7 +81,7 @@ _STUDY = """title = "Restrained wobbling frame"
 extends = "frame.toml"
 motion.strong_part = [0.001, 0.999]   # [A] of the Arias intensity: before it the frame stands
 
-[axes]                              # a motion after the other: what is stopped has whole bins
+[axes]
 "motion.source" = [{motions}]
 "integration.engine" = [{engines}]
 """

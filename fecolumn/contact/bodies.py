@@ -15,7 +15,8 @@ BODY = record(("mass", "f8"), ("inverse_mass", "f8"), ("inertia", "f8", (3, 3)),
 
 
 #: A triangle of a body's surface on which others stand: nodes (3,), rows of all bodies; neighbours (3,): across the side opposite to each, -1 at an
-#: outline; corners: (3, 2) [m] in the frame of the surface.
+#: outline, GOES_ON where the body's face goes on without nodes that are known; corners: (3, 2) [m] in the frame of the surface.
+GOES_ON = -2
 FACET = record(("nodes", "i8", 3), ("neighbours", "i8", 3), ("corners", "f8", (3, 2)))
 
 

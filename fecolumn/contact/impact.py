@@ -105,7 +105,7 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
 
     The points that held the foot before carry it until the moment of impact, all together from then on: two projections, without
     which the weight's impulse of the whole step would act at the new contact. Where a long step would gain energy by them, because its positions know
-    the new contact only, a single projection is made; where the end of slip would gain, none.
+    the new contact only, a single projection is made; where that gains, too, they change by the share that gains nothing. Where the end of slip would gain, none.
 
     Args:
         listed: (k,) points that may carry. arms: (n, 3) of the points on their slaves at the end of the step [m]. early, late: (n, 3) velocities [m/s], relative to the master, at least of
@@ -175,8 +175,14 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
         taken = contact_work + _work(changed, end, mobility @ changed)
         if taken <= 0:
             break
-    if taken > 0 and not lands:
-        return OK, False, impulses
+    if taken > 0:
+        if not lands:
+            return OK, False, impulses
+        kept = _harmless(_work(changed, end, np.zeros(3 * k)), _work(changed, np.zeros(3 * k), mobility @ changed), contact_work)
+        if kept == 0.0:
+            return OK, False, impulses
+        for j in range(3 * k):
+            changed[j] *= kept
     restitution = _restitution(interfaces, points, union, landing)
     if lands and restitution > 0.0 and taken < 0.0:
         _between(start, free, share, velocity)
@@ -224,6 +230,19 @@ def _work(impulses, velocity, jump):
     for j in range(len(impulses)):
         total += impulses[j] * (velocity[j] + jump[j] / 2)
     return total
+
+
+@njit
+def _harmless(first, second, contact_work):
+    """Largest share s, at most 1, of impulses that bring the energy first s + second s^2 [J] by which they and contact, `contact_work` [J], bring none in all; of contact that
+    brings some itself, the share that takes most."""
+    if contact_work > 0.0:
+        return min(max(-first / (2 * second), 0.0), 1.0) if second > 0.0 else 0.0
+    # the larger root, written so that it loses no digits
+    root = np.sqrt(first**2 - 4 * second * contact_work)
+    if first > 0.0:
+        return min(-2 * contact_work / (first + root), 1.0)
+    return min((root - first) / (2 * second), 1.0) if second > 0.0 else 1.0
 
 
 @njit

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.bodies import FACET
+from fecolumn.contact.bodies import FACET, GOES_ON
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import BASE, node_points
 from fecolumn.contact.rim import Rim
@@ -57,6 +57,9 @@ def joints_of(parts, joints) -> Joints:
                 facets = np.concatenate([facets, facets_of(surface, parts[joint.master].model.arms, first[joint.master])])
             interface["facet_first"], interface["facet_count"] = found[key], len(surface.triangles)
             interface["origin"], interface["axes"] = surface.origin, surface.axes
+            around = Rim.find(surface.plane(parts[joint.master].model.arms[surface.nodes]))
+            # a rim that rolls on it stands on the circle, too
+            interface["bulge"] = around.radius * (1 - np.cos(around.sector / 2)) if around else 0.0
         own = node_points(arms, joint.friction, joint.law, slave=joint.slave, master=joint.master, interface=k)
         own["node"] = first[joint.slave] + touching.nodes
         own["carriers"] = own["node"][:, None]
@@ -81,4 +84,7 @@ def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
                 facets["neighbours"][number, q], facets["neighbours"][other, place] = other, number
             else:
                 sides[side] = number, q
+    for side, (number, q) in sides.items():
+        if not surface.outlines[list(side)].all():
+            facets["neighbours"][number, q] = GOES_ON
     return facets

@@ -8,21 +8,25 @@ from fecolumn.contact.record import record
 
 #: What a point carries from step to step: force of the master on the slave [N]; anchor: horizontal position at which it sticks [m]; relative: its
 #: position on the slave relative to the master's surface, the third the gap [m], `located`: whether that was found, else the point is
-#: somewhere above; indentation of a pad below it [m].
-CONTACT = record(("force", "f8", 3), ("anchor", "f8", 2), ("relative", "f8", 3), ("indentation", "f8", 3), ("located", "?"))
+#: somewhere above; indentation of a pad below it [m]; beyond: whether it was elsewhere than over the master's surface when it was last looked at.
+CONTACT = record(("force", "f8", 3), ("anchor", "f8", 2), ("relative", "f8", 3), ("indentation", "f8", 3), ("located", "?"), ("beyond", "?"))
 
 #: A point in a step. slave, master: bodies, -1 for the base; interface: to which it belongs. node: row of the slave's node in whose place it is; friction: coefficient;
 #: law: compliance of the contact law [m/N], springs: stiffness of a pad [N/m], each in x, y, z.
 #: carriers, weights: the slave's nodes that carry it, `count` of them; arm: from the slave's centre of mass in its frame [m]; lift: height given
-#: to it [m], rolls: whether it belongs to a contact that rolls on in this step, see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's compliance; facet: where on a moving master it was found last; beyond: whether it is not over the master's surface in this step; seat: its place there, from
+#: to it [m], rolls: whether it belongs to a contact that rolls on in this step, see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's compliance; facet: where on a moving master it was found last; beyond: OVER the master's surface in this step or where else; seat: its place there, from
 #: the master's centre of mass in its frame [m]. uneven: compliance [m/N] that a point
 #: between nodes lacks, see `compliance.even_out`.
 POINT = record(("slave", "i8"), ("master", "i8"), ("interface", "i8"), ("node", "i8"), ("friction", "f8"), ("law", "f8", 3), ("springs", "f8", 3), ("count", "i8"),
                   ("carriers", "i8", 4), ("weights", "f8", 4), ("arm", "f8", 3), ("lift", "f8"), ("rolls", "?"), ("below", "i8", 4), ("shares", "f8", 4),
-                  ("facet", "i8"), ("beyond", "?"), ("seat", "f8", 3), ("uneven", "f8", (3, 3)))
+                  ("facet", "i8"), ("beyond", "i8"), ("seat", "f8", 3), ("uneven", "f8", (3, 3)))
 
 #: The master of a point that stands on the base.
 BASE = -1
+
+#: Where a point is on a moving master: over its surface, beyond an outline, where the surface goes on but its nodes are not among those of the contact, or below the
+#: surface, under which it came from beyond an outline.
+OVER, BEYOND, UNPREPARED, SUNK = range(4)
 
 
 def node_points(arms: np.ndarray, friction: float, law: np.ndarray | None = None, springs: np.ndarray | None = None, slave: int = 0,

@@ -20,8 +20,9 @@ from fecolumn.contact.pad import indent
 from fecolumn.contact.stick import find_stick, solve_sticking
 from fecolumn.contact.tolerances import CLOSE, EXACT, NEAR, PENETRATION, SHARE, SHARP, SOLVED, SWEEPS_MOST, USABLE
 
-# Ways a step can end; FAR_BASE asks for more of the base's compliance, ROLLS_FAST for shorter steps, ENDED ends the analysis
-OK, FAR_BASE, OFF_BASE, CONTACT_FAILED, ITERATIONS_SPENT, IMPACT_FAILED, ENDED, ROLLS_FAST = range(8)
+# Ways a step can end; FAR_BASE asks for more of the base's compliance, ROLLS_FAST for shorter steps, ENDED ends the analysis; OFF_PATCH: a point stands on a part of
+# a moving master that has no nodes in the contact
+OK, FAR_BASE, OFF_BASE, CONTACT_FAILED, ITERATIONS_SPENT, IMPACT_FAILED, ENDED, ROLLS_FAST, OFF_PATCH = range(9)
 # Places in a record of counts
 N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_PARTS, N_ASSEMBLED = range(6)
 N_COUNTS = 6

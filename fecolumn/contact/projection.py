@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn._compiled import interpreted, njit
-from fecolumn.contact.bodies import node_matrix
-from fecolumn.contact.points import BASE, POINT
+from fecolumn.contact.bodies import GOES_ON, node_matrix
+from fecolumn.contact.points import BASE, BEYOND, OVER, POINT, SUNK, UNPREPARED
 from fecolumn.contact.pose import into_frame
-from fecolumn.contact.tolerances import EDGE
+from fecolumn.contact.tolerances import CLOSE, EDGE
 
 # Answers of `project`
 ON, OFF, UNKNOWN = range(3)
@@ -38,13 +38,14 @@ def project(base, positions, listed, points):
     """Find the base's nodes under those of the listed points (k,) at positions (n, 3) that stand on it: ON, OFF its top, or UNKNOWN compliance.
 
     Bilinear interpolation on the facet vertically below: the top's slope under load is about 1e-5 rad and changes gap and cone by 1e-5 of themselves.
-    An unbounded base is moved along with the middle of the positions by whole squares.
+    An unbounded base is moved along with the middle of the points on it by whole squares.
     """
-    answer, dx, dy = ON, 0.0, 0.0
+    answer, dx, dy, count = ON, 0.0, 0.0, 0
     if base.square > 0:
         for i in range(len(positions)):
-            dx += positions[i, 0] / len(positions)
-            dy += positions[i, 1] / len(positions)
+            if points[i].master == BASE:
+                dx, dy, count = dx + positions[i, 0], dy + positions[i, 1], count + 1
+        dx, dy = dx / max(count, 1), dy / max(count, 1)
         dx, dy = base.square * np.rint(dx / base.square), base.square * np.rint(dy / base.square)
     for i in listed:
         if points[i].master != BASE:
@@ -65,13 +66,14 @@ def project(base, positions, listed, points):
 
 @njit
 def project_on_body(bodies, interface, point, x, y):
-    """Find the three nodes of a moving master's surface around the place x, y [m] in its frame, and their shares: ON or OFF the surface.
+    """Find the three nodes of a moving master's surface around the place x, y [m] in its frame, and their shares: ON or OFF the surface, or UNKNOWN where
+    the face goes on without nodes that are known.
 
     From the facet where the point was found last towards the place; all facets are looked at where an outline or a hole is in the way. Off the surface, of
     the nearest facet.
     """
-    first, count, facet, margin = interface.facet_first, interface.facet_count, point.facet, EDGE * interface.width
-    shares, nearest, least = np.empty(3), 0, np.inf
+    first, count, facet, margin = interface.facet_first, interface.facet_count, point.facet, EDGE * interface.width + interface.bulge
+    shares, nearest, least, side = np.empty(3), 0, np.inf, 0
     for step in range(count):
         across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
         if across < 0:
@@ -86,15 +88,26 @@ def project_on_body(bodies, interface, point, x, y):
             _take(bodies.facets[first + facet], facet, shares, point)
             return ON
         if -shares[across] < least:
-            nearest, least = facet, -shares[across]
+            nearest, least, side = facet, -shares[across], across
     _shares_of(bodies.facets[first + nearest], x, y, margin, shares)
     _take(bodies.facets[first + nearest], nearest, shares, point)
-    return OFF
+    return UNKNOWN if bodies.facets[first + nearest].neighbours[side] == GOES_ON else OFF
+
+
+@njit
+def side_of_outline(answer, was, height, width):
+    """Where a point of a slave of some `width` is at the start of a step, `height` [m] above the surface of its master; answer: of `project_on_body`; `was`: SUNK is known."""
+    if was == SUNK:
+        return SUNK
+    if answer == UNKNOWN and height < CLOSE * width:
+        return UNPREPARED
+    return OVER if answer == ON else BEYOND
 
 
 @njit
 def find_seat(bodies, interface, point, pose, place):
-    """Bring the place (3,) of a point [m] from the table frame into that of its interface, and find its seat and the nodes below it on the moving master: ON or OFF."""
+    """Bring the place (3,) of a point [m] from the table frame into that of its interface, and find its seat and the nodes below it on the moving master: as
+    `project_on_body`."""
     axes, origin = interface.axes, interface.origin
     into_frame(pose, place)
     for a in range(3):
@@ -122,14 +135,13 @@ def place_on_masters(bodies, interfaces, points, poses, moved, starts, places):
         if points[i].master == BASE:
             continue
         interface = interfaces[points[i].interface]
-        on = find_seat(bodies, interface, points[i], poses[points[i].interface], places[i]) == ON
-        if starts:
-            points[i].beyond = not on
-        if points[i].beyond:
-            places[i, 2] = interface.width
-            continue
+        answer = find_seat(bodies, interface, points[i], poses[points[i].interface], places[i])
         for q in range(3):
             take_surface(interface, points[i], q, moved[points[i].below[q]], places[i])
+        if starts:
+            points[i].beyond = side_of_outline(answer, points[i].beyond, places[i, 2] + points[i].lift, interface.width)
+        if points[i].beyond != OVER:
+            places[i, 2] = interface.width
 
 
 @njit

@@ -10,6 +10,21 @@ from fecolumn.contact.tolerances import STUCK
 
 
 @njit
+def book_impulses(gained, own, contact, other):
+    """The terms of a step [J] after its impulses were replaced by others that gain `gained` [J] of kinetic energy: own, contact, other.
+
+    own: of what happened, impact or friction; contact, other: what contact and the other of the two did before. What the impulses give back was taken by those in whose
+    place they are, first by their own term, then by contact, then by the other one: an impact never shows as a gain.
+    """
+    own += gained
+    back = max(own, 0.0)
+    own, least = own - back, max(contact, 0.0)
+    contact += back
+    back = min(max(contact - least, 0.0), back)
+    return own, contact - back, other + back
+
+
+@njit
 def move_anchors(points, interfaces, springs, listed, before, after):
     """Where the listed points (k,) stick from now on: a slipping spring of contact law or pad keeps its elastic part."""
     for i in listed:
@@ -28,5 +43,6 @@ def losses(points, interfaces, springs, listed, before, after):
         if after[i].force[2] > 0:
             friction += after[i].force[0] * (after[i].anchor[0] - before[i].anchor[0]) + after[i].force[1] * (after[i].anchor[1] - before[i].anchor[1])
             if before[i].force[2] <= 0 and not on_pad:
-                landed += after[i].force[2] * (after[i].relative[2] - before[i].relative[2])
+                # a point of a rim that rolls may be pushed out: no landing
+                landed += min(after[i].force[2] * (after[i].relative[2] - before[i].relative[2]), 0.0)
     return friction, landed, dashpot_work(points, springs, before, after) if on_pad else 0.0

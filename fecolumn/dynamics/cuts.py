@@ -15,6 +15,7 @@ class Stop(enum.Enum):
     CONTACT = "the contact problem did not converge"
     DIVERGED = "the residual grew without bound"
     OFF_BASE = "the foot reached the edge of the base plate"
+    OFF_PATCH = "a body left the part of the face below it that was prepared for contact"
 
 
 class StepFailed(RuntimeError):
@@ -34,9 +35,9 @@ def in_halves(take, state, before, after, hht: HHT, max_cuts: int, failure: Step
         max_cuts: halvings allowed. count: called once for each.
 
     Raises:
-        StepFailed: even with the smallest step; at once where the foot left the base, which no smaller step mends.
+        StepFailed: even with the smallest step; at once where the foot left the base or the part of a face that is known, which no smaller step mends.
     """
-    if cuts == max_cuts or failure.stop is Stop.OFF_BASE:
+    if cuts == max_cuts or failure.stop in (Stop.OFF_BASE, Stop.OFF_PATCH):
         raise StepFailed(failure.stop, f"{failure} (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else str(failure))
     count()
     half, middle = HHT(hht.dt / 2, hht.alpha), (before + after) / 2

@@ -22,8 +22,8 @@ class Linkage:
         made = column.of_each(lambda part, _: rigid_fields(part))
         self._fields, self._momenta, masses = zip(*made)
         self._inverse = [np.linalg.inv(one) for one in masses]
-        #: Square of the fastest frequency of a link between the bodies that it holds [1/s2].
-        self.stiffest = max(float(link["stiffness"]) * sum(self._gives(b, arm) for b, arm in ends_of(link)) for link in links)
+        #: Bound of the square of the fastest frequency of the bodies on their links [1/s2].
+        self.stiffest = sum(float(link["stiffness"]) * sum(self._gives(b, arm) for b, arm in ends_of(link)) for link in links)
 
     def _gives(self, b: int, arm) -> float:
         """Bound of the acceleration of an end per force on it [1/kg]."""

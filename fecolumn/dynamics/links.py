@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.optimize import bisect
 
 from fecolumn._compiled import njit
 from fecolumn.contact.points import BASE
@@ -15,29 +16,61 @@ LINK = record(("a", "i8"), ("b", "i8"), ("arm_a", "f8", 3), ("arm_b", "f8", 3), 
               ("pulls", "?"), ("pushes", "?"), ("yields", "f8"), ("breaks", "f8"))
 #: What a link carries from step to step: its length now and the part of it that has flowed [m], force [N], pull > 0; whether it is broken.
 TIE = record(("length", "f8"), ("flowed", "f8"), ("force", "f8"), ("broken", "?"))
-# Share of the change of a link's force that the motion within a step may answer at once: beyond it the step is too long for the link
+# Share of a change of the links' forces that the motion within a step may answer at once: beyond it the step is too long for the links
 STIFFEST = 0.5
 
 
 def links_of(model, hht) -> np.ndarray:
-    """Links (nl,) of LINK."""
+    """Links (nl,) of LINK.
+
+    Raises:
+        ValueError: links too stiff, or dashpots too strong, for the step; names the one with most of it and the longest step.
+    """
     links = np.zeros(len(model.links), LINK)
     for row, link in zip(links, model.links):
         sides = [(model.parts[b] if b != BASE else None, np.asarray(arm, float)) for b, arm in ((link.a, link.arm_a), (link.b, link.arm_b))]
         ends = [arm if part is None else part.center + part.rotation @ arm for part, arm in sides]
         length = np.linalg.norm(ends[1] - ends[0])
-        along = (ends[1] - ends[0]) / length
-        # how far a force along the link moves its ends apart: by which the fixed point of a step contracts
-        turns = [(part, np.cross(arm, part.rotation.T @ along)) for part, arm in sides if part is not None]
-        gives = sum(1 / part.model.mass + turn @ np.linalg.solve(part.model.inertia, turn) for part, turn in turns)
-        if link.stiffness * gives * hht.dt**2 / 2 > STIFFEST:
-            longest = np.sqrt(2 * STIFFEST / (link.stiffness * gives))
-            raise ValueError(f"links.{link.name}: a stiffness of {link.stiffness:g} N/m between such light bodies needs steps of at most {longest:.2g} s")
         held = link.slack + link.prestress / link.stiffness if link.prestress else 0.0
         row["a"], row["b"], row["arm_a"], row["arm_b"] = link.a, link.b, link.arm_a, link.arm_b
         row["length"], row["play"], row["stiffness"], row["damping"] = length - held, link.slack, link.stiffness, link.damping
         row["pulls"], row["pushes"], row["yields"], row["breaks"] = link.pulls, link.pushes, link.yield_n, link.breaking_n
+    bodies = [(part.model.mass, part.model.inertia, part.center, part.rotation) for part in model.parts]
+
+    def answered(dt):
+        square, place = fastest(links, links["stiffness"] + links["damping"] / dt, bodies)
+        return square * dt**2 / 2, place
+
+    share, place = answered(hht.dt)
+    if share > STIFFEST:
+        longest, link = bisect(lambda dt: answered(dt)[0] - STIFFEST, 1e-9 * hht.dt, hht.dt, rtol=1e-3), model.links[place]
+        much = " and ".join(f"{value:g} {unit}" for value, unit in ((link.stiffness, "N/m"), (link.damping, "N s/m")) if value)
+        raise ValueError(f"links.{link.name}: {much} between such light bodies, with the links beside it, needs steps of at most {longest:.2g} s")
     return links
+
+
+def fastest(links: np.ndarray, stiffness: np.ndarray, bodies: list[tuple]) -> tuple[float, int]:
+    """Square of the fastest frequency [1/s2] at which free rigid bodies swing on their links, were these as stiff as `stiffness` (nl,) [N/m]; place of the link that does most.
+
+    bodies: mass [kg], inertia (3, 3) [kg m2], centre of mass (3,) [m] and rotation (3, 3) of each.
+    """
+    if not len(links):
+        return 0.0, 0
+    pulls = np.zeros((len(links), 6 * len(bodies)))
+    for row, link in zip(pulls, links):
+        sides = [(int(link["a"]), link["arm_a"], 1.0), (int(link["b"]), link["arm_b"], -1.0)]
+        ends = [arm if b == BASE else bodies[b][2] + bodies[b][3] @ arm for b, arm, _ in sides]
+        along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+        for b, arm, sign in sides:
+            if b != BASE:
+                mass, inertia, _, rotation = bodies[b]
+                # in the body's frame, over the roots of mass and inertia
+                local = rotation.T @ along
+                row[6 * b:6 * b + 3] += sign * local / np.sqrt(mass)
+                row[6 * b + 3:6 * b + 6] += sign * np.linalg.solve(np.linalg.cholesky(inertia), np.cross(arm, local))
+    pulls *= np.sqrt(stiffness)[:, None]
+    squares, shapes = np.linalg.eigh(pulls @ pulls.T)
+    return float(squares[-1]), int(np.argmax(np.abs(shapes[:, -1])))
 
 
 @njit

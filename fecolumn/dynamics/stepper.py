@@ -11,7 +11,7 @@ from fecolumn.contact.pose import frames_at
 from fecolumn.contact.problem import OK
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
-from fecolumn.contact.work import losses, move_anchors
+from fecolumn.contact.work import book_impulses, losses, move_anchors
 from fecolumn.dynamics.cuts import StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.links import end_links
@@ -147,7 +147,7 @@ class Stepper:
             return self._hht_step(start, ground, hht, rolls=False)
         if self.plastic and interface.pad is None:
             try:
-                self._collide(start, before, after, hht, springs, contact_work)
+                self._collide(start, before, after, hht, springs, contact_work, booked)
             except StepFailed:
                 self.ledger.work.update(booked)
                 raise
@@ -187,8 +187,8 @@ class Stepper:
                         friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots - dashed - lost, rolling=rolling)
         return contact
 
-    def _collide(self, start, before, after, hht, springs, contact_work) -> None:
-        """Take the velocities of `after` anew where a point lands or slip ends.
+    def _collide(self, start, before, after, hht, springs, contact_work, booked) -> None:
+        """Take the velocities of `after` anew where a point lands or slip ends; booked: works of the ledger at the start of the step.
 
         Raises:
             StepFailed: no impulses were found that obey the laws of impact and friction.
@@ -214,7 +214,9 @@ class Stepper:
             return
         jump = interface.acceleration(impulses, R, False)
         gained = column.dot(after.v + jump / 2, column.apply(column.mass, jump))
-        self.ledger.add(**{"impact" if happens == LANDS else "friction": gained})
+        names = ("impact", "contact", "friction") if happens == LANDS else ("friction", "contact", "impact")
+        terms = interpreted(book_impulses)(gained, *(self.ledger.work[name] - booked[name] for name in names))
+        self.ledger.work.update({name: booked[name] + float(term) for name, term in zip(names, terms)})
         after.v = after.v + jump
         if system.damping:
             after.a = after.a - hht.stiffness_factor * system.damping.acceleration(jump, R)

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import BASE, OVER
 from fecolumn.contact.pose import into_frame
-from fecolumn.contact.projection import ON, find_seat, take_surface
+from fecolumn.contact.projection import find_seat, side_of_outline, take_surface
 
 # Rows of Motion.modal: coordinate, rate, and the acceleration that HHT remembers, without contact
 COORDINATE, RATE, ACCELERATION = range(3)
@@ -123,18 +123,18 @@ def find_on_master(structure, points, i, motion, poses, elastic, when, target):
     A point that is beyond the surface at the START of a step is put high above it: within a step none comes or goes over an outline.
     """
     b, interface = points[i].master, structure.interfaces[points[i].interface]
-    on = find_seat(structure.bodies, interface, points[i], poses[points[i].interface], target) == ON
+    answer = find_seat(structure.bodies, interface, points[i], poses[points[i].interface], target)
     for a in range(3):
         elastic.seat[when, i, a] = points[i].seat[a]
-    if when == START:
-        points[i].beyond = not on
-    if points[i].beyond:
-        target[2] = interface.width
-    elif motion.modal.shape[2] > 0:
+    if motion.modal.shape[2] > 0:
         for q in range(3):
             _find_node(structure, points[i].below[q], b, motion, elastic, when)
             take_surface(interface, points[i], q, elastic.node[when, points[i].below[q]], target)
     target[2] += points[i].lift
+    if when == START:
+        points[i].beyond = side_of_outline(answer, points[i].beyond, target[2], interface.width)
+    if points[i].beyond != OVER:
+        target[2] = interface.width
 
 
 @njit

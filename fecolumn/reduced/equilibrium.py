@@ -8,11 +8,12 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put_matrix
-from fecolumn.contact.points import BASE, CONTACT
+from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
 from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.problem import (
     ITERATIONS_SPENT,
     N_ITERATIONS,
+    OFF_PATCH,
     OK,
     STICKS_STILL,
     Problem,
@@ -24,8 +25,9 @@ from fecolumn.contact.problem import (
     room,
     stored_energy,
 )
+from fecolumn.contact.compliance import static_displacement
 from fecolumn.contact.stick import Stick, holds, no_stick
-from fecolumn.contact.tolerances import CLOSE, ITERATIONS, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
+from fecolumn.contact.tolerances import CLOSE, ITERATIONS, OPEN, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_on_master, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, begin_frames, follow, no_action
 from fecolumn.contact.pose import find_poses
@@ -81,9 +83,9 @@ def stays(interfaces, poses, start, free_center, advance):
 
 @njit
 def find_positions(structure, work, start, end):
-    """Positions of the points at the END of the step; those of points too high to matter without their elastic displacement."""
+    """Positions of the points at the END of the step, those of points too high to matter without their elastic displacement; whether all are over surfaces that are known."""
     interfaces, points, elastic, positions, poses = structure.interfaces, work.points, work.elastic, work.positions, work.poses[END]
-    all_of_them, reach = work.problem.flags[STICKS_STILL], np.zeros(len(end.frames))
+    all_of_them, reach, known = work.problem.flags[STICKS_STILL], np.zeros(len(end.frames)), True
     find_poses(interfaces, end.frames, end.rotation, poses)
     for b in range(len(end.frames)):
         for k in range(end.modal.shape[2]):
@@ -113,6 +115,35 @@ def find_positions(structure, work, start, end):
         find_position(points, i, end, elastic, END, positions[i])
         if point.master != BASE:
             find_on_master(structure, points, i, end, poses, elastic, END, positions[i])
+            known &= points[i].beyond != UNPREPARED
+    return known
+
+
+@njit
+def find_sunk(structure, base, work, start, rims):
+    """Mark those points as SUNK that come from beyond an outline and are below the surface at the START of a step.
+
+    They are at the side of the master: were they let in, contact would push them up and make energy. Those of a rim that rolls in this step are brought where the
+    rim is lowest, wherever that is.
+    """
+    points, before, problem, poses, place = work.points, work.before, work.problem, work.poses[START], work.places[0]
+    loaded = problem.count[0]
+    count = loaded
+    for i in range(len(points)):
+        k = points[i].interface
+        if not before[i].beyond or before[i].force[2] > 0 or rims[k].angle == rims[k].angle and rims[k].angle != start.rims[k].angle:
+            continue
+        find_elastic(structure, points, i, start, work.elastic, START)
+        find_position(points, i, start, work.elastic, START, place)
+        find_on_master(structure, points, i, start, poses, work.elastic, START, place)
+        if points[i].beyond == OVER and place[2] < 0.0:
+            problem.near[count], problem.slack[i, 2] = i, place[2]
+            count += 1
+    if count > loaded:
+        static_displacement(structure.bodies, base, points, poses, before, problem.near[:count], problem.displaced)
+        for i in problem.near[loaded:count]:
+            if problem.slack[i, 2] + problem.displaced[i, 2] < -OPEN * structure.interfaces[points[i].interface].width:
+                points[i].beyond = SUNK
 
 
 @njit
@@ -143,6 +174,7 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
     find_poses(interfaces, start.frames, start.rotation, poses[START])
     for i in range(len(points)):
         end.contact[i] = before[i]
+        points[i].beyond = OVER
         if before[i].force[2] > 0:
             problem.near[carrying] = i
             carrying += 1
@@ -156,12 +188,15 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
             find_on_master(structure, points, i, start, poses[START], elastic, START, work.places[0])
         for a in range(3):
             elastic.point[END, i, a], elastic.seat[END, i, a] = elastic.point[START, i, a], elastic.seat[START, i, a]
+    find_sunk(structure, base, work, start, rims)
     begin_problem(problem, still, not still and stays(interfaces, poses[START], start, free_center, advance))
     begin_frames(structure, start, free_center, advance, end, work.action)
     for iteration in range(ITERATIONS):
         counts[N_ITERATIONS] += 1
-        follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action)
-        find_positions(structure, work, start, end)
+        if not follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action):
+            return ITERATIONS_SPENT
+        if not find_positions(structure, work, start, end):
+            return OFF_PATCH
         if iteration == 0 or not problem.flags[STICKS_STILL]:
             mark_close(problem, points, interfaces, work.positions, before, end.contact)
         answer, residual = find_residual(problem, structure.bodies, base, points, interfaces, scheme.springs, scheme.dynamic, scheme.half, work.stick,
@@ -169,6 +204,8 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
         if answer != OK:
             return answer
         if residual <= 1.0:
+            for i in range(len(points)):
+                end.contact[i].beyond = points[i].beyond != OVER
             end.whole[0].static = stored_energy(problem, points, interfaces, scheme.springs, before, end.contact)
             return OK
         answer = find_forces(problem, points, interfaces, work.stick, end.contact, counts)

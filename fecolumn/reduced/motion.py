@@ -21,8 +21,9 @@ FRAME = record(("center", "f8", 3), ("velocity", "f8", 3), ("acceleration", "f8"
 #: What belongs to no body: time [s]; static: strain energy of base, static rest of the bodies, penalty springs and pad [J]; ground: acceleration [m/s2].
 WHOLE = record(("time", "f8"), ("static", "f8"), ("ground", "f8", 3))
 
-# Times that the motion under present forces is found anew, at most, and the change, over a turn of 1 or the largest force of a link, at which it is found
-SWEEPS, SETTLED = 30, 1e-14
+# Times that the motion under present forces is found anew, at most, the change, over a turn of 1 or the largest force of a link, at which it is found, and that
+# at which it is not: the forces of links tight enough for `links.STIFFEST` change by less after as many sweeps
+SWEEPS, SETTLED, UNSETTLED = 30, 1e-14, 1e-6
 
 
 class Motion(NamedTuple):
@@ -131,6 +132,7 @@ def follow(structure, scheme, points, listed, start, free_center, free_modal, ad
     """Carry the bodies to the end of the step under the forces of `end` at the listed points (k,), which has all that carry, and of the links.
 
     Forces act along the frames that the interfaces have in the middle of the step, and links along their mean direction, which are found along with the motion.
+    Returns: whether they were.
 
     The elastic displacement of points that carry is the last one known at the END, a guess; end gets center, rotation and modal
     coordinates, action the conjugates.
@@ -138,6 +140,7 @@ def follow(structure, scheme, points, listed, start, free_center, free_modal, ad
     Args:
         free_center: (nb, 3), free_modal: (nb, m): the end of the step without contact. advance: (nb, 3) dt times the spins at the start.
     """
+    change = 0.0
     for sweep in range(SWEEPS):
         change = max(_turn_frames(structure, action), pull_links(structure.links, start.ties, start.frames, start.rotation, end.frames, end.rotation, scheme.dt, action.pulls))
         if sweep > 0 and change <= SETTLED:
@@ -148,6 +151,8 @@ def follow(structure, scheme, points, listed, start, free_center, free_modal, ad
         for k in range(free_modal.shape[1]):
             end.modal[b, COORDINATE, k] = scheme.shrink[b, k] * (free_modal[b, k] + scheme.half * action.modal[b, k])
     elastic.now[END] += 1
+    # false of what is not a number, too
+    return change <= UNSETTLED
 
 
 @njit

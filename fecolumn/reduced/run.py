@@ -7,7 +7,7 @@ import numpy as np
 from fecolumn._compiled import compile_for, interpreted, njit
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.ball import from_center, lay_down
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import BASE, UNPREPARED
 from fecolumn.contact.projection import base_for_steps
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
@@ -20,6 +20,7 @@ from fecolumn.contact.problem import (
     N_ITERATIONS,
     N_PARTS,
     OFF_BASE,
+    OFF_PATCH,
     OK,
     ROLLS_FAST,
 )
@@ -44,7 +45,7 @@ from fecolumn.reduced.step import step
 LENGTHS = PARTS.bit_length()
 # of the halves of a step, whose end alone counts: nothing is past returning
 _NO_END = np.array([np.inf])
-_STOPS = {CONTACT_FAILED: Stop.CONTACT, IMPACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.ITERATIONS, OFF_BASE: Stop.OFF_BASE}
+_STOPS = {CONTACT_FAILED: Stop.CONTACT, IMPACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.ITERATIONS, OFF_BASE: Stop.OFF_BASE, OFF_PATCH: Stop.OFF_PATCH}
 
 
 @njit
@@ -325,7 +326,7 @@ class Engine:
             if answer not in (OK, ENDED):
                 raise StepFailed(_STOPS[answer], _STOPS[answer].value)
 
-        failure = StepFailed(_STOPS[answer], _STOPS[answer].value)
+        failure = StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
         try:
             in_halves(take, None, self.motion.whole["ground"][0].copy(), ground, self.hht, self.max_cuts, failure, self._count_cut)
         except BaseException as error:
@@ -334,6 +335,13 @@ class Engine:
             if isinstance(error, StepFailed):
                 raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None
             raise
+
+    def _left(self, answer) -> str:
+        """Which interface a body has left and what helps, after a step that failed with OFF_PATCH."""
+        if answer != OFF_PATCH:
+            return ""
+        names = sorted({self.model.joints[k].name for k in self.work.points["interface"][self.work.points["beyond"] == UNPREPARED]})
+        return f": {', '.join(names)}; a larger interfaces.{names[0].partition(':')[0]}.allowance_m prepares more of it"
 
     def _count_cut(self) -> None:
         self.counts[N_CUTS] += 1

@@ -6,8 +6,8 @@ import numpy as np
 
 from fecolumn._compiled import interpreted
 from fecolumn.contact.problem import FAR_BASE, OK
-from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
-from fecolumn.dynamics.links import end_links
+from fecolumn.dynamics.gravity import LINKS_FIRM, NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
+from fecolumn.dynamics.links import end_links, fastest
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE
 from fecolumn.reduced.model import resting_scheme
@@ -29,14 +29,20 @@ def standing(engine) -> motions.Motion:
     levers = [max(np.abs(structure.bodies.arms[body["first"]:body["first"] + body["count"], 2]).max(),
                   structure.interfaces["ball"][structure.interfaces["slave"] == b].max(initial=0.0)) for b, body in enumerate(bodies)]
     firmness = max(pseudo_inertia(weight, lever, body["inertia"]) for body, lever in zip(bodies, levers))
+    # links answer the motion of a step at once: the motion must not answer them as strongly
+    held = [(body["mass"], body["inertia"], center, np.eye(3)) for body, center in zip(bodies, centers)]
+    firmness = max(firmness, LINKS_FIRM * fastest(structure.links, structure.links["stiffness"], held)[0])
     resting = resting_scheme(structure, engine.points, firmness)
+
+    # of the turns, which move the bodies by so much wherever they stand
+    reach = max(np.ptp(centers[:, :2], axis=0).max(), np.abs(centers[:, 2]).max())
 
     def proximal_step():
         while (answer := engine.settle(resting, start, end)) == FAR_BASE:
             engine.extend_base(end)
         if answer != OK:
             raise NoEquilibrium("gravity equilibrium: contact does not converge")
-        moved = max(np.abs(end.frames["center"] - start.frames["center"]).max(), np.abs(work.action.turn).max() * np.abs(centers).max(),
+        moved = max(np.abs(end.frames["center"] - start.frames["center"]).max(), np.abs(work.action.turn).max() * reach,
                     np.abs(work.elastic.point[1] - work.elastic.point[0]).max())
         end.contact["anchor"] = work.before["anchor"]
         motions.copy(end, start)

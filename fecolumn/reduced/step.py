@@ -12,10 +12,10 @@ from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, m
 from fecolumn.contact.problem import N_IMPACTS, OK, near_points
 from fecolumn.contact.rolling import mark_rolling, plan_roll, roll_points, rolling_moment, stay
 from fecolumn.contact.tolerances import CREATED
-from fecolumn.contact.work import move_anchors
+from fecolumn.contact.work import book_impulses, move_anchors
 from fecolumn.reduced.balls import roll_balls
 from fecolumn.reduced.equilibrium import equilibrate
-from fecolumn.reduced.ledger import FRICTION, HIT, book, kinetic
+from fecolumn.reduced.ledger import CONTACT_WORK, FRICTION, HIT, book, kinetic
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START, find_elastic, find_places, find_velocity
 from fecolumn.reduced.motion import push_bodies
 from fecolumn.contact.pose import find_poses
@@ -28,20 +28,23 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
 
     Returns: a way to end, OK or the reason why not; then `start` is unharmed and `ledger` is not to be used.
     """
-    booked, interfaces, weight = ledger.copy(), structure.interfaces, 0.0
+    booked, interfaces, weight, width = ledger.copy(), structure.interfaces, 0.0, np.inf
     rolled = place_points_of_step(structure, scheme.dt, work, start, end, True)
     answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
     for b in range(len(start.frames)):
         weight += structure.bodies.body[b].mass
+    for k in range(len(interfaces)):
+        if interfaces[k].rim_count > 0:
+            width = min(width, interfaces[k].width)
     weight *= np.sqrt(structure.gravity[0] ** 2 + structure.gravity[1] ** 2 + structure.gravity[2] ** 2)
-    if answer == OK and rolled and contact_work > CREATED * weight * interfaces[0].width:
+    if answer == OK and rolled and contact_work > CREATED * weight * width:
         # several points of the rim carry while it rolls fast: they stay for this step. No recursion: numba cannot load it from its cache
         put(booked, ledger)
         place_points_of_step(structure, scheme.dt, work, start, end, False)
         answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
     # the springs of a pad bring a landing foot to rest in their own time: there is no impact
     if answer == OK and not interfaces[0].on_pad:
-        answer = _collide(structure, base, scheme, work, start, end, contact_work, ledger, counts)
+        answer = _collide(structure, base, scheme, work, start, end, contact_work, booked, ledger, counts)
     return answer
 
 
@@ -170,8 +173,8 @@ def _finish(structure, scheme, work, start, ground, end):
 
 
 @njit
-def _collide(structure, base, scheme, work, start, end, contact_work, ledger, counts):
-    """Take the velocities of `end` anew where a point lands or slip ends: a way to end."""
+def _collide(structure, base, scheme, work, start, end, contact_work, booked, ledger, counts):
+    """Take the velocities of `end` anew where a point lands or slip ends: a way to end; booked: the ledger at the start of the step."""
     interfaces, points, before, elastic = structure.interfaces, work.points, work.before, work.elastic
     listed = near_points(work.problem)
     lands = mark_landing(interfaces, points, listed, before, end.contact, work.landing) > 0
@@ -194,7 +197,9 @@ def _collide(structure, base, scheme, work, start, end, contact_work, ledger, co
         return answer
     energy = kinetic(structure, end)
     push_bodies(structure, scheme, points, arms, work.poses[END], impulses, end)
-    ledger[HIT if happens == LANDS else FRICTION] += kinetic(structure, end) - energy
+    own, other = (HIT, FRICTION) if happens == LANDS else (FRICTION, HIT)
+    terms = book_impulses(kinetic(structure, end) - energy, ledger[own] - booked[own], ledger[CONTACT_WORK] - booked[CONTACT_WORK], ledger[other] - booked[other])
+    ledger[own], ledger[CONTACT_WORK], ledger[other] = booked[own] + terms[0], booked[CONTACT_WORK] + terms[1], booked[other] + terms[2]
     counts[N_IMPACTS] += happens == LANDS
     return OK
 

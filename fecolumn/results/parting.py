@@ -94,9 +94,8 @@ def parting(a: AnalysisResult, b: AnalysisResult, tolerance: float = TOLERANCE) 
     if len(time) < 2:
         raise InputError("fecolumn compare", "A, B", None, f"have fewer than two rows in common: A ends at {histories[0]['time'][-1]:g} s, B at {histories[1]['time'][-1]:g} s")
     cases = [_case(one) for one in (a, b)]
-    solids = [solid_of(case) for case in cases]
-    heights = [uplift(solid, poses(history, solid.foot, solid.top)) for solid, history in zip(solids, histories)]
-    lifts = any(height.max() > LIFTED * solid.foot_width for height, solid in zip(heights, solids))
+    heights, lifted = zip(*(_uplift(case, history) for case, history in zip(cases, histories)))
+    lifts = any(lifted)
 
     def pair(values, judged=True) -> Pair:
         return Pair.of(*(_at(time, history["time"], one) for history, one in zip(histories, values)), tolerance, judged)
@@ -112,8 +111,20 @@ def _at(time: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
     return np.column_stack([np.interp(time, known, column) for column in values.reshape(len(values), -1).T])
 
 
-def _case(result: AnalysisResult) -> Case:
-    return finished(result.case, result.folder / "case.json")
+def _case(result: AnalysisResult):
+    return finished(result.case, result.folder / "case.json") if isinstance(result.case, Case) else result.case
+
+
+def _uplift(case, history) -> tuple[np.ndarray, bool]:
+    """Uplift (n,) [m], and whether anything lifts off at all: of a structure the largest of its interfaces; 0 of a model whose history has none."""
+    if isinstance(case, Case):
+        solid = solid_of(case)
+        height = uplift(solid, poses(history, solid.foot, solid.top))
+        return height, bool(height.max() > LIFTED * solid.foot_width)
+    rises, tilts = ([values for name, values in history.items() if name.startswith("interface/") and name.endswith(f"/{what}")] for what in ("rise", "tilt"))
+    height = np.maximum(np.max(rises, axis=0), 0.0) if rises else np.zeros(len(history["time"]))
+    # an edge that is lifted by a share of the width is a tilt of as much
+    return height, bool(np.max(tilts) > LIFTED if tilts else np.max(history["tilt"]) > LIFTED)
 
 
 def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:

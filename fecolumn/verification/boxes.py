@@ -70,14 +70,14 @@ def block_on_a_heavy_one(dt: float):
     return engine([part("low", low, (0, 0, 0)), tipped], [joint(0, GROUND, low), joint(1, 0, up)], observed=1, dt=dt), alpha, p
 
 
-def frame(columns, order=None, dt=1e-3):
-    """A slab on two or four columns; order: places of the columns, then of the slab, among the bodies."""
+def frame(columns, order=None, dt=1e-3, at=(0.0, 0.0, 0.0)):
+    """A slab on two or four columns; order: places of the columns, then of the slab, among the bodies; at: (3,) [m] where it stands."""
     column, slab = box(0.2, 0.2, 1.2), box(2.4, 2.4 if columns == 4 else 0.6, 0.3, per_side=9)
     places = [(-1, 0, 0), (1, 0, 0)] if columns == 2 else [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
     number, parts, joints = order or list(range(columns + 1)), [None] * (columns + 1), []
     for i in range(columns):
-        parts[number[i]] = part(f"column {i}", column, places[i])
-    parts[number[-1]] = part("slab", slab, (0, 0, 1.2))
+        parts[number[i]] = part(f"column {i}", column, np.add(places[i], at))
+    parts[number[-1]] = part("slab", slab, np.add((0, 0, 1.2), at))
     for i in range(columns) if order is None else reversed(range(columns)):
         joints += [joint(number[i], GROUND, column), joint(number[i], number[-1], column, surface="head", on="foot")]
     return engine(parts, joints, observed=number[-1], dt=dt), slab, column

@@ -43,10 +43,10 @@ def structures() -> dict[str, tuple[dict, int]]:
     return {
         "stack of two blocks": (_structure(
             dict(lower=_block(0.6, 0.6, 0.6, 0.3), upper=_block(0.3, 0.3, 0.9, 0.15, at_m=[0, 0, 0.6])),
-            dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")), dict(upper=dict(tilt_rad=0.05)), 0.9), 1000),
+            dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")), dict(upper=dict(tilt_rad=0.05)), 0.5), 1000),
         "trilith": (_structure(
             dict(column=_block(0.22, 0.65, 0.8, 0.11, coarse_size_m=0.4, copies_m=[[-0.4, 0, 0], [0.4, 0, 0]]), slab=_slab(1.1, 0.65, 0.14, 0.11, at_m=[0, 0, 0.8])),
-            frame, dict(column=dict(tilt_rad=0.02)), 0.6), 1000),
+            frame, dict(column=dict(tilt_rad=0.02)), 0.25), 1000),
         "frame on two piers": (_structure(
             dict(column=_block(1.6, 1.6, 9.6, 0.8, copies_m=[[-8.0, 0, 0], [8.0, 0, 0]]), slab=_slab(20.0, 4.0, 2.5, 0.8, at_m=[0, 0, 9.6])),
             frame, dict(column=dict(tilt_rad=0.005)), 1.5), 1000),

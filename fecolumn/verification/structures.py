@@ -1,8 +1,7 @@
 """Structures of many bodies beside the rocking models of their papers: the restrained wobbling frame and the rocking podium.
 
 Requirement: a slab on four round columns with tendons is held by the force of virtual work, an impact in a plane takes what angular momentum
-says, and a frame that is set rolling goes the way of the wobbling model. The podium's cases are here for `benchmarks.structures`, which measures what an impact leaves of its velocity; no row
-judges it yet: the building vibrates while the velocity is taken.
+says, and a frame that is set rolling goes the way of the wobbling model. The podium's impact is that of `podium_bodies`.
 
 Sources: [W] the statistical validation of a wobbling model by tests on a restrained frame; [P] the paper on impact modelling of multi-storey
 podium structures. Bodies are rigid but for points that give 3,000 to 10,000 times less than concrete, for both papers speak of rigid columns.
@@ -38,7 +37,9 @@ _SETTLED = (5e-3, 0.06)  # between these times [s] after the release the slab's 
 
 def run(engine: str, long: bool = False) -> Result:
     """The rows; engine: reduced."""
-    return Result([*_forces(), *_impact(), *_path(4.0 if long else 1.0)])
+    from fecolumn.verification import podium_bodies
+
+    return Result([*_forces(), *_impact(), *_path(4.0 if long else 1.0), *podium_bodies.rows()])
 
 
 def advanced(case, seconds: float) -> dict[str, np.ndarray]:

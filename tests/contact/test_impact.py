@@ -11,6 +11,7 @@ from fecolumn.contact.pad import Springs
 from fecolumn.contact.points import BASE, CONTACT, node_points
 from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import N_COUNTS, OK
+from fecolumn.contact.work import book_impulses
 
 DT = 1e-4
 
@@ -28,20 +29,20 @@ def body(mass, arms, inertia=None, within=False):
     return one_body(arms, one.static, W)
 
 
-def struck(bodies, points, velocity, mu=0.0, restitution=0.0, contact_work=-1.0):
-    """Velocities (n, 3) after an impact of points that arrive with `velocity` (n, 3) in the very moment; and the impulses."""
+def struck(bodies, points, velocity, mu=0.0, restitution=0.0, contact_work=-1.0, force=(0.0, 0.0, 1.0), late=None):
+    """Impulses (n, 3) of an impact of points that arrive with `velocity` (n, 3) in the very moment; `force` (3,) of the step and the velocities `late` that it has left."""
     n = len(points)
     points["friction"] = mu
     interface = interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]), restitution=restitution, master=points["master"][0])
     before, after, landing = np.zeros(n, CONTACT), np.zeros(n, CONTACT), np.zeros(n, bool)
-    before["relative"][:, 2], after["force"][:, 2] = 1e-6, 1.0
+    before["relative"][:, 2], after["force"] = 1e-6, force
     assert mark_landing(interface, points, np.arange(n), before, after, landing) == n
     # what the step's own impulse, about to be replaced, has done is taken out again
-    late = np.array(velocity, float)
+    late = np.array(velocity if late is None else late, float)
     answer, pushed, impulses = find_impact(bodies, NO_BASE, points, interface, Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0), np.arange(n), points["arm"].copy(),
                                            poses_on_base(np.eye(3)[None]), before, after, np.array(velocity, float), late, landing,
                                            np.zeros(n, bool), True, DT, contact_work, np.zeros(N_COUNTS, np.int64))
-    assert answer == OK and pushed
+    assert answer == OK and (pushed or contact_work >= 0)
     return impulses + DT * after["force"]
 
 
@@ -77,3 +78,23 @@ def test_restitution_gives_its_share_of_the_plastic_impulse_once_more():
     mass, place = 2.0, np.zeros((1, 3))
     impulse = struck(body(mass, place), node_points(place, 0.0, master=BASE), [[0, 0, -1.0]], restitution=0.6, contact_work=-10.0)
     assert impulse[0, 2] == pytest.approx(1.6 * mass, rel=1e-4)
+
+
+@pytest.mark.parametrize("contact_work", [-0.05, 0.0, 1e-3])
+def test_an_impact_gives_back_no_more_than_contact_has_taken(contact_work):
+    """A long step has stopped a slipping mass by the friction of a large force; the impact's smaller one leaves it slipping: 3 m/s less 0.9 times 3 m/s."""
+    mass, place = 2.0, np.zeros((1, 3))
+    force = np.array([-6.0, 0.0, 6.0]) / DT
+    impulse = struck(body(mass, place), node_points(place, 0.0, master=BASE), [[3.0, 0, -3.0]], 0.9, contact_work=contact_work, force=force, late=[[0.0, 0, 0]])
+    left = impulse[0] / mass + [3.0, 0, -3.0]
+    gained = mass * left @ left / 2
+    assert gained <= max(-contact_work, 0.0) + 1e-12
+    assert gained == pytest.approx(min(mass * 0.3**2 / 2, max(-contact_work, 0.0)), abs=1e-3)
+
+
+def test_what_an_impact_gives_back_is_not_booked_as_its_gain():
+    """Impact, contact and friction keep their sum; none of them gains where the sum does not."""
+    for gained, impact, contact, friction in ((3.0, -1.0, -4.0, -2.0), (3.0, -1.0, -1.0, -2.0), (-3.0, -1.0, 0.0, 0.0), (2.0, -1.0, 1e-6, -2.0)):
+        booked = book_impulses(gained, impact, contact, friction)
+        assert sum(booked) == pytest.approx(gained + impact + contact + friction, abs=1e-14)
+        assert booked[0] <= 0 and booked[1] <= max(contact, 0.0) + 1e-15 and booked[2] <= 1e-15

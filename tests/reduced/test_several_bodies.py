@@ -57,6 +57,50 @@ def test_energy_of_a_stack_in_which_both_blocks_rock_is_accounted_for():
     assert rows[-1, ENERGY + 6] < 1e-6 * np.ptp(rows[:, ENERGY + 2])
 
 
+@pytest.mark.parametrize("seed", [1, 7])
+def test_a_stack_shaken_to_pieces_never_gains_by_contact(seed):
+    """Blocks slide over the edges of one another, tilt there and come back: impact and friction only take, contact makes no more than its solver leaves."""
+    random, t = np.random.default_rng(seed), np.arange(1, 1501) * 1e-3
+    ground = np.zeros((1500, 3))
+    for axis in (0, 1):
+        for frequency in (1.0, 2.3, 4.1):
+            ground[:, axis] += 7 * random.normal() * np.sin(2 * np.pi * frequency * t + random.uniform(0, 6))
+    ground[:, 2] = 2.8 * np.sin(10 * np.pi * t)
+    made = stack()
+    rows, _ = made.advance(ground)
+    moved = np.ptp(rows[:, ENERGY + 2])
+    friction, impact, contact = np.diff(rows[:, ENERGY + 4:ENERGY + 7], axis=0).T
+    assert impact.sum() < -1.0 and closure(rows) < 1e-11
+    assert impact.max() <= 1e-12 * moved and friction.max() <= 1e-12 * moved
+    assert contact.max() < 1e-7 * moved and (friction + impact + contact).max() < 1e-7 * moved
+
+
+def test_a_block_that_slides_over_an_edge_and_back_still_stands_on_all_its_points():
+    """Its outer points leave the edge of the block below and come back to where the others have sunk in by 10 um."""
+    block = box(0.4, 0.4, 0.2, gives=1e-6, per_side=5)
+    made = engine([part("low", block, (0, 0, 0)), part("up", block, (0, 0, 0.2))], [joint(0, GROUND, block), joint(1, 0, block, friction=0.1)], observed=1)
+    stood = made.motion.forces[25:, 2].copy()
+    t = np.arange(1, 1201) * 1e-3
+    ground = np.zeros((1200, 3))
+    ground[:, 0] = 3.0 * np.sin(2 * np.pi * t / 0.4) * (t < 0.8)
+    rows, _ = made.advance(ground)
+    assert 0.005 < np.abs(rows[:, 1] - rows[0, 1]).max() < 0.1
+    back = np.zeros((1200, 3))
+    back[:, 0] = np.sign(rows[-1, 1] - rows[0, 1]) * 4.0 * (t < 0.1) * np.abs(np.sin(np.pi * t / 0.1))
+    rows, _ = made.advance(back)
+    forces = made.motion.forces[25:, 2]
+    assert rows[-1, 3] == pytest.approx(0.0, abs=1e-5) and forces.sum() == pytest.approx(stood.sum(), rel=1e-3)
+    assert (forces > 0).sum() >= 20
+
+
+def test_a_structure_rocks_the_same_wherever_it_stands():
+    """A frame 70 m from the origin, whose slab's contacts count from the slab."""
+    ground = pulse(4.0, 1.0, 600)
+    here, there = (frame(2, at=at)[0].advance(ground)[0] for at in ((0, 0, 0), (60.0, -40.0, 0)))
+    assert np.abs(here[:, 1:4]).max() > 0.05
+    np.testing.assert_allclose(there[:, 1:4], here[:, 1:4], rtol=0, atol=1e-7)
+
+
 @pytest.mark.parametrize("columns, push, uplifts", [(2, 0.95, False), (2, 1.1, True), (4, 0.95, False), (4, 1.1, True)])
 def test_a_frame_uplifts_when_the_ground_accelerates_by_g_tan_alpha(columns, push, uplifts):
     """Makris and Vassiliou (2013): columns of slenderness alpha under a slab uplift together at g tan(alpha), whatever the slab's mass."""
@@ -162,6 +206,31 @@ def test_a_tendon_that_a_lean_has_stretched_is_loaded_from_the_start():
     assert rows[:, ENERGY + 6].max() < 1e-6 * rows[0, ENERGY:ENERGY + 3].sum() and closure(rows) < 1e-11
 
 
-def test_a_link_too_stiff_for_the_step_is_refused_by_name():
-    with pytest.raises(ValueError, match="links.tie: a stiffness of .* needs steps of at most"):
-        tied(tie(stiffness=1e12))
+@pytest.mark.parametrize("settings, much", [(dict(stiffness=1e9), "1e\\+09 N/m"), (dict(damping=1e7), "20000 N/m and 1e\\+07 N s/m")])
+def test_a_link_too_stiff_for_the_step_is_refused_by_name(settings, much):
+    with pytest.raises(ValueError, match=f"links.tie: {much} .* needs steps of at most") as refused:
+        tied(tie(**settings))
+    longest = float(str(refused.value).split()[-2])
+    block = box(0.3, 0.3, 0.8)
+    engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [tie(**settings)], dt=0.98 * longest)
+
+
+def test_many_links_are_refused_where_one_of_them_would_do():
+    """Sixteen tendons as stiff as one may be answer a step sixteen times as strongly."""
+    block = box(0.3, 0.3, 0.8)
+    one = tie(stiffness=0.9 * 4 * block.mass / 1e-3**2 / 4, arm_a=np.zeros(3))
+    tied(one, steps=5)
+    with pytest.raises(ValueError, match="links.tie: .* with the links beside it, needs steps of at most 0.00026 s"):
+        engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [one] * 16)
+
+
+@pytest.mark.parametrize("stiffness", [1e6, 1e8])
+@pytest.mark.parametrize("prestress, end", [(500.0, (0, 0, 0.0)), (0.0, (1.0, 0.3, 3.0))])
+def test_a_block_comes_to_rest_on_links_however_stiff(stiffness, prestress, end):
+    """As stiff as its foot, along it or aslant; the tendon adds its prestress to the weight."""
+    block = box(0.3, 0.3, 0.8)
+    link = tie(stiffness=stiffness, prestress=prestress, arm_b=np.array(end))
+    made = engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [link], dt=1e-4)
+    assert made.motion.forces[:, 2].sum() == pytest.approx(block.mass * G + prestress, rel=0.2 if stiffness > 1e7 else 5e-3)
+    rows, _ = made.advance(np.zeros((50, 3)))
+    assert np.abs(rows[:, 1:4] - rows[0, 1:4]).max() < 1e-11

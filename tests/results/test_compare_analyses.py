@@ -112,3 +112,13 @@ def test_what_does_not_fit_is_one_line(folders, tmp_path, capsys, arguments, tol
     assert main(["compare", *(word.format(**places) for word in arguments)]) == 2
     error = capsys.readouterr().err
     assert told.format(**places) in error and error.count("\n") == 1
+
+
+def test_two_analyses_of_a_structure_are_compared_by_what_they_observe(tmp_path, capsys):
+    block = dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.8)
+    tables = dict(title="Two blocks", bodies=dict(lower=block, upper=block | dict(at_m=[0.0, 0.0, 0.8])), interfaces=dict(foot=dict(slave="lower", on="ground"),
+                  joint=dict(slave="upper", on="lower")), initial=dict(upper=dict(tilt_rad=0.03)))
+    for name, dt in (("coarse", 2e-3), ("fine", 1e-3)):
+        run(case_from_tables(tables | dict(integration=ENGINE | dict(dt_s=dt)), name), tmp_path / name, quiet=True)
+    said = _compared(capsys, tmp_path / "coarse", tmp_path / "fine")
+    assert "integration.dt_s  0.002  0.001     s" in said and "uplift" in said

@@ -10,7 +10,7 @@ from fecolumn.motions.record import GroundMotion
 from fecolumn.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED
 from fecolumn.report.podium_claims import compared, podium_claims
 from fecolumn.rocking.podium import Podium, PodiumSection, study_podium
-from fecolumn.rocking.podium_impact import CAV, CRV, LAWS, kinetic_energy_kept, podium_restitution
+from fecolumn.rocking.podium_impact import CAV, CRV, LAWS, kinetic_energy_kept
 from fecolumn.rocking.storeys import PROFILES, storeys
 from fecolumn.schema import InputError
 from fecolumn.verification.podium import run

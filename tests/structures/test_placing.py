@@ -6,6 +6,7 @@ from small_structures import block, frame, stack, structure
 
 from fecolumn.schema import InputError
 from fecolumn.structures.barrier import least_barrier
+from fecolumn.structures.layout import layout_of
 from fecolumn.structures.structure import standing_of, structure_model
 
 
@@ -76,3 +77,13 @@ def test_energy_to_overturn_a_stack_is_that_of_its_upper_block():
     case = structure(**stack())
     model = structure_model(case)
     assert least_barrier(model, standing_of(case, model)) == pytest.approx(9.80665 * model.parts[1].model.mass * (np.hypot(0.2, 0.3) - 0.3), rel=1e-9)
+
+
+def test_faces_meet_whose_nodes_all_lie_on_edges_of_the_others_elements():
+    """Bridge piers of 0.8 m elements below a deck that is meshed in 0.8 m around them: every node and middle of the one lies on an edge or a diagonal of the other."""
+    stone = dict(youngs_modulus_pa=30e9, poissons_ratio=0.2, density_kg_m3=2500.0, element_size_m=0.8)
+    case = structure(
+        bodies=dict(pier=dict(kind="block", length_m=1.6, width_m=1.6, height_m=9.6, coarse_size_m=4.8, copies_m=[[-8.0, 0, 0], [8.0, 0, 0]]) | stone,
+                    deck=dict(kind="slab", length_m=20.0, width_m=4.0, thickness_m=2.5, element_order=1, at_m=[0, 0, 9.6]) | stone),
+        interfaces=dict(feet=dict(slave="pier", on="ground"), heads=dict(slave="pier", on="deck")))
+    assert len(layout_of(case, "case").contacts) == 4
