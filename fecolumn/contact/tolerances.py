@@ -85,6 +85,8 @@ ROUND_NODES, ROUND = 12, 1e-6
 #: Inertia of the iteration to equilibrium over the rate of falling, squared: it only holds what contact and friction leave free. The contact's
 #: compliance leaves out that a tilt moves the weight; the iteration that mends this contracts by the inverse.
 FIRMNESS = 10.0
+#: The same inertia over the square of the fastest frequency of the links: these answer the motion of an iteration at once, and it must not answer them as strongly.
+LINKS_FIRM = 4.0
 #: Displacement of an iteration, over the column's height, below which the column is at rest: ten thousand times the rounding of a position.
 REST = 1e-11
 #: Iterations to equilibrium within which the displacement of one must fall to this share, else none is found: a slender column needs a pad

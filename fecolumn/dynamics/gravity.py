@@ -6,16 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.contact.tolerances import FIRMNESS, REST, REST_ITERATIONS, REST_PROGRESS
+from fecolumn.contact.tolerances import FIRMNESS, LINKS_FIRM, REST, REST_ITERATIONS, REST_PROGRESS
 from fecolumn.dynamics.cuts import Stop
 from fecolumn.dynamics.stage import Stage, equilibrate
 from fecolumn.dynamics.system import State
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import rotation_matrix
-
-
-# Inertia of the iteration to equilibrium over the square of the fastest frequency of a link between the bodies it holds
-LINKS_FIRM = 4.0
 
 
 class NoEquilibrium(RuntimeError):

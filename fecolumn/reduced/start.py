@@ -6,7 +6,8 @@ import numpy as np
 
 from fecolumn._compiled import interpreted
 from fecolumn.contact.problem import FAR_BASE, OK
-from fecolumn.dynamics.gravity import LINKS_FIRM, NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
+from fecolumn.contact.tolerances import LINKS_FIRM
+from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
 from fecolumn.dynamics.links import end_links, fastest
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE
