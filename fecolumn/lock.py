@@ -47,6 +47,18 @@ def alone(path: Path):
             file.unlink(missing_ok=True)
 
 
+def held(file: Path) -> bool:
+    """Whether a process holds the lock in `file`; one that was killed holds none, though its file may be left."""
+    try:
+        with open(file) as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except FileNotFoundError:
+        return False
+    except BlockingIOError:
+        return True
+    return False
+
+
 def _still(lock, file: Path) -> bool:
     """Whether an open lock is the one that goes by its name."""
     try:

@@ -23,8 +23,9 @@ def preparation(analyses: Iterable) -> str:
     import numba
 
     from fecolumn._compiled import cache_folder, compiled_folder
+    from fecolumn.lock import held
 
-    if any(lock for name in ("model", "body") for lock in cache_folder().glob(f".{name}-*.lock")):
+    if any(held(lock) for name in ("model", "body") for lock in cache_folder().glob(f".{name}-*.lock")):
         return MODELLING
     kept = any(Path(compiled_folder()).glob("*/*.advance-*.nbi"))  # the one function of the engine that Python calls, see reduced.run
     return "" if kept or numba.config.DISABLE_JIT else COMPILING

@@ -16,6 +16,7 @@ from fecolumn import _compiled
 from fecolumn.schema import InputError
 from fecolumn.study.outcome import Outcome
 from fecolumn.study.plan import read_plan
+from fecolumn.lock import alone
 from fecolumn.study.preparation import COMPILING, MODELLING, preparation
 from fecolumn.study.progress import Progress
 from fecolumn.study.run import StudyError, run_study
@@ -284,7 +285,7 @@ def test_time_in_which_the_engine_is_compiled_is_told_and_no_analysis_pays_for_i
 
 
 @pytest.mark.parametrize("engine, files, words", [("reduced", (), COMPILING), ("rigid", (), COMPILING), ("full", (), ""),
-                                                  ("reduced", (".model-1f.lock",), MODELLING), ("reduced", ("{code}/reduced_1/run.advance-27.py311.1.nbi",), "")])
+                                                  ("reduced", (".model-1f.lock",), COMPILING), ("reduced", ("{code}/reduced_1/run.advance-27.py311.1.nbi",), "")])
 def test_what_a_new_machine_makes_first_is_seen_in_its_cache(tmp_path, monkeypatch, engine, files, words):
     monkeypatch.setenv("FECOLUMN_CACHE", str(tmp_path / "cache"))
     _compiled.compiled_folder.cache_clear()
@@ -297,6 +298,15 @@ def test_what_a_new_machine_makes_first_is_seen_in_its_cache(tmp_path, monkeypat
         assert preparation(plan.analyses) == words
     finally:
         _compiled.compiled_folder.cache_clear()
+
+
+def test_a_model_is_being_made_while_a_process_holds_its_lock_and_not_where_a_killed_one_left_the_file(tmp_path, monkeypatch):
+    monkeypatch.setenv("FECOLUMN_CACHE", str(tmp_path))
+    plan = read_plan(write_study(tmp_path, dt=[1e-3], alpha=[0], pulses=[1], extra='"integration.engine" = ["reduced"]\n'))
+    with alone(tmp_path / "model-1f"):
+        assert preparation(plan.analyses) == MODELLING
+    (tmp_path / ".model-1f.lock").touch()
+    assert preparation(plan.analyses) != MODELLING
 
 
 def test_log_file_gets_few_plain_lines(tmp_path):
