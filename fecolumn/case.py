@@ -13,7 +13,7 @@ from pathlib import Path
 
 from fecolumn.content import content
 from fecolumn.model_keys import check_model
-from fecolumn.schema import InputError, Section, build, merge, parameter, read_toml, stated
+from fecolumn.schema import InputError, Section, build, merge, nested, parameter, read_toml, stated
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
@@ -217,13 +217,10 @@ class Case(Section):
 
         tables = stated(dataclasses.asdict(sizes.opened(self)))
         for key, value in {**(changes or {}), **sections}.items():
-            own = {key.rpartition(".")[2]: value}
-            for part in reversed(key.split(".")[:-1]):
-                own = {part: own}
             if value is None:
                 tables.pop(key, None)
             else:
-                tables = merge(tables, own)
+                tables = merge(tables, nested(key, value))
         return case_from_tables(tables, "case")
 
     @property

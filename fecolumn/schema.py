@@ -303,6 +303,13 @@ def stated(tables: dict) -> dict:
     return {key: stated(value) if isinstance(value, dict) else value for key, value in tables.items() if value is not None}
 
 
+def nested(key: str, value) -> dict:
+    """Tables in which the dotted key has this value."""
+    for part in reversed(key.split(".")):
+        value = {part: value}
+    return value
+
+
 def merge(base: dict, over: dict) -> dict:
     """Tables of `base` overridden by those of `over`, key by key."""
     merged = dict(base)

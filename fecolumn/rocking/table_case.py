@@ -15,8 +15,8 @@ import json
 from dataclasses import dataclass
 
 from fecolumn.case import Integration, Motion, Output, Overturn, located, section_table
-from fecolumn.rocking.model import TABLES, Model, model_class
-from fecolumn.schema import InputError, Section, build, merge, parameter, stated
+from fecolumn.rocking.model import TABLES, Model, engine_of, model_class
+from fecolumn.schema import InputError, Section, build, merge, nested, parameter, stated
 
 #: Tables of a structure of [bodies] that a model of the same file passes over
 OF_BODIES = ("bodies", "materials", "interfaces", "links", "contact", "observed")
@@ -73,9 +73,7 @@ class TableCase:
         """This case with other values by dotted key, such as {"podium.impact": "CAV"}, checked as a file's would be; see `Case.replace`."""
         tables = stated(dataclasses.asdict(self))
         for key, value in {**(changes or {}), **sections}.items():
-            for part in reversed(key.split(".")):
-                value = {part: value}
-            tables = merge(tables, value)
+            tables = merge(tables, nested(key, value))
         return table_case(stated(tables), "case")
 
 
@@ -88,8 +86,6 @@ def table_case(tables: dict, file, engine: str | None = None) -> TableCase:
     Raises:
         InputError: unknown key, value out of range, parts that do not fit.
     """
-    from fecolumn.rocking.model import engine_of
-
     engine = engine or engine_of(tables, file)
     table = next(name for name, model in TABLES.items() if model == engine)
     structure = "bodies" in tables

@@ -19,7 +19,7 @@ from fecolumn.case import (FULL_ORDER_KEYS, DEFAULT, MOST_STEPS, Contact, Initia
                            section_table)
 from fecolumn.content import content
 from fecolumn.files import is_file
-from fecolumn.schema import InputError, build, merge, stated
+from fecolumn.schema import InputError, build, merge, nested, stated
 from fecolumn.structures.keys import FILES, GROUND, KINDS, Interface, LinkKeys, Placed, Storeys
 
 #: Tables of tables by name, and the class of each.
@@ -89,11 +89,7 @@ class StructureCase:
         """This case with other values by dotted key, such as {"bodies.slab.length_m": 3.0}, checked as a file's would be; see `Case.replace`."""
         tables = self.tables()
         for key, value in {**(changes or {}), **sections}.items():
-            first, *rest = reversed(key.split("."))
-            own = {first: value}
-            for part in rest:
-                own = {part: own}
-            tables = merge(tables, own)
+            tables = merge(tables, nested(key, value))
         return structure_from_tables(stated(tables), "case")
 
     def tables(self) -> dict:

@@ -24,7 +24,7 @@ from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check_duratio
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.rocking.model import TABLES
-from fecolumn.schema import InputError, build, merge, read_toml, shown
+from fecolumn.schema import InputError, build, merge, nested, read_toml, shown
 from fecolumn.structures.keys import FILES as BODY_FILES
 from fecolumn.study.axes import Factor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
@@ -242,9 +242,7 @@ class _Maker:
         tables = self.common
         for factor, place in zip(self.factors, places):
             for key, value in zip(factor.keys, factor.levels[place]):
-                for part in reversed(key.split(".")):
-                    value = {part: value}
-                tables = merge(tables, value)
+                tables = merge(tables, nested(key, value))
         return tables
 
     def _refuse_missing(self, motion) -> None:
