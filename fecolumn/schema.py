@@ -220,8 +220,7 @@ def build(section, table, file, prefix: str = ""):
     kinds, errors, values = _kinds(section), [], {}
     for key, value in table.items():
         if key not in kinds:
-            near = difflib.get_close_matches(key, kinds, 1, 0.6)
-            hint = f"; did you mean {prefix}{near[0]}?" if near else f"; known keys: {', '.join(kinds)}"
+            hint = meant(key, kinds, prefix) or f"; known keys: {', '.join(kinds)}"
             errors.append(InputError(file, prefix + key, None if isinstance(value, dict) else value, "unknown key" + hint))
     for name, (field, kind, inner, optional) in kinds.items():
         try:
@@ -301,6 +300,12 @@ def _depth(tables) -> int:
 def stated(tables: dict) -> dict:
     """Tables without the keys that are left open."""
     return {key: stated(value) if isinstance(value, dict) else value for key, value in tables.items() if value is not None}
+
+
+def meant(name: str, known, prefix: str = "") -> str:
+    """The end of a message on an unknown name: "; did you mean ...?" with the nearest of the known ones, "" where none is near."""
+    near = difflib.get_close_matches(name, known, 1, 0.6)
+    return f"; did you mean {prefix}{near[0]}?" if near else ""
 
 
 def nested(key: str, value) -> dict:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.fem.rotation import polar_rotation
 from fecolumn.render.field_frames import Fields
+from fecolumn.render.pose import nearest_rigid
 from fecolumn.render.quantity import Quantity
 from fecolumn.render.result import Result
 from fecolumn.schema import InputError
@@ -47,7 +47,35 @@ class Frame:
     centre: np.ndarray
 
 
-class Frames:
+class Scaled:
+    """Frames of an analysis on common scales: exaggeration, colour_quantity and pressure_quantity as of Frames.
+
+    A subclass has `times`, `colour`, `frame`, `_largest_elastic` and `_pressure_quantity`.
+    """
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __iter__(self):
+        return (self.frame(k) for k in range(len(self)))
+
+    def _scale(self, exaggerate: float | str, height: float, like: Scaled | None) -> None:
+        """Find the scales, or take those of `like`; exaggerate: as of Frames, height: of what moves [m]."""
+        if like:
+            self.exaggeration, self.colour_quantity, self.pressure_quantity = like.exaggeration, like.colour_quantity, like.pressure_quantity
+            return
+        self.exaggeration = 1.0 if exaggerate == "auto" else float(exaggerate)
+        if exaggerate == "auto":
+            self.exaggeration = round_down(SEEN * height / max(max(map(self._largest_elastic, range(len(self)))), 1e-12))
+        frames = list(self)
+        if self.colour == "displacement":
+            self.colour_quantity = Quantity.of("displacement", "m", max(frame.colour.max() for frame in frames))
+        else:
+            self.colour_quantity = Quantity.of("von Mises stress", "Pa", max(np.nanpercentile(frame.colour, RANGE) for frame in frames), DECADES)
+        self.pressure_quantity = self._pressure_quantity(frames)
+
+
+class Frames(Scaled):
     """Frames of an analysis, from its fields where they are known often enough, written or made from states, else from its history.
 
     Attributes:
@@ -87,16 +115,7 @@ class Frames:
         self.centres = self._pressure_centres(self.times)
         body = result.solid.mesh.body
         self._count, self._foot_points = len(body.points), np.unique(result.solid.foot_faces)
-        if like:
-            self.exaggeration, self.colour_quantity, self.pressure_quantity = like.exaggeration, like.colour_quantity, like.pressure_quantity
-            return
-        self.exaggeration = 1.0 if exaggerate == "auto" else float(exaggerate)
-        if exaggerate == "auto":
-            self.exaggeration = round_down(SEEN * result.solid.height / max(max(map(self._largest_elastic, range(len(self)))), 1e-12))
-        self.colour_quantity, self.pressure_quantity = self._quantities()
-
-    def __len__(self) -> int:
-        return len(self.times)
+        self._scale(exaggerate, result.solid.height, like)
 
     @property
     def surface(self):
@@ -113,9 +132,6 @@ class Frames:
         from fecolumn.render.foot_plan import FootPlan
 
         return FootPlan(self, figure)
-
-    def __iter__(self):
-        return (self.frame(k) for k in range(len(self)))
 
     def frame(self, k: int) -> Frame:
         """Frame `k`."""
@@ -157,8 +173,8 @@ class Frames:
     def _rigid(self, moved: np.ndarray) -> np.ndarray:
         """The rigid motion of the column nearest to `moved`."""
         points = self.result.solid.mesh.body.points
-        arms, middle = points - points.mean(axis=0), moved.mean(axis=0)
-        return middle + arms @ polar_rotation((moved - middle).T @ arms).T
+        rotation, shift = nearest_rigid(points, moved)
+        return points @ rotation.T + shift
 
     def _pressure_centres(self, times: np.ndarray) -> np.ndarray:
         from fecolumn.render.pressure_centre import pressure_centre
@@ -174,15 +190,10 @@ class Frames:
         moved = self.result.solid.mesh.body.points + self._fields(k).displacement[:self._count]
         return float(np.linalg.norm(moved - self._rigid(moved), axis=1).max())
 
-    def _quantities(self) -> tuple[Quantity, Quantity | None]:
-        frames = list(self)
-        if self.colour == "displacement":
-            colour = Quantity.of("displacement", "m", max(frame.colour.max() for frame in frames))
-        else:
-            colour = Quantity.of("von Mises stress", "Pa", max(np.percentile(frame.colour, RANGE) for frame in frames), DECADES)
+    def _pressure_quantity(self, frames: list[Frame]) -> Quantity | None:
         if not self.from_fields:
-            return colour, None
-        return colour, Quantity.of("contact pressure", "Pa", max(np.percentile(frame.pressure, RANGE) for frame in frames), DECADES)
+            return None
+        return Quantity.of("contact pressure", "Pa", max(np.percentile(frame.pressure, RANGE) for frame in frames), DECADES)
 
 
 def _areas(faces: np.ndarray) -> np.ndarray:

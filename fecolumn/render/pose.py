@@ -6,8 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fecolumn.fem.rotation import polar_rotation
+
 # of the direction of the tilt, where top and foot do not stand one above the other; each divides the error by the tilt at least
 _ITERATIONS = 20
+
+
+def nearest_rigid(points: np.ndarray, moved: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rotation R (3, 3) and shift s (3,) [m] of the rigid motion x -> R x + s that brings points (n, 3) nearest to where they `moved` (n, 3), in the least squares."""
+    middle, place = points.mean(axis=0), moved.mean(axis=0)
+    rotation = polar_rotation((moved - place).T @ (points - middle))
+    return rotation, place - rotation @ middle
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,11 @@ from fecolumn.schema import InputError
 SAME = 1e-5
 
 
+def same_modes(old: np.ndarray, new: np.ndarray) -> bool:
+    """Whether frequencies or signatures made anew are those that a file has."""
+    return old.shape == new.shape and np.allclose(old, new, rtol=0, atol=SAME * max(float(np.abs(old).max(initial=0.0)), 1e-300))
+
+
 class StateFrames(FrameSeries):
     """The states in a file of `reduced.states`; the model of the column, and what expands it to fields, are made when the first frame is read.
 
@@ -64,9 +69,7 @@ class StateFrames(FrameSeries):
         return self._expand
 
     def _check(self, model) -> None:
-        kept, made = ((self._arrays["frequencies"], self._arrays["signature"]), (model.frequencies, signature(model)))
-        same = all(old.shape == new.shape and np.allclose(old, new, rtol=0, atol=SAME * max(float(np.abs(old).max(initial=0.0)), 1e-300)) for old, new in zip(kept, made))
-        if not same:
+        if not (same_modes(self._arrays["frequencies"], model.frequencies) and same_modes(self._arrays["signature"], signature(model))):
             raise InputError(self._file, "", None, "is of other modes than those made of this column now: deformation, stress and pressure cannot be made from it; "
                              "--color displacement draws the history, and the case run into a new folder has them again")
 

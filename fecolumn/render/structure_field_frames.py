@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.fem.rotation import polar_rotation
 from fecolumn.render.field_frames import FieldFrames
+from fecolumn.render.pose import nearest_rigid
 from fecolumn.render.structure_solid import StructureSolid
 from fecolumn.schema import InputError
 
@@ -34,10 +34,7 @@ class StructureFieldFrames(FieldFrames):
         for k in range(len(self.time)):
             moved = solid.points + self.read(k).displacement
             for number, (part, own) in enumerate(self._parts()):
-                arms, place = solid.points[own] - part.center, moved[own]
-                middle = arms.mean(axis=0)
-                turned = polar_rotation((place - place.mean(axis=0)).T @ (arms - middle))
-                self.rotation[k, number], self.center[k, number] = turned, place.mean(axis=0) - turned @ middle
+                self.rotation[k, number], self.center[k, number] = nearest_rigid(solid.points[own] - part.center, moved[own])
 
     def _parts(self):
         """Each part and its points."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.render.frames import DECADES, RANGE, SEEN, round_down
+from fecolumn.render.frames import DECADES, RANGE, Scaled
 from fecolumn.render.quantity import Quantity
 from fecolumn.schema import InputError
 from fecolumn.structures.drawn import link_ends
@@ -34,7 +34,7 @@ class StructureFrame:
     base_colour: None = None
 
 
-class StructureFrames:
+class StructureFrames(Scaled):
     """Frames of an analysis from its states or fields: bodies turn steadily and move straight between two of them; deformation, stress and pressure are those of the nearest.
 
     Attributes as of `render.frames.Frames`: times, exaggeration, colour, colour_quantity, pressure_quantity, from_fields.
@@ -57,25 +57,7 @@ class StructureFrames:
             raise InputError("fecolumn render", "--color", colour, "no body of this structure deforms as a continuum: all are rigid, storeys or matrices")
         self._deformed = self.colour == "stress" or exaggerate != 1.0
         self.from_fields, self._kept = self._deformed, (None, None)
-        if like:
-            self.exaggeration, self.colour_quantity, self.pressure_quantity = like.exaggeration, like.colour_quantity, like.pressure_quantity
-            return
-        self.exaggeration = 1.0 if exaggerate == "auto" else float(exaggerate)
-        if exaggerate == "auto":
-            largest = max(np.linalg.norm(self._expanded(k)[1], axis=1).max() for k in range(len(self)))
-            self.exaggeration = round_down(SEEN * result.height / max(float(largest), 1e-12))
-        frames = list(self)
-        if self.colour == "displacement":
-            self.colour_quantity = Quantity.of("displacement", "m", max(frame.colour.max() for frame in frames))
-        else:
-            self.colour_quantity = Quantity.of("von Mises stress", "Pa", max(np.nanpercentile(frame.colour, RANGE) for frame in frames), DECADES)
-        self.pressure_quantity = Quantity.of("contact pressure", "Pa", max(np.percentile(np.concatenate(frame.pressures), RANGE) for frame in frames), DECADES)
-
-    def __len__(self) -> int:
-        return len(self.times)
-
-    def __iter__(self):
-        return (self.frame(k) for k in range(len(self)))
+        self._scale(exaggerate, result.height, like)
 
     @property
     def surface(self):
@@ -106,6 +88,12 @@ class StructureFrames:
             links[broken, 1] = links[broken, 0]
         struts = drawn[solid.struts] if len(solid.struts) else None
         return StructureFrame(float(self.times[k]), drawn, colour, links, struts, *self._states.pressures(number))
+
+    def _largest_elastic(self, k: int) -> float:
+        return float(np.linalg.norm(self._expanded(k)[1], axis=1).max())
+
+    def _pressure_quantity(self, frames: list[StructureFrame]) -> Quantity:
+        return Quantity.of("contact pressure", "Pa", max(np.percentile(np.concatenate(frame.pressures), RANGE) for frame in frames), DECADES)
 
     def _expanded(self, k: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """As of `StructureFields.local`; the last one is kept: a frame is asked for twice, and more than one may be of the same state."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +14,7 @@ from fecolumn.render.pose import Poses
 from fecolumn.render.structure_field_frames import StructureFieldFrames
 from fecolumn.render.structure_solid import StructureSolid, structure_solid
 from fecolumn.render.structure_states import StructureStates
-from fecolumn.schema import InputError
+from fecolumn.schema import InputError, meant
 from fecolumn.structures.case import StructureCase
 
 # Ground that is shown around a structure, over its width [-], and how many of its squares go into this width
@@ -168,8 +167,7 @@ def _place(structure, body: str) -> int:
         return structure.observed[0]
     names = [part.name for part in structure.parts]
     if body not in names:
-        near = difflib.get_close_matches(body, names, 1, 0.6)
-        raise InputError("fecolumn render", "--body", body, f"no such body{f'; did you mean {near[0]}?' if near else ''}; there are {', '.join(names)}")
+        raise InputError("fecolumn render", "--body", body, f"no such body{meant(body, names)}; there are {', '.join(names)}")
     return names.index(body)
 
 

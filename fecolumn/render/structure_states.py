@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.reduced.states import modes_of, read_states, signature, state_at
 from fecolumn.render.field_frames import FrameSeries
-from fecolumn.render.state_frames import SAME
+from fecolumn.render.state_frames import same_modes
 from fecolumn.render.structure_fields import StructureFields
 from fecolumn.render.structure_solid import StructureSolid
 from fecolumn.schema import InputError
@@ -82,6 +82,6 @@ class StructureStates(FrameSeries):
         parts = self._solid.structure.parts
         for name, made in (("frequencies", [part.model.frequencies for part in parts]), ("signature", [signature(part.model) for part in parts])):
             old, new = self._arrays[name], modes_of(made)
-            for part, *rows in zip(parts, *((old, new) if old.shape == new.shape else (np.ones((len(parts), 1)), np.zeros((len(parts), 1))))):
-                if not np.allclose(*rows, rtol=0, atol=SAME * max(float(np.abs(rows[0]).max(initial=0.0)), 1e-300)):
+            for part, kept, one in zip(parts, old, new):
+                if not same_modes(kept, one):
                     raise InputError(self._file, "", None, f'is of other modes of "{part.name}" than those made of it now; the case run into a new folder has them again')

@@ -103,7 +103,8 @@ def podium_claims(buildings) -> list[Claim]:
         return "; ".join(f"{profile} {', '.join(form(get(one[profile, n])) for n in storeys if (profile, n) in one)}" for profile in profiles)
 
     heads = f"n = {', '.join(map(str, storeys))}"
-    within = f"in every building at most {_OUTSIDE:.0%} of its points are outside".replace("%", " %")
+    some = f"{100 * _OUTSIDE:.0f} %"
+    within = f"in every building at most {some} of its points are outside"
     found = [Claim("p1", "The distributions of the largest tilt are almost the same under both laws.",
                    f"Share of points where CAV is outside the 95 % band of CRV, {heads}: {row(lambda each: each.outside_tilt, percent)}. Distance of the distributions: "
                    f"{row(lambda each: each.tilt[0])}. {_shortfall(buildings)}",
@@ -122,7 +123,7 @@ def podium_claims(buildings) -> list[Claim]:
                            f"supported: the 95 % interval of its ratio less that of each other profile at n = {storeys[0]} is above 0; not supported: below 0 for one; else undecided",
                            _sided([own.drawn[1] - other.drawn[1] for other in others])))
     found.append(Claim("p5", f"CAV's base shear is within the band of CRV for n = {storeys[-1]} alone.", f"Share of points outside, {heads}: {row(lambda each: each.outside_shear, percent)}.",
-                       f"supported: at most {_OUTSIDE:.0%}".replace("%", " %") + f" of the points are outside for n = {storeys[-1]} and more for every other; not supported: otherwise; undecided: fewer than {FEWEST} motions",
+                       f"supported: at most {some} of the points are outside for n = {storeys[-1]} and more for every other; not supported: otherwise; undecided: fewer than {FEWEST} motions",
                        _judged(all((each.outside_shear <= _OUTSIDE) == (each.storeys == storeys[-1]) for each in buildings), few)))
     if len(storeys) > 1 and pairs:
         for key, name, place, get in (("p6", "tilt", 2, lambda each: each.tilt_scatter), ("p7", "base shear", 3, lambda each: each.shear_scatter)):

@@ -8,7 +8,6 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import hashlib
 import json
 import typing
@@ -19,7 +18,7 @@ from fecolumn.case import (FULL_ORDER_KEYS, DEFAULT, MOST_STEPS, Contact, Initia
                            section_table)
 from fecolumn.content import content
 from fecolumn.files import is_file
-from fecolumn.schema import InputError, build, merge, nested, stated
+from fecolumn.schema import InputError, build, meant, merge, nested, stated
 from fecolumn.structures.keys import FILES, GROUND, KINDS, Interface, LinkKeys, Placed, Storeys
 
 #: Tables of tables by name, and the class of each.
@@ -114,8 +113,7 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
     tables, errors, found = merge(DEFAULTS, stated(tables)), [], {}
     for key in tables:
         if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
-            near = difflib.get_close_matches(key, [*NAMED, *COMMON], 1, 0.6)
-            errors.append(InputError(file, key, None, f"says nothing of a structure of [bodies]{f'; did you mean {near[0]}?' if near else ''}; "
+            errors.append(InputError(file, key, None, f"says nothing of a structure of [bodies]{meant(key, [*NAMED, *COMMON])}; "
                                      f"its tables: {', '.join([*NAMED, *COMMON])}"))
     for name, kind in NAMED.items():
         found[name] = _named(name, kind, tables.get(name, {}), file, errors)
@@ -223,8 +221,7 @@ def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
         case.meant_by(name)
     except KeyError:
         known = [GROUND] * ground + list(case.bodies) + [copy for body in case.bodies for copy in case.names_of(body) if copy != body]
-        near = difflib.get_close_matches(name, known, 1, 0.6)
-        refuse(key, name, f"no such body{f'; did you mean {near[0]}?' if near else ''}; known: {', '.join(known)}")
+        refuse(key, name, f"no such body{meant(name, known)}; known: {', '.join(known)}")
 
 
 def _check_integration(case, refuse) -> None:

@@ -18,7 +18,6 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import math
 import pickle
 import typing
@@ -28,7 +27,7 @@ from pathlib import Path
 from fecolumn.case import Case
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.rocking.model import TABLES as TABLES_OF_MODELS
-from fecolumn.schema import InputError, build
+from fecolumn.schema import InputError, build, meant
 from fecolumn.structures.case import type_of
 from fecolumn.study.keys import LatinHypercube
 
@@ -81,9 +80,8 @@ def read_factors(tables: dict, path: Path) -> list[Factor]:
 
 def hint(key: str, known) -> str:
     """The nearest known key; a bare `dt` finds `integration.dt_s` by its last word."""
-    near = (difflib.get_close_matches(key, known, 1, 0.6)
-            or [k for k in known if k.split(".")[-1].startswith(key.split(".")[-1])])
-    return f"; did you mean {near[0]}?" if near else ""
+    begun = (f"; did you mean {one}?" for one in known if one.split(".")[-1].startswith(key.split(".")[-1]))
+    return meant(key, known) or next(begun, "")
 
 
 def _lists(table, name: str, path: Path) -> dict[str, tuple]:
