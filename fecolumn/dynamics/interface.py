@@ -9,17 +9,18 @@ import numpy as np
 from fecolumn._compiled import compile_for, compiled, interpreted
 from fecolumn.contact.projection import base_for_steps, place_on_masters, project
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
-from fecolumn.contact.compliance import assemble, static_displacement
+from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.joints import Joints
+from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
 from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, begin_problem, near_points, room, solve_linear, stored_energy
 from fecolumn.contact.pose import POSE, SLAVE, find_poses, frames_at, poses_on_base
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
 from fecolumn.contact.stick import no_stick
-from fecolumn.contact.tolerances import CLOSE, ITERATIONS, OPEN
+from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.dynamics.cuts import Stop, StepFailed
 from fecolumn.fem.rotation import into_frames, out_of_frames
 
@@ -219,7 +220,7 @@ class Interface:
             positions = self.start_positions(state.x, state.rotation, now)
             if (self.points["beyond"] == UNPREPARED).any():
                 raise StepFailed(Stop.OFF_PATCH, Stop.OFF_PATCH.value)
-            self._find_sunk(before, positions, now, ~np.isnan(rims["angle"]) & (rims["angle"] != state.rims["angle"]))
+            self._find_sunk(before, positions, now, state.rims, rims)
             before["beyond"] = self.points["beyond"] != OVER
             # one that was found by nothing but its place, or beyond an outline
             elsewhere = ~before["located"] | (self.points["master"] != BASE) & (before["relative"][:, 2] > CLOSE * self.interfaces["width"][self.points["interface"]])
@@ -227,16 +228,18 @@ class Interface:
             before["anchor"][elsewhere], before["located"] = before["relative"][elsewhere, :2], True
         return before, rims, rolled
 
-    def _find_sunk(self, before, positions, poses, rolled) -> None:
-        """As `reduced.equilibrium.find_sunk`; rolled: (ni,) mask of the interfaces."""
+    def _find_sunk(self, before, positions, poses, rims_before, rims) -> None:
+        """As `reduced.equilibrium.find_sunk`; sunk points are put high above the surface."""
         k = self.points["interface"]
-        back = np.flatnonzero(before["beyond"] & (before["force"][:, 2] <= 0) & (self.points["beyond"] == OVER) & (positions[:, 2] < 0) & ~rolled[k])
-        if not len(back):
+        below = np.flatnonzero(before["beyond"] & (self.points["beyond"] == OVER) & (positions[:, 2] < 0))
+        back = [i for i in below if interpreted(was_beyond)(before[i], rims_before[k[i]], rims[k[i]])]
+        if not back:
             return
-        listed, displaced = np.concatenate([np.flatnonzero(before["force"][:, 2] > 0), back]), np.zeros((self.size, 3))
-        interpreted(static_displacement)(self.bodies, self.surface, self.points, poses, before, listed, displaced)
-        sunk = back[positions[back, 2] + displaced[back, 2] < -OPEN * self.interfaces["width"][k[back]]]
-        self.points["beyond"][sunk], positions[sunk, 2] = SUNK, self.interfaces["width"][k[sunk]]
+        loaded = np.flatnonzero(before["force"][:, 2] > 0)
+        interpreted(mark_sunk)(self.bodies, self.surface, self.points, self.interfaces, poses, before, np.concatenate([loaded, back]), len(loaded), positions,
+                               np.zeros((self.size, 3)))
+        sunk = self.points["beyond"] == SUNK
+        positions[sunk, 2] = self.interfaces["width"][k[sunk]]
 
     def _roll(self, interface, rim, pose, halfway, state, before, rolls) -> bool:
         """Place the points of a rim; whether they rolled."""

@@ -152,9 +152,10 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         rotation, internal, strain = system.kinematics.internal(x)
         halfway = polar_rotation(rotation + stage.rotation)
         middle, inner = stage.middle(column, halfway), internal
+        acts_halfway = stage.turns and middle.memory is not None
         if middle.velocity is not None:
             inner = internal + system.damping.force(middle.velocity + operators.rate_factor * (x - middle.target), rotation)
-        if stage.turns and middle.memory is not None:
+        if acts_halfway:
             inner = out_of_frames(inner, halfway @ rotation.swapaxes(-1, -2), column.rows)
         pushed = operators.mass_factor * (middle.target - x) + scale * stage.untwisting(system, x, internal, rotation, halfway)
         residual = column.apply(column.mass, pushed) + middle.load - operators.stiffness_factor * inner
@@ -184,7 +185,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         # Newton about the present forces, so that a slightly turned compliance does not matter at convergence
         turn = rotation @ operators.rotation.swapaxes(-1, -2)
         # forces act in the frame halfway: as the body's own they meet the stiffness as it is, by which a turned one would be multiplied
-        acts = halfway @ operators.rotation.swapaxes(-1, -2) if stage.turns and middle.memory is not None else turn
+        acts = halfway @ operators.rotation.swapaxes(-1, -2) if acts_halfway else turn
         x = system.kinematics.moved(x, out_of_frames(operators.factor.solve(into_frames(total, acts, column.rows)), turn, column.rows))
         old = contact["force"].copy()
         poses = interface.poses(x, rotation)

@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put_matrix
-from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
+from fecolumn.contact.points import BASE, CONTACT, OVER, UNPREPARED
 from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.problem import (
     ITERATIONS_SPENT,
@@ -25,9 +25,9 @@ from fecolumn.contact.problem import (
     room,
     stored_energy,
 )
-from fecolumn.contact.compliance import static_displacement
+from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.stick import Stick, holds, no_stick
-from fecolumn.contact.tolerances import CLOSE, ITERATIONS, OPEN, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
+from fecolumn.contact.tolerances import CLOSE, ITERATIONS, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_on_master, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, begin_frames, follow, no_action
 from fecolumn.contact.pose import find_poses
@@ -121,17 +121,13 @@ def find_positions(structure, work, start, end):
 
 @njit
 def find_sunk(structure, base, work, start, rims):
-    """Mark those points as SUNK that come from beyond an outline and are below the surface at the START of a step.
-
-    They are at the side of the master: were they let in, contact would push them up and make energy. Those of a rim that rolls in this step are brought where the
-    rim is lowest, wherever that is.
-    """
+    """Mark those points as SUNK that come from beyond an outline and are below the surface at the START of a step; see `contact.outline`."""
     points, before, problem, poses, place = work.points, work.before, work.problem, work.poses[START], work.places[0]
     loaded = problem.count[0]
     count = loaded
     for i in range(len(points)):
         k = points[i].interface
-        if not before[i].beyond or before[i].force[2] > 0 or rims[k].angle == rims[k].angle and rims[k].angle != start.rims[k].angle:
+        if not was_beyond(before[i], start.rims[k], rims[k]):
             continue
         find_elastic(structure, points, i, start, work.elastic, START)
         find_position(points, i, start, work.elastic, START, place)
@@ -140,10 +136,7 @@ def find_sunk(structure, base, work, start, rims):
             problem.near[count], problem.slack[i, 2] = i, place[2]
             count += 1
     if count > loaded:
-        static_displacement(structure.bodies, base, points, poses, before, problem.near[:count], problem.displaced)
-        for i in problem.near[loaded:count]:
-            if problem.slack[i, 2] + problem.displaced[i, 2] < -OPEN * structure.interfaces[points[i].interface].width:
-                points[i].beyond = SUNK
+        mark_sunk(structure.bodies, base, points, structure.interfaces, poses, before, problem.near[:count], loaded, problem.slack, problem.displaced)
 
 
 @njit

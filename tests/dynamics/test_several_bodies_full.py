@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from brick_bodies import FullRun, Structure, brick_body, closure, frame, pulse, 
 
 from fecolumn._mpi import launch_environment
 from fecolumn.case import Material
+from fecolumn.contact.points import SUNK
 from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
 from fecolumn.dynamics.energy import TERMS
 from fecolumn.reduced.observe import ENERGY, WIDTH
@@ -29,6 +31,19 @@ def test_a_stack_of_elastic_blocks_carries_its_weight_and_rests(alpha):
     assert forces[points["slave"] == 0].sum() == pytest.approx(low + up, rel=1e-8) and forces[points["slave"] == 1].sum() == pytest.approx(up, rel=1e-8)
     rows, energies = run.advance(np.zeros((50, 3)))
     assert np.abs(rows - rows[0]).max() < 1e-12 and np.abs(energies[:, -1]).max() < 1e-10
+
+
+@pytest.mark.parametrize("height, stays_open", [(-1e-6, True), (1e-6, False)])
+def test_a_point_that_comes_back_from_beyond_an_edge_stays_open_below_the_surface_alone(height, stays_open):
+    run = stack().full()
+    interface, state, x, contact = run.system.interface, run.state, run.state.x.copy(), run.state.contact.copy()
+    point = np.flatnonzero(interface.points["slave"] == 1)[0]
+    contact["beyond"][point], contact["force"][point] = True, 0.0
+    x[run.system.column.rows[1], 2] += height - state.contact["relative"][point, 2]
+    before, _, _ = interface.begin_step(replace(state, x=x, contact=contact), state.rotation, True)
+    kept = np.zeros(len(before), bool)
+    kept[point] = stays_open
+    assert ((interface.points["beyond"] == SUNK) == kept).all() and (before["beyond"] == kept).all()
 
 
 @pytest.mark.parametrize("columns", [2, 4])
