@@ -90,11 +90,17 @@ def arms_of(column, x: np.ndarray) -> np.ndarray:
 
 
 def without_moment(system, arms: np.ndarray, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-    """Accelerations (n_owned, 3) [m/s2] of rigid rotations that take away the moment of internal forces (n_owned, 3) at arms (n_owned, 3), bodies turned by `rotation`."""
-    column, moments = system.column, np.cross(arms, forces)
-    moments = column.sum(np.stack([moments[rows].sum(axis=0) for rows in column.rows]))
-    turns = [R @ np.linalg.solve(inertia, moment @ R) for R, inertia, moment in zip(rotation.reshape(-1, 3, 3), system.inertias, moments)]
-    return np.concatenate([np.cross(turn, arms[rows]) for turn, rows in zip(turns, column.rows)])
+    """Accelerations (n_owned, 3) [m/s2] that take away the moment of internal forces (n_owned, 3) at arms p (n_owned, 3), bodies turned by `rotation`.
+
+    nu x X, X the reference arms: in the body's frame sum p x M (nu x X) is the moment, and no displacement has work against M (nu x X), by `corotated.mean_rotation`.
+    With the internal forces these are the gradient of the strain energy.
+    """
+    column = system.column
+    arms, forces = (into_frames(values, rotation, column.rows) for values in (arms, forces))
+    moments = np.cross(arms, forces)
+    moments, products = (column.sum(np.stack(each)) for each in zip(*((moments[rows].sum(axis=0), column.mass_arms[rows].T @ arms[rows]) for rows in column.rows)))
+    turns = [np.linalg.solve(np.trace(product) * np.eye(3) - product, moment) for product, moment in zip(products, moments)]
+    return out_of_frames(np.concatenate([np.cross(turn, column.arms[rows]) for turn, rows in zip(turns, column.rows)]), rotation, column.rows)
 
 
 def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:

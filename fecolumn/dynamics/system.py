@@ -18,7 +18,6 @@ from fecolumn.fem.composite import CompositeFactor, CompositeResponse, factor_of
 from fecolumn.fem.damping import DampedFactor
 from fecolumn.fem.effective import Factor
 from fecolumn.fem.foot import Response
-from fecolumn.fem.free_body import rigid_fields
 
 
 @dataclass(slots=True)
@@ -103,9 +102,6 @@ class System:
         self.footprint = self.foot_nodes = self.areas = None
         self.gravity, self.hht = np.asarray(gravity, float), hht
         self.weight = column.total_mass * np.linalg.norm(self.gravity)
-        masses = {part: rigid_fields(part)[2] for part in dict.fromkeys(column.parts)}
-        #: Inertia (nb, 3, 3) of each body about its centre of mass, as it is drawn [kg m2].
-        self.inertias = np.array([masses[part][3:, 3:] for part in column.parts])
         self.factorizations = 1  # the base's
         self._operators: dict[tuple, Operators] = {}
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)

@@ -58,6 +58,9 @@ class Body:
         self.node_mass = self.unit_loads[2, :, 2]
         self.total_mass = self.sum(self.node_mass.sum())
         self.center = self.sum(self.node_mass @ self.X) / self.total_mass
+        #: Positions (n_owned, 3) from the centre of mass [m], and the mass matrix times them [kg m].
+        self.arms = self.X - self.center
+        self.mass_arms = self.apply(self.mass, self.arms)
         #: As of `fem.composite.Composite`: one body, all rows its own, where it is drawn.
         self.rows, self.placed, self.extent, self.unturned = [slice(0, self.n_owned)], self.X, np.ptp(self.all_X, axis=0).max(), np.eye(3)
 

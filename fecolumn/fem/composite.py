@@ -25,7 +25,8 @@ class Composite:
         self.parts, self.comm = list(parts), parts[0].comm
         self.rows = slices([part.n_owned for part in parts])
         self.n_owned, self.n_nodes = (sum(getattr(part, name) for part in parts) for name in ("n_owned", "n_nodes"))
-        self.X, self.unturned = np.concatenate([part.X for part in parts]), np.tile(np.eye(3), (len(parts), 1, 1))
+        self.X, self.arms, self.mass_arms = (np.concatenate([getattr(part, name) for part in parts]) for name in ("X", "arms", "mass_arms"))
+        self.unturned = np.tile(np.eye(3), (len(parts), 1, 1))
         #: Unstrained positions (n_owned, 3) in the table frame [m].
         self.placed = self.places(centers, rotations)
         places = np.concatenate([center + (part.all_X - part.center) @ R.T for part, center, R in zip(parts, centers, rotations)])

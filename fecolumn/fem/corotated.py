@@ -8,8 +8,11 @@ from fecolumn.fem.rotation import polar_rotation
 
 
 def mean_rotation(body, x: np.ndarray) -> np.ndarray:
-    """Mass-weighted mean rotation (3, 3) of a body from its node positions (n_owned, 3)."""
-    return polar_rotation(body.sum((body.node_mass[:, None] * x).T @ (body.X - body.center)))
+    """Mean rotation (3, 3) of a body from its node positions (n_owned, 3), weighted by the mass matrix.
+
+    In its frame displacements d from the reference X have no moment, sum X x M d = 0, as those of elastic modes: the reduced engine's frame is the same to first order.
+    """
+    return polar_rotation(body.sum(x.T @ body.mass_arms))
 
 
 class Corotated:
