@@ -71,7 +71,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
         moved = column.max(np.abs(outcome.x - state.x).max(initial=0.0))
         outcome.contact["anchor"] = state.contact["anchor"]
         state = replace(state, x=outcome.x, internal=outcome.internal, strain=outcome.strain, rotation=outcome.rotation, contact=outcome.contact, static=outcome.static)
-        straight = stage.untwisting(system, state.x, state.internal, state.rotation, state.rotation)
+        straight = sum(stage.untwisting(system, state.x, state.internal, state.rotation, state.rotation, state.forces, interface.load(state.forces, state.rotation)))
         if links:
             pulls, state.ties = links.pulls(stage, state.x, state.rotation), links.ties(column.centers(state.x), state.rotation)
         return moved

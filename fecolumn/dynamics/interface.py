@@ -17,7 +17,7 @@ from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
 from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, begin_problem, near_points, room, solve_linear, stored_energy
-from fecolumn.contact.pose import POSE, SLAVE, find_poses, frames_at, poses_on_base
+from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, poses_on_base
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
 from fecolumn.contact.stick import no_stick
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS
@@ -73,6 +73,8 @@ class Interface:
         self._problem, self._stick = room(self.size), no_stick(0)
         #: Nodes and shares of the masters below the points at the start of the step.
         self._below, self._shares = self.points["below"].copy(), self.points["shares"].copy()
+        #: Arms (N, 3) of the surface nodes from the centres of mass, in the frames of their bodies, where they were found last.
+        self._arms_now = self.reference - centers
 
     def prepare(self, say=lambda text: None) -> None:
         """Have compiled what the steps call, so that the first landing costs what all cost; `say` is told why it takes long, if it does."""
@@ -152,16 +154,29 @@ class Interface:
 
         starts: at the start of a step, for all of which it decides what points are beyond an outline.
         """
-        if not self.moving:
-            positions = self.at_points(self.node_positions(x, rotation))
-        else:
-            moved = self._displacement(x, rotation)
-            positions = self.at_points(self._out_of_frames(self.reference + moved, rotation))
+        moved = self._displacement(x, rotation)
+        centers = self._into_frames(np.repeat(self.column.centers(x), self.bodies.body["count"], axis=0), rotation)
+        positions, self._arms_now = self.at_points(self._out_of_frames(self.reference + moved, rotation)), self.reference + moved - centers
+        if self.moving:
             # of the centre of mass, which the frames of the interfaces follow
-            drawn = self._into_frames(np.repeat(self.column.centers(x), self.bodies.body["count"], axis=0), rotation) - (self.reference - self.arms)
+            drawn = centers - (self.reference - self.arms)
             place_on_masters(self.bodies, self.interfaces, self.points, poses, moved - drawn, starts, positions)
         positions[:, 2] += self.points["lift"]
         return positions
+
+    def levers(self) -> np.ndarray:
+        """Arms (P, 2, 3) [m] of the points from the centres of mass of slave and moving master, in their frames, where `positions` has found them last."""
+        return np.stack([self.at_points(self._arms_now), self.points["seat"]], axis=1)
+
+    def moments(self, forces: np.ndarray, rotation: np.ndarray, levers: np.ndarray) -> np.ndarray:
+        """Moments (nb, 3) [N m] of forces (P, 3) at the points' `levers` about the centres of mass of bodies turned by `rotation`, in their frames."""
+        turned, loaded = rotation.reshape(-1, 3, 3), np.flatnonzero(forces.any(axis=1))
+        moments, pushes = np.zeros((len(turned), 3)), np.einsum("pab,pb->pa", self._frames(rotation)[self.points["interface"][loaded]], forces[loaded])
+        for side, name, sign in ((SLAVE, "slave", 1.0), (MASTER, "master", -1.0)):
+            of = np.flatnonzero(self.points[name][loaded] != BASE)
+            bodies = self.points[name][loaded][of]
+            np.add.at(moments, bodies, sign * np.cross(levers[loaded[of], side], np.einsum("pa,pab->pb", pushes[of], turned[bodies])))
+        return moments
 
     def velocities(self, v: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False) -> np.ndarray:
         """Velocities (P, 3) of the points from the bodies' velocities, relative to the master in the frame of the interface; starts: with the nodes that were below them
@@ -210,6 +225,7 @@ class Interface:
         """
         before, rims, rolled = state.contact.copy(), state.rims.copy(), False
         if not (self.interfaces["rim_count"].any() or self.moving):
+            self.positions(state.x, state.rotation, None)
             return before, rims, rolled
         now, then = self.poses(state.x, state.rotation), self.poses(state.x, halfway)
         for interface, rim, pose, turned in zip(self.interfaces, rims, now, then):
@@ -226,6 +242,8 @@ class Interface:
             elsewhere = ~before["located"] | (self.points["master"] != BASE) & (before["relative"][:, 2] > CLOSE * self.interfaces["width"][self.points["interface"]])
             before["relative"][elsewhere] = positions[elsewhere]
             before["anchor"][elsewhere], before["located"] = before["relative"][elsewhere, :2], True
+        else:
+            self.positions(state.x, state.rotation, now)
         return before, rims, rolled
 
     def _find_sunk(self, before, positions, poses, rims_before, rims) -> None:

@@ -30,7 +30,7 @@ class Stage:
     memory: (n_owned, 3) acceleration that the start brings [m/s2], None at rest; shares: of it in target [s2] and velocity [s]; held: (n_owned, 3) internal
         forces that the start brings to the load [N]. turns: whether internal forces and what the start brings turn with the bodies; not in the literal HHT
         scheme, whose accelerations hold contact forces.
-    place, internal: (n_owned, 3) positions [m] and internal forces [N] at the start.
+    place, internal: (n_owned, 3) positions [m] and internal forces [N] at the start; levers: (P, 2, 3) of the points there, as of `Interface.levers`.
     """
 
     target: np.ndarray
@@ -49,6 +49,7 @@ class Stage:
     turns: bool = False
     place: np.ndarray | None = None
     internal: np.ndarray | None = None
+    levers: np.ndarray | None = None
 
     def middle(self, column, halfway: np.ndarray) -> Middle:
         """What the stage asks for, with all that its start brings, in the frame `halfway`."""
@@ -60,19 +61,26 @@ class Stage:
             memory, held = carried(column, memory, turn), out_of_frames(held, turn, column.rows)
         return Middle(self.target + way * memory, self.load + held, None if self.velocity is None else self.velocity + rate * memory, memory)
 
-    def untwisting(self, system, x: np.ndarray, internal: np.ndarray, rotation: np.ndarray, halfway: np.ndarray):
-        """Accelerations (n_owned, 3) that take away the moment of the internal forces in a step to positions x, or at rest there; 0 where nothing turns.
+    def untwisting(self, system, x: np.ndarray, internal: np.ndarray, rotation: np.ndarray, halfway: np.ndarray, forces: np.ndarray, push: np.ndarray):
+        """Accelerations (n_owned, 3) in a step to positions x, or at rest there, that mend moments of second order in the strain; 0 where nothing turns.
 
-        Forces K d at displacements d have the moment sum d x K d, of second order in the strain, and would turn a body that nothing touches.
+        The first ones take away that of the internal forces: K d at displacements d have the moment sum d x K d, and would turn a body that nothing touches.
+        The others give contact forces (P, 3) the moment that they have about the points' places: `push`, their nodal forces (n_owned, 3), act on nodes
+        that the filter has chosen, and these have moved otherwise.
         """
         if not self.turns:
-            return 0.0
-        if self.memory is None:
-            return without_moment(system, arms_of(system.column, x), internal, rotation)
-        column, ends = system.column, ((self.place, self.internal, self.rotation), (x, internal, rotation))
-        turned = [[out_of_frames(values, halfway @ R.swapaxes(-1, -2), column.rows) for values in (arms_of(column, place), force)] for place, force, R in ends]
-        arms, forces = ((first + last) / 2 for first, last in zip(*turned))
-        return without_moment(system, arms, forces, halfway)
+            return 0.0, 0.0
+        column, interface = system.column, system.interface
+        ends = [(x, internal, rotation)] if self.memory is None else [(self.place, self.internal, self.rotation), (x, internal, rotation)]
+        arms, inner = (sum(into_frames(values, R, column.rows) for values, R in each) / len(ends)
+                       for each in zip(*(((arms_of(column, place), R), (force, R)) for place, force, R in ends)))
+        levers = interface.levers() if self.memory is None else (self.levers + interface.levers()) / 2
+        pushed = into_frames(push, halfway, column.rows)
+        products, *moments = (column.sum(np.stack(each)) for each in zip(*(
+            (column.mass_arms[rows].T @ arms[rows], *(np.cross(arms[rows], acting[rows]).sum(axis=0) for acting in (inner, pushed))) for rows in column.rows)))
+        mended = moments[0], interface.moments(forces, halfway, levers) - moments[1]
+        return tuple(out_of_frames(np.concatenate([np.cross(turn_of(product, moment), column.arms[rows]) for product, moment, rows in zip(products, each, column.rows)]),
+                                   halfway, column.rows) for each in mended)
 
 
 class Middle(NamedTuple):
@@ -89,18 +97,12 @@ def arms_of(column, x: np.ndarray) -> np.ndarray:
     return x - np.repeat(column.centers(x), [rows.stop - rows.start for rows in column.rows], axis=0)
 
 
-def without_moment(system, arms: np.ndarray, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-    """Accelerations (n_owned, 3) [m/s2] that take away the moment of internal forces (n_owned, 3) at arms p (n_owned, 3), bodies turned by `rotation`.
+def turn_of(product: np.ndarray, moment: np.ndarray) -> np.ndarray:
+    """nu (3,) [1/s2] with which forces M (nu x X), X the reference arms of a body, have a moment (3,) [N m] at its arms p; product: sum of (M X) p^T.
 
-    nu x X, X the reference arms: in the body's frame sum p x M (nu x X) is the moment, and no displacement has work against M (nu x X), by `corotated.mean_rotation`.
-    With the internal forces these are the gradient of the strain energy.
+    No displacement of the body has work against these forces, by `corotated.mean_rotation`: they act on its rigid motion alone.
     """
-    column = system.column
-    arms, forces = (into_frames(values, rotation, column.rows) for values in (arms, forces))
-    moments = np.cross(arms, forces)
-    moments, products = (column.sum(np.stack(each)) for each in zip(*((moments[rows].sum(axis=0), column.mass_arms[rows].T @ arms[rows]) for rows in column.rows)))
-    turns = [np.linalg.solve(np.trace(product) * np.eye(3) - product, moment) for product, moment in zip(products, moments)]
-    return out_of_frames(np.concatenate([np.cross(turn, column.arms[rows]) for turn, rows in zip(turns, column.rows)]), rotation, column.rows)
+    return np.linalg.solve(np.trace(product) * np.eye(3) - product, moment)
 
 
 def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
@@ -163,16 +165,19 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             inner = internal + system.damping.force(middle.velocity + operators.rate_factor * (x - middle.target), rotation)
         if acts_halfway:
             inner = out_of_frames(inner, halfway @ rotation.swapaxes(-1, -2), column.rows)
-        pushed = operators.mass_factor * (middle.target - x) + scale * stage.untwisting(system, x, internal, rotation, halfway)
+        poses = interface.poses(x, rotation)
+        positions = interface.positions(x, rotation, poses)
+        push = interface.load(contact["force"], halfway)
+        pushed = operators.mass_factor * (middle.target - x) + scale * sum(stage.untwisting(system, x, internal, rotation, halfway, contact["force"], push))
         residual = column.apply(column.mass, pushed) + middle.load - operators.stiffness_factor * inner
         if links:
             residual += scale * links.load(links.pulls(stage, x, rotation), halfway)
-        total = residual + scale * interface.load(contact["force"], halfway)
+        total = residual + scale * push
         reference = max(system.weight, scale * np.abs(contact["force"]).max(initial=0.0))
         size = column.max(np.abs(total).max(initial=0.0)) / reference
-        nodal, poses, violation = _nodal(interface, operators, scale), interface.poses(x, rotation), np.inf
+        nodal, violation = _nodal(interface, operators, scale), np.inf
         if iteration:
-            stop, violation = interface.solve(nodal, poses, interface.positions(x, rotation, poses), stage.dt, stage.before, contact, 0)
+            stop, violation = interface.solve(nodal, poses, positions, stage.dt, stage.before, contact, 0)
             if stop is not Stop.CONVERGED:
                 return ended(stop)
             static = interface.stored(stage.dt, stage.before, contact)

@@ -106,7 +106,7 @@ class Stepper:
             scale=1 / (2 * be) if self.plastic else 1.0, before=before, dt=dt, rotation=start.rotation,
             velocity=start.v if damping else None, centers=column.centers(start.x) if links else None, ties=start.ties,
             memory=start.a, shares=(dt**2 * (0.5 - be), dt * (1 - ga)), held=al * (start.internal + damped), turns=self.plastic,
-            place=start.x, internal=start.internal)
+            place=start.x, internal=start.internal, levers=interface.levers())
         operators = system.operators(hht.mass_factor, hht.stiffness_factor, hht.rate_factor)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
         self.record.iterations += outcome.iterations
@@ -121,12 +121,13 @@ class Stepper:
                       rotation=outcome.rotation, contact=outcome.contact, static=outcome.static, ground=np.array(ground, float), rims=rims, ties=start.ties.copy())
         push = interface.load(after.forces, R)
         if self.plastic:
-            w = interface.acceleration(after.forces, R) + turned
+            straight, led = stage.untwisting(system, after.x, after.internal, after.rotation, R, after.forces, push)
+            w, untwists = interface.acceleration(after.forces, R) + turned + straight + led, column.apply(column.mass, straight)
+            push = push + column.apply(column.mass, led)
             if links:
                 pulls = links.pulls(stage, after.x, after.rotation)
                 push, w = push + links.load(pulls, R), w + links.acceleration(pulls, R)
-            worked, straight = push + resisted, stage.untwisting(system, after.x, after.internal, after.rotation, R)
-            w, untwists = w + straight, column.apply(column.mass, straight)
+            worked = push + resisted
         else:
             w = np.zeros_like(start.x)
             worked, untwists = (1 - ga) * interface.load(before["force"], R) + ga * push, 0.0
