@@ -171,7 +171,7 @@ class Interface:
     def moments(self, forces: np.ndarray, rotation: np.ndarray, levers: np.ndarray) -> np.ndarray:
         """Moments (nb, 3) [N m] of forces (P, 3) at the points' `levers` about the centres of mass of bodies turned by `rotation`, in their frames."""
         turned, loaded = rotation.reshape(-1, 3, 3), np.flatnonzero(forces.any(axis=1))
-        moments, pushes = np.zeros((len(turned), 3)), np.einsum("pab,pb->pa", self._frames(rotation)[self.points["interface"][loaded]], forces[loaded])
+        moments, pushes = np.zeros((len(turned), 3)), np.einsum("pab,pb->pa", self._frames(turned)[self.points["interface"][loaded]], forces[loaded])
         for side, name, sign in ((SLAVE, "slave", 1.0), (MASTER, "master", -1.0)):
             of = np.flatnonzero(self.points[name][loaded] != BASE)
             bodies = self.points[name][loaded][of]
