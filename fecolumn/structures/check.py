@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 from fecolumn.case import GRAVITY
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
 from fecolumn.schema import InputError
+from fecolumn.structures import keys
 from fecolumn.structures.model import GROUND
 from fecolumn.structures.place import touching
 
@@ -62,8 +63,7 @@ def deepest(one, other, shift) -> float:
     """How deep points [m] of a drawing lie within the elements of another that is shifted by (3,) [m]; 0 where none does, or there are no elements."""
     if other.shape is None:
         return 0.0
-    points = one.points if one.shape is None else np.concatenate([one.points, one.shape.mesh.points[one.shape.mesh.cells].mean(axis=1)])
-    points, mesh = points - shift, other.shape.mesh
+    points, mesh = _places_in(one) - shift, other.shape.mesh
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     points = points[np.all((points >= low) & (points <= high), axis=1)]
     if not len(points):
@@ -83,6 +83,16 @@ def deepest(one, other, shift) -> float:
     return deepest
 
 
+def _places_in(drawing) -> np.ndarray:
+    """Points (n, 3) [m] of a drawing: its own, and of its elements the middles and five places on each face, for coarse bodies may cross without a node of one in the other."""
+    if drawing.shape is None:
+        return drawing.points
+    mesh = drawing.shape.mesh
+    faces = mesh.points[mesh.cells][:, TETRAHEDRON_FACES if mesh.is_tetrahedral else FACES]
+    middles = faces.mean(axis=2)
+    return np.concatenate([drawing.points, mesh.points[mesh.cells].mean(axis=1), middles.reshape(-1, 3), ((faces + middles[:, :, None]) / 2).reshape(-1, 3)])
+
+
 def _to_surface(drawing, point) -> float:
     """Distance [m] of a point inside a body from the nearest plane of its faces."""
     return min((abs(face.normal @ point - face.offset) for face in drawing.faces), default=0.0)
@@ -99,32 +109,31 @@ def check_joints(joints, standing, file) -> None:
                              f'"{standing[joint.master].name}": exchange slave and on, or make its elements smaller')
 
 
-def check_structure(case, structure, standing, extents, file) -> None:
-    """Refuse links to nowhere, and bodies that nothing holds.
+def check_links(case, extents: dict, file) -> None:
+    """Refuse links to nowhere; extents: lowest and highest place (3,) [m] of each body by name, as it is drawn."""
+    for name, link in case.links.items():
+        body, numbers = case.meant_by(link.body)
+        for number in numbers:
+            origin = np.array(case.bodies[body].places[number])
+            ends = [("point_m", body, number, origin + link.point_m)]
+            if link.to != keys.GROUND:  # there anywhere: the ground may have a mast or a wall
+                other, (other_number,) = case.meant_by(link.to)
+                ends.append(("to_point_m", other, other_number, origin + link.to_point_m))
+            for end, of, copy, place in ends:
+                low, high = np.array(extents[of])
+                arm = place - case.bodies[of].places[copy]
+                outside = np.linalg.norm(np.maximum(np.maximum(low - arm, arm - high), 0.0))
+                if outside > _OUTSIDE * np.linalg.norm(high - low):
+                    raise InputError(file, f"links.{name}.{end}", list(getattr(link, end)), f'must be a point of "{case.names_of(of)[copy]}": it lies {outside:.3g} m outside')
 
-    Args:
-        standing: as of `place`. extents: lowest and highest arm (3,) [m] of each part's points.
+
+def check_rest(case, structure, standing, file) -> None:
+    """Of a structure that nothing tilts or sets moving, refuse bodies that no contact forces within their cones, and no forces of links, hold at rest: what is missing least is a linear programme.
+
+    standing: as of `place`.
     """
-    _check_links(case, structure, extents, file)
-    if not any(start.tilt_rad or start.moves for start in case.initial.values()):
-        _check_rest(structure, standing, file)
-
-
-def _check_links(case, structure, extents, file) -> None:
-    for link in structure.links:
-        for end, place, arm in (("point_m", link.a, link.arm_a), ("to_point_m", link.b, link.arm_b)):
-            if place == GROUND:  # anywhere: the ground may have a mast or a wall
-                continue
-            low, high = extents[place]
-            outside = np.linalg.norm(np.maximum(np.maximum(low - arm, arm - high), 0.0))
-            if outside > _OUTSIDE * np.linalg.norm(high - low):
-                name = link.name if link.name in case.links else link.name.rpartition(" ")[0]
-                raise InputError(file, f"links.{name}.{end}", list(getattr(case.links[name], end)),
-                                 f'must be a point of "{structure.parts[place].name}": it lies {outside:.3g} m outside')
-
-
-def _check_rest(structure, standing, file) -> None:
-    """Refuse bodies that no contact forces within their cones, and no forces of links, hold at rest: what is missing least is a linear programme."""
+    if any(start.tilt_rad or start.moves for start in case.initial.values()):
+        return
     columns, bounds, rows = [], [], 6 * len(structure.parts)
     weights = np.array([part.model.mass for part in structure.parts]) * GRAVITY
     sizes = np.array([math.sqrt(np.trace(part.model.inertia) / part.model.mass) for part in structure.parts])

@@ -14,7 +14,7 @@ from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.schema import InputError
 from fecolumn.structures import model as models
 from fecolumn.structures.case import identity
-from fecolumn.structures.check import check_joints, check_layout, check_points, check_structure
+from fecolumn.structures.check import check_joints, check_layout, check_links, check_points, check_rest
 from fecolumn.structures.check_keys import material_of
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.keys import GROUND, Matrices, Storeys
@@ -95,8 +95,9 @@ def keep_models(case, layout: Layout, file, say) -> dict:
 
 
 def check_drawings(case, layout: Layout, file) -> None:
-    """Refuse bodies that overlap or stand on nothing, and those with too many contact points."""
+    """Refuse bodies that overlap or stand on nothing, those with too many contact points, and links to nowhere."""
     check_layout(case, layout, file)
+    check_links(case, _extents(layout), file)
     for name in layout.drawings:
         check_points(name, layout.patches[name], file)
 
@@ -104,8 +105,12 @@ def check_drawings(case, layout: Layout, file) -> None:
 def said_of(layout: Layout) -> dict:
     """What `assembled` takes of a layout."""
     sizes = {name: one.shape.size for name, one in layout.drawings.items() if one.shape}
-    extents = {name: [one.points.min(axis=0).tolist(), one.points.max(axis=0).tolist()] for name, one in layout.drawings.items()}
-    return {"sizes": sizes, "extents": extents, "contacts": [dataclasses.asdict(contact) for contact in layout.contacts]}
+    return {"sizes": sizes, "extents": _extents(layout), "contacts": [dataclasses.asdict(contact) for contact in layout.contacts]}
+
+
+def _extents(layout: Layout) -> dict:
+    """Lowest and highest place (3,) [m] of each body by name, as it is drawn."""
+    return {name: [one.points.min(axis=0).tolist(), one.points.max(axis=0).tolist()] for name, one in layout.drawings.items()}
 
 
 def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> StructureModel:
@@ -114,6 +119,8 @@ def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> Structu
     Raises:
         InputError: as of `structure_model`.
     """
+    # again, as a layout that is on disk says nothing of links
+    check_links(case, layout["extents"], file)
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
     places = {copy: place for place, copy in enumerate(copies)}
     kept = {name: model.with_modes(case.modes_of(name)) for name, model in bodies.items()}
@@ -128,7 +135,7 @@ def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> Structu
     # a dome has one node, which is no measure of it
     ground = rigid_base(np.concatenate([one.center + reach for one, own in zip(standing, extents) for reach in (one.model.arms, own)]))
     structure = StructureModel(parts, tuple(joints), links, ground, _observed(case, parts, places, file))
-    check_structure(case, structure, standing, extents, file)
+    check_rest(case, structure, standing, file)
     return structure
 
 

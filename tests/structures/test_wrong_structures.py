@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from small_structures import block, frame, stack, structure
+from small_structures import RIGID, STONE, block, frame, stack, structure
 
 from fecolumn.case import case_from_tables, read_case
 from fecolumn.schema import InputError, merge
@@ -23,6 +23,9 @@ WRONG = [
     (stack(bodies=dict(side=dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.5, at_m=[2, 0, 0], rigid=True))), "interfaces", 'no contact path to the ground from "side"'),
     (stack(bodies=dict(side=dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.5, at_m=[0.4, 0, 0], rigid=True)), interfaces=dict(other=dict(slave="side", on="ground"))),
      "bodies.side", '"side" and "lower" overlap'),
+    # they cross by a strip without a node of one in the other
+    (stack(bodies=dict(side=dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.8, at_m=[0.59, 0, 0], element_size_m=0.6, coarse_size_m=0.8) | STONE | RIGID,
+                       lower=dict(element_size_m=0.6, coarse_size_m=0.8)), interfaces=dict(other=dict(slave="side", on="ground"))), "bodies.side", '"side" and "lower" overlap'),
     (stack(bodies=dict(lower=dict(at_m=[0, 0, -0.1]), upper=dict(at_m=[0, 0, 0.7]))), "interfaces.foot", "does not touch"),
     (stack(links=dict(tie=LINK | dict(point_m=[0.3, 0, 0.3]))), "links.tie.point_m", 'a point of "upper": it lies 0.1 m outside'),
     (stack(links=dict(tie=LINK | dict(to="lower"))), "links.tie.to_point_m", 'a point of "lower"'),
@@ -121,3 +124,12 @@ def test_coarse_plate_on_columns_stands_on_the_edges_of_their_heads_and_not_on_i
 def test_block_alone_is_a_structure():
     (part,), (joint,) = (lambda made: (made.parts, made.joints))(structure_model(structure(**block(rigid=True))))
     assert part.name == "block" and joint.master == -1 and joint.law.shape == (len(part.model.surfaces["foot"].nodes), 3) and not joint.round
+
+
+def test_what_cannot_be_is_refused_before_models_are_made(monkeypatch):
+    from fecolumn.structures import structure as made
+
+    monkeypatch.setattr(made, "keep_body", lambda *_: pytest.fail("a reduced model was asked for"))
+    tables = stack(links=dict(tie=LINK | dict(point_m=[0.3, 0, 0.3])), bodies=dict(upper=dict(height_m=0.6123)))
+    with pytest.raises(InputError, match="links.tie.point_m"):
+        structure_model(structure(**tables), "small.toml")
