@@ -8,17 +8,26 @@ import numpy as np
 
 from fecolumn.contact.bodies import FACET, GOES_ON
 from fecolumn.contact.interface import interface_of
-from fecolumn.contact.points import BASE, node_points
+from fecolumn.contact.points import BASE, UNPREPARED, node_points
 from fecolumn.contact.rim import Rim
 
 
 class Joints(NamedTuple):
-    """points: (P,) of POINT; interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; facets: of FACET."""
+    """points: (P,) of POINT; interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; facets: of FACET; names: of the interfaces, none of a single foot."""
 
     points: np.ndarray
     interfaces: np.ndarray
     rim: np.ndarray
     facets: np.ndarray
+    names: tuple[str, ...] = ()
+
+
+def left_faces(names, points: np.ndarray) -> str:
+    """Of which interfaces, with `names`, some of the points (P,) of POINT have left the face that is prepared for them, and what helps."""
+    found = sorted({names[k] for k in points["interface"][points["beyond"] == UNPREPARED]})
+    # "joint, edge: lower on upper" has the keys of interfaces.joint
+    key = found[0].partition(":")[0].removesuffix(", edge")
+    return f"{', '.join(found)}; a larger interfaces.{key}.allowance_m prepares more of it"
 
 
 def joint_on_base(arms: np.ndarray, friction: float, law: np.ndarray, rim: Rim | None = None, restitution: float = 0.0, rolling: float = 0.0, pad=None) -> Joints:
@@ -67,7 +76,7 @@ def joints_of(parts, joints) -> Joints:
             own["arm"] += joint.ball.radius * outward
         points.append(own)
         interfaces.append(interface)
-    return Joints(np.concatenate(points), np.concatenate(interfaces), np.concatenate(rims), facets)
+    return Joints(np.concatenate(points), np.concatenate(interfaces), np.concatenate(rims), facets, tuple(joint.name for joint in joints))
 
 
 def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:

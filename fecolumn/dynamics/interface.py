@@ -12,7 +12,7 @@ from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact
 from fecolumn.contact.interface import rims_at_rest
-from fecolumn.contact.joints import Joints
+from fecolumn.contact.joints import Joints, left_faces
 from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
@@ -235,7 +235,7 @@ class Interface:
             self.points["beyond"] = OVER
             positions = self.start_positions(state.x, state.rotation, now)
             if (self.points["beyond"] == UNPREPARED).any():
-                raise StepFailed(Stop.OFF_PATCH, Stop.OFF_PATCH.value)
+                raise StepFailed(Stop.OFF_PATCH, f"{Stop.OFF_PATCH.value}: {left_faces(self.joints.names, self.points)}")
             self._find_sunk(before, positions, now, state.rims, rims)
             before["beyond"] = self.points["beyond"] != OVER
             # one that was found by nothing but its place, or beyond an outline

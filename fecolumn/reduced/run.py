@@ -7,7 +7,8 @@ import numpy as np
 from fecolumn._compiled import compile_for, interpreted, njit
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.ball import from_center, lay_down
-from fecolumn.contact.points import BASE, UNPREPARED
+from fecolumn.contact.joints import left_faces
+from fecolumn.contact.points import BASE
 from fecolumn.contact.projection import base_for_steps
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
@@ -324,7 +325,7 @@ class Engine:
             while (answer := self._steps(hht, target[None], row, _NO_END, -np.inf)[1]) == FAR_BASE:
                 self.extend_base(self.spare)
             if answer not in (OK, ENDED):
-                raise StepFailed(_STOPS[answer], _STOPS[answer].value)
+                raise StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
 
         failure = StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
         try:
@@ -340,8 +341,7 @@ class Engine:
         """Which interface a body has left and what helps, after a step that failed with OFF_PATCH."""
         if answer != OFF_PATCH:
             return ""
-        names = sorted({self.model.joints[k].name for k in self.work.points["interface"][self.work.points["beyond"] == UNPREPARED]})
-        return f": {', '.join(names)}; a larger interfaces.{names[0].partition(':')[0]}.allowance_m prepares more of it"
+        return f": {left_faces([joint.name for joint in self.model.joints], self.work.points)}"
 
     def _count_cut(self) -> None:
         self.counts[N_CUTS] += 1

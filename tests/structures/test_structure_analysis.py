@@ -87,14 +87,14 @@ def test_drift_of_a_pushed_building_is_shear_over_stiffness(tmp_path):
     assert set(summary["storeys"]) == {"building 1", "building 2"} and summary["storeys"]["building 1"]["shear_max_n"] == pytest.approx(1e4, rel=0.1)
 
 
-@pytest.mark.parametrize("allowance, stops", [(None, True), (1.6, False)])
-def test_a_block_that_slides_out_of_the_prepared_face_ends_the_analysis_by_name(tmp_path, allowance, stops):
+@pytest.mark.parametrize("allowance, stops, engine", [(None, True, "rigid"), (1.6, False, "rigid"), (None, True, "full")])
+def test_a_block_that_slides_out_of_the_prepared_face_ends_the_analysis_by_name(tmp_path, allowance, stops, engine):
     """4 m/s against mu g = 1 m/s2 goes 1.52 m in 0.4 s; a quarter of the block's smaller side is 0.1 m. The face goes on, what is known of it does not."""
     wide = dict(kind="plate", length_m=6.0, width_m=1.0, thickness_m=0.2, element_size_m=0.2) | STONE
     block = dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.3, element_size_m=0.2, at_m=[-2.0, 0.03, 0.2]) | STONE
     case = structure(bodies=dict(wide=wide, block=block), interfaces=dict(foot=dict(slave="wide", on="ground"), joint=dict(slave="block", on="wide") | (
         {} if allowance is None else dict(allowance_m=allowance))), contact=dict(friction_coefficient=0.1, interior_points=0), initial=dict(block=dict(velocity_m_s=[4.0, 0, 0])),
-        integration=dict(engine="rigid", dt_s=1e-3, duration_s=0.4))
+        integration=dict(engine=engine, dt_s=1e-3, duration_s=0.4))
     if stops:
         with pytest.raises(AnalysisFailed, match="left the part of the face below it .* joint: block on wide; a larger interfaces.joint.allowance_m"):
             run(case, tmp_path / "run", quiet=True)
