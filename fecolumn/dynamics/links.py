@@ -56,21 +56,25 @@ def fastest(links: np.ndarray, stiffness: np.ndarray, bodies: list[tuple]) -> tu
     """
     if not len(links):
         return 0.0, 0
-    pulls = np.zeros((len(links), 6 * len(bodies)))
-    for row, link in zip(pulls, links):
+    pulls, places = [], []
+    for place, (link, its) in enumerate(zip(links, stiffness)):
         sides = [(int(link["a"]), link["arm_a"], 1.0), (int(link["b"]), link["arm_b"], -1.0)]
         ends = [arm if b == BASE else bodies[b][2] + bodies[b][3] @ arm for b, arm, _ in sides]
-        along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
-        for b, arm, sign in sides:
-            if b != BASE:
-                mass, inertia, _, rotation = bodies[b]
-                # in the body's frame, over the roots of mass and inertia
-                local = rotation.T @ along
-                row[6 * b:6 * b + 3] += sign * local / np.sqrt(mass)
-                row[6 * b + 3:6 * b + 6] += sign * np.linalg.solve(np.linalg.cholesky(inertia), np.cross(arm, local))
-    pulls *= np.sqrt(stiffness)[:, None]
-    squares, shapes = np.linalg.eigh(pulls @ pulls.T)
-    return float(squares[-1]), int(np.argmax(np.abs(shapes[:, -1])))
+        length = np.linalg.norm(ends[1] - ends[0])
+        # one of no length may come to pull in any direction
+        for along in [(ends[1] - ends[0]) / length] if length else np.eye(3):
+            row = np.zeros(6 * len(bodies))
+            for b, arm, sign in sides:
+                if b != BASE:
+                    mass, inertia, _, rotation = bodies[b]
+                    # in the body's frame, over the roots of mass and inertia
+                    local = rotation.T @ along
+                    row[6 * b:6 * b + 3] += sign * local / np.sqrt(mass)
+                    row[6 * b + 3:6 * b + 6] += sign * np.linalg.solve(np.linalg.cholesky(inertia), np.cross(arm, local))
+            pulls.append(np.sqrt(its) * row)
+            places.append(place)
+    squares, shapes = np.linalg.eigh(np.array(pulls) @ np.transpose(pulls))
+    return float(squares[-1]), places[int(np.argmax(np.abs(shapes[:, -1])))]
 
 
 @njit
@@ -133,7 +137,8 @@ def pull(link, tie, begin, way, length, dt, target):
             elastic = link.stiffness * (s1**2 - s0**2) / (2 * change)
     total = elastic + (0.0 if tie.broken else link.damping * rate)
     for a in range(3):
-        target[a] = total * (begin[a] + way[a]) / (before + length)
+        # without length at both ends of the step it has no direction, and no force
+        target[a] = total * (begin[a] + way[a]) / (before + length) if before + length > 0.0 else 0.0
     return total
 
 
