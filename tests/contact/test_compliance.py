@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from two_blocks import NO_BASE, Blocks, compliance
 
-from fecolumn.contact.projection import Base
+from fecolumn.contact.projection import base_of
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble, static_displacement
 from fecolumn.contact.points import CONTACT, node_points
@@ -61,7 +61,7 @@ def test_base_gives_way_below_the_points():
     C, arms = compliance(rng, 4), np.zeros((2, 3))
     body, points = one_body(arms, np.zeros((6, 6)), np.zeros((6, 6))), node_points(arms, 0.5)
     points["below"], points["shares"] = np.arange(4), rng.dirichlet(np.ones(4), 2)
-    base, W = Base(np.zeros(2), np.zeros(2), np.zeros((2, 2), np.int64), np.zeros(4, np.int64), C, 0.0), np.empty((6, 6))
+    base, W = base_of(np.zeros(2), np.zeros(2), np.zeros((2, 2), np.int64), np.zeros(4, np.int64), C), np.empty((6, 6))
     assemble(body, base, points, arms, np.arange(2), poses_on_base(np.eye(3)[None]), 0.0, body.static, 1.0, np.zeros((2, 3)), W)
     H = np.kron(points["shares"], np.eye(3))
     np.testing.assert_allclose(W, H @ C @ H.T, rtol=1e-12)
