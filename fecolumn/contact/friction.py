@@ -242,13 +242,14 @@ def solve_in_place(matrix, right):
     return True
 
 
-@njit
+@njit(fastmath={"reassoc", "contract"})
 def stiffness_together(W, i):
     """Stiffness [N/m] of point i when all points move: it is less than alone, with which each would seem to slip to and fro."""
     total = 0.0
     for a in range(3):
-        for j in range(W.shape[1]):
-            total += abs(W[3 * i + a, j])
+        row = W[3 * i + a]
+        for j in range(len(row)):
+            total += abs(row[j])
     return 3 / total
 
 
