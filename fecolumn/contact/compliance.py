@@ -8,10 +8,7 @@ from fecolumn._compiled import njit
 from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import MASTER, SLAVE, turns
-
-
-#: Points up to which the compliance of their nodes is added block by block.
-FEW_SIDES = 8
+from fecolumn.contact.tolerances import FEW_SIDES
 
 
 @njit
