@@ -12,7 +12,7 @@ SPECIMEN = "meshes/stout.toml"
 def coarse_case(**sections):
     tables = merge(read_toml(SPECIMEN), {
         "column": {"fine_height_m": 0.03}, "base": {"slide_allowance_m": 0.01, "length_m": 0.2, "width_m": 0.2},
-        "mesh": {"coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05}})
+        "mesh": {"fine_size_m": 0.0063, "coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05}})
     return case_from_tables(merge(tables, sections), SPECIMEN)
 
 

@@ -10,7 +10,7 @@ from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.stepper import Stepper
 
 
-def _shaken(steps=150, **sections):
+def _shaken(steps=100, **sections):
     """Path of the highest node (steps, 2) [m] and the deepest penetration [m] under two tones."""
     system = coarse_system(**sections)
     state = standing(system)
