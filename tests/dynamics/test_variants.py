@@ -20,7 +20,7 @@ def _without_cap():
     tables = read_toml(SPECIMEN)
     del tables["cap"]
     return case_from_tables(merge(tables, {
-        "column": {"fine_height_m": 0.03}, "base": {"slide_allowance_m": 0.01}, "mesh": {"fine_size_m": 0.0063, "coarse_size_m": 0.03}}), SPECIMEN)
+        "column": {"fine_height_m": 0.03}, "base": {"slide_allowance_m": 0.01}, "mesh": {"coarse_size_m": 0.03}}), SPECIMEN)
 
 
 def _imported(folder):
