@@ -33,7 +33,7 @@ def test_quarter_period_loss_and_ledger_of_free_rocking(alpha):
     ledger.open(state)
     stepper = Stepper(system, ledger)
     crossing = None
-    for _ in range(400):
+    for _ in range(450):
         state = stepper.step(state, np.zeros(3))
         if crossing is None and state.rotation[0, 2] < 0:
             crossing = state.time
@@ -53,7 +53,7 @@ def test_a_column_released_between_nodes_of_its_rim_stays_in_its_plane():
     ledger = Ledger(system)
     ledger.open(state)
     stepper, across = Stepper(system, ledger), []
-    for _ in range(350):
+    for _ in range(400):
         state = stepper.step(state, np.zeros(3))
         across.append(state.rotation[1, 2] * np.cos(azimuth) - state.rotation[0, 2] * np.sin(azimuth))
     assert np.abs(across).max() < 1e-5
