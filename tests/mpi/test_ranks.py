@@ -71,7 +71,7 @@ def test_refusal_is_said_once_and_ends_both_ranks(tmp_path):
 
 
 STACKED = """
-integration = {engine = "full", duration_s = 0.15, dt_s = 2e-3}
+integration = {engine = "full", duration_s = 0.15, dt_s = 1e-3}
 contact = {friction_coefficient = 0.7, interior_points = 0}
 initial.upper.tilt_rad = 0.02
 output.fields_every_s = 0.1
