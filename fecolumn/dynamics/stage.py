@@ -30,7 +30,7 @@ class Stage:
     memory: (n_owned, 3) acceleration that the start brings [m/s2], None at rest; shares: of it in target [s2] and velocity [s]; held: (n_owned, 3) internal
         forces that the start brings to the load [N]. turns: whether internal forces and what the start brings turn with the bodies; not in the literal HHT
         scheme, whose accelerations hold contact forces.
-    place, internal: (n_owned, 3) positions [m] and internal forces [N] at the start.
+    arms, internal: (n_owned, 3) from the centres of mass [m], and internal forces [N], at the start.
     """
 
     target: np.ndarray
@@ -47,7 +47,7 @@ class Stage:
     shares: tuple[float, float] = (0.0, 0.0)
     held: np.ndarray | None = None
     turns: bool = False
-    place: np.ndarray | None = None
+    arms: np.ndarray | None = None
     internal: np.ndarray | None = None
 
     def middle(self, column, halfway: np.ndarray) -> Middle:
@@ -67,12 +67,17 @@ class Stage:
         """
         if not self.turns:
             return 0.0
-        if self.memory is None:
-            return without_moment(system, arms_of(system.column, x), internal, rotation)
-        column, ends = system.column, ((self.place, self.internal, self.rotation), (x, internal, rotation))
-        turned = [[out_of_frames(values, halfway @ R.swapaxes(-1, -2), column.rows) for values in (arms_of(column, place), force)] for place, force, R in ends]
-        arms, forces = ((first + last) / 2 for first, last in zip(*turned))
-        return without_moment(system, arms, forces, halfway)
+        column, own = system.column, (arms_of(system.column, x), internal, rotation)
+        ends, halfway = ([own], rotation) if self.memory is None else ([(self.arms, self.internal, self.rotation), own], halfway)
+        # the products of arms and forces are turned, not the thousands of arms and forces
+        turns = [(halfway @ R.swapaxes(-1, -2)).reshape(-1, 3, 3) for _, _, R in ends]
+        products = np.zeros((len(column.rows), 3, 3))
+        for (arms, _, _), first in zip(ends, turns):
+            for (_, forces, _), last in zip(ends, turns):
+                products += first @ np.stack([arms[rows].T @ forces[rows] for rows in column.rows]) @ last.swapaxes(-1, -2)
+        products = column.sum(products / len(ends) ** 2)
+        rates = rotations_against(system, products, halfway.reshape(-1, 3, 3))
+        return sum(into_frames(arms, turn.swapaxes(-1, -2) @ rates, column.rows) for (arms, _, _), turn in zip(ends, turns)) / len(ends)
 
 
 class Middle(NamedTuple):
@@ -86,15 +91,22 @@ class Middle(NamedTuple):
 
 def arms_of(column, x: np.ndarray) -> np.ndarray:
     """Arms (n_owned, 3) [m] of positions x (n_owned, 3) from the centres of mass."""
-    return x - np.repeat(column.centers(x), [rows.stop - rows.start for rows in column.rows], axis=0)
+    centers = column.centers(x)
+    return x - (centers if len(centers) == 1 else np.repeat(centers, [rows.stop - rows.start for rows in column.rows], axis=0))
 
 
-def without_moment(system, arms: np.ndarray, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-    """Accelerations (n_owned, 3) [m/s2] of rigid rotations that take away the moment of internal forces (n_owned, 3) at arms (n_owned, 3), bodies turned by `rotation`."""
-    column, moments = system.column, np.cross(arms, forces)
-    moments = column.sum(np.stack([moments[rows].sum(axis=0) for rows in column.rows]))
-    turns = [R @ np.linalg.solve(inertia, moment @ R) for R, inertia, moment in zip(rotation.reshape(-1, 3, 3), system.inertias, moments)]
-    return np.concatenate([np.cross(turn, arms[rows]) for turn, rows in zip(turns, column.rows)])
+def rotations_against(system, products: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    """Matrices A (nb, 3, 3) [1/s2] of rigid rotations, a @ A the acceleration at arm a, that take away the moments of internal forces on bodies turned by
+    rotations (nb, 3, 3).
+
+    products: (nb, 3, 3) sums of arm times force [N m], arms as rows.
+    """
+    found = np.zeros_like(products)
+    for A, R, inertia, G in zip(found, rotations, system.inertias, products):
+        moment = np.array([G[1, 2] - G[2, 1], G[2, 0] - G[0, 2], G[0, 1] - G[1, 0]])
+        x, y, z = R @ np.linalg.solve(inertia, moment @ R)
+        A[:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
+    return found
 
 
 def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
@@ -158,7 +170,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         if acts_halfway:
             inner = out_of_frames(inner, halfway @ rotation.swapaxes(-1, -2), column.rows)
         pushed = operators.mass_factor * (middle.target - x) + scale * stage.untwisting(system, x, internal, rotation, halfway)
-        residual = column.apply(column.mass, pushed) + middle.load - operators.stiffness_factor * inner
+        residual = column.momentum(pushed) + middle.load - operators.stiffness_factor * inner
         if links:
             residual += scale * links.load(links.pulls(stage, x, rotation), halfway)
         total = residual + scale * interface.load(contact["force"], halfway)

@@ -16,7 +16,7 @@ from fecolumn.dynamics.cuts import StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
-from fecolumn.dynamics.stage import Stage, carried, equilibrate
+from fecolumn.dynamics.stage import Stage, arms_of, carried, equilibrate
 from fecolumn.dynamics.system import State
 from fecolumn.fem.rotation import out_of_frames
 
@@ -98,7 +98,7 @@ class Stepper:
         damping, resistance, links = system.damping, system.resistance, system.links
         damped = damping.force(start.v, start.rotation) if damping else 0.0
         turned = resistance.acceleration(start, dt) if resistance else 0.0
-        resisted = column.apply(column.mass, turned) if resistance else 0.0
+        resisted = column.momentum(turned) if resistance else 0.0
         stage = Stage(
             target=start.x + dt * start.v,
             load=(1 + al) * F1 - al * F0 + resisted / (2 * be),
@@ -106,7 +106,7 @@ class Stepper:
             scale=1 / (2 * be) if self.plastic else 1.0, before=before, dt=dt, rotation=start.rotation,
             velocity=start.v if damping else None, centers=column.centers(start.x) if links else None, ties=start.ties,
             memory=start.a, shares=(dt**2 * (0.5 - be), dt * (1 - ga)), held=al * (start.internal + damped), turns=self.plastic,
-            place=start.x, internal=start.internal)
+            arms=arms_of(column, start.x), internal=start.internal)
         operators = system.operators(hht.mass_factor, hht.stiffness_factor, hht.rate_factor)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
         self.record.iterations += outcome.iterations
@@ -126,7 +126,7 @@ class Stepper:
                 pulls = links.pulls(stage, after.x, after.rotation)
                 push, w = push + links.load(pulls, R), w + links.acceleration(pulls, R)
             worked, straight = push + resisted, stage.untwisting(system, after.x, after.internal, after.rotation, R)
-            w, untwists = w + straight, column.apply(column.mass, straight)
+            w, untwists = w + straight, column.momentum(straight)
         else:
             w = np.zeros_like(start.x)
             worked, untwists = (1 - ga) * interface.load(before["force"], R) + ga * push, 0.0
@@ -169,12 +169,12 @@ class Stepper:
             resisted: rolling resistance, part of `worked`, each (n_owned, 3) [N] or 0.
         """
         column, interface, step = self.system.column, self.system.interface, after.x - start.x
-        mean = column.apply(column.mass, (1 - hht.gamma) * ends[0] + hht.gamma * ends[1])
+        mean = column.momentum((1 - hht.gamma) * ends[0] + hht.gamma * ends[1])
         total = mean + worked + untwists if self.plastic else mean
         smooth = mean if self.plastic else mean - worked
         algorithmic = column.dot(step, smooth - load_sum / 2)
         algorithmic -= hht.dt**2 * hht.alpha**2 / 4 * column.dot(ends[1] - ends[0], total)
-        shaken = column.sum(np.einsum("cna,na->c", column.unit_loads, step))
+        shaken = column.sum(column.unit_loads.reshape(3, -1) @ step.ravel())
         damping = -column.dot(step, damped) / 2 if self.system.damping else 0.0
         rolling = column.dot(step, resisted) if self.system.resistance else 0.0
         dashed = lost = 0.0
@@ -213,7 +213,7 @@ class Stepper:
         if not pushed:
             return
         jump = interface.acceleration(impulses, R, False)
-        gained = column.dot(after.v + jump / 2, column.apply(column.mass, jump))
+        gained = column.dot(after.v + jump / 2, column.momentum(jump))
         names = ("impact", "contact", "friction") if happens == LANDS else ("friction", "contact", "impact")
         terms = interpreted(book_impulses)(gained, *(self.ledger.work[name] - booked[name] for name in names))
         self.ledger.work.update({name: booked[name] + float(term) for name, term in zip(names, terms)})

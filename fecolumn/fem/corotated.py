@@ -9,14 +9,14 @@ from fecolumn.fem.rotation import polar_rotation
 
 def mean_rotation(body, x: np.ndarray) -> np.ndarray:
     """Mass-weighted mean rotation (3, 3) of a body from its node positions (n_owned, 3)."""
-    return polar_rotation(body.sum((body.node_mass[:, None] * x).T @ (body.X - body.center)))
+    return polar_rotation(body.sum(x.T @ body.mass_arms))
 
 
 class Corotated:
     """Internal forces f = R K (R^T x - X), R the body's mean rotation.
 
     The elastic energy is that of the co-rotated small strains. Its gradient has besides what takes away the moment of these forces, which is of second order in
-    the strain: see `dynamics.stage.without_moment`.
+    the strain: see `dynamics.stage.Stage.untwisting`.
     """
 
     name = "corotated"

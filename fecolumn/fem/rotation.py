@@ -21,8 +21,11 @@ def polar_rotation(moment: np.ndarray) -> np.ndarray:
     if moment.ndim == 3:
         return np.stack([polar_rotation(one) for one in moment])
     left, _, right = np.linalg.svd(moment)
-    flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
-    return left @ flip @ right
+    found = left @ right
+    (a, b, c), (d, e, f), (g, h, i) = found.tolist()
+    if a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g) > 0:  # numpy's det takes as long as all the rest
+        return found
+    return left @ np.diag([1.0, 1.0, -1.0]) @ right
 
 
 def tilt_angle(rotation: np.ndarray) -> float:

@@ -126,7 +126,7 @@ def test_internal_forces_neither_make_energy_nor_turn_a_body_that_spins_in_the_a
     column = run.system.column
 
     def angular_momentum(state):
-        return np.cross(state.x - column.centers(state.x), column.apply(column.mass, state.v)).sum(axis=0)
+        return np.cross(state.x - column.centers(state.x), column.momentum(state.v)).sum(axis=0)
 
     start, kinetic = angular_momentum(run.state), run.ledger.state_terms(run.state)["kinetic"]
     _, energies = run.advance(np.zeros((100, 3)))
