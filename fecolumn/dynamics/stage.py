@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.dynamics.cuts import Stop
+from fecolumn.fem.moment import moment_in_step
 from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation
 
 
@@ -67,17 +68,16 @@ class Stage:
         """
         if not self.turns:
             return 0.0
-        column, own = system.column, (arms_of(system.column, x), internal, rotation)
-        ends, halfway = ([own], rotation) if self.memory is None else ([(self.arms, self.internal, self.rotation), own], halfway)
-        # the products of arms and forces are turned, not the thousands of arms and forces
-        turns = [(halfway @ R.swapaxes(-1, -2)).reshape(-1, 3, 3) for _, _, R in ends]
-        products = np.zeros((len(column.rows), 3, 3))
-        for (arms, _, _), first in zip(ends, turns):
-            for (_, forces, _), last in zip(ends, turns):
-                products += first @ np.stack([arms[rows].T @ forces[rows] for rows in column.rows]) @ last.swapaxes(-1, -2)
-        products = column.sum(products / len(ends) ** 2)
-        rates = rotations_against(system, products, halfway.reshape(-1, 3, 3))
-        return sum(into_frames(arms, turn.swapaxes(-1, -2) @ rates, column.rows) for (arms, _, _), turn in zip(ends, turns)) / len(ends)
+        column, arms = system.column, arms_of(system.column, x)
+        at_rest = self.memory is None
+        acts = rotation if at_rest else halfway
+        start = (arms, internal, rotation) if at_rest else (self.arms, self.internal, self.rotation)
+        early, late = ((acts @ R.swapaxes(-1, -2)).reshape(-1, 3, 3) for R in (start[2], rotation))
+        means = np.empty_like(arms)
+        moments = column.sum(np.array([moment_in_step(start[0][rows], start[1][rows], first, arms[rows], internal[rows], last, means[rows])
+                                       for rows, first, last in zip(column.rows, early, late)]))
+        return np.concatenate([means[rows] @ rotating(R @ (inverse @ (moment @ R)))
+                               for rows, R, inverse, moment in zip(column.rows, acts.reshape(-1, 3, 3), system.inverse_inertias, moments)])
 
 
 class Middle(NamedTuple):
@@ -95,18 +95,10 @@ def arms_of(column, x: np.ndarray) -> np.ndarray:
     return x - (centers if len(centers) == 1 else np.repeat(centers, [rows.stop - rows.start for rows in column.rows], axis=0))
 
 
-def rotations_against(system, products: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-    """Matrices A (nb, 3, 3) [1/s2] of rigid rotations, a @ A the acceleration at arm a, that take away the moments of internal forces on bodies turned by
-    rotations (nb, 3, 3).
-
-    products: (nb, 3, 3) sums of arm times force [N m], arms as rows.
-    """
-    found = np.zeros_like(products)
-    for A, R, inertia, G in zip(found, rotations, system.inertias, products):
-        moment = np.array([G[1, 2] - G[2, 1], G[2, 0] - G[0, 2], G[0, 1] - G[1, 0]])
-        x, y, z = R @ np.linalg.solve(inertia, moment @ R)
-        A[:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
-    return found
+def rotating(turn: np.ndarray) -> np.ndarray:
+    """Matrix A (3, 3) of the field turn x arm, arm @ A of arms as rows, for an angular acceleration (3,)."""
+    x, y, z = turn.tolist()
+    return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
 
 
 def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:

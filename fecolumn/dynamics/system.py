@@ -104,8 +104,8 @@ class System:
         self.gravity, self.hht = np.asarray(gravity, float), hht
         self.weight = column.total_mass * np.linalg.norm(self.gravity)
         masses = {part: rigid_fields(part)[2] for part in dict.fromkeys(column.parts)}
-        #: Inertia (nb, 3, 3) of each body about its centre of mass, as it is drawn [kg m2].
-        self.inertias = np.array([masses[part][3:, 3:] for part in column.parts])
+        #: Inverse (nb, 3, 3) of each body's inertia about its centre of mass, as it is drawn [1/(kg m2)].
+        self.inverse_inertias = np.linalg.inv([masses[part][3:, 3:] for part in column.parts])
         self.factorizations = 1  # the base's
         self._operators: dict[tuple, Operators] = {}
         factor = self._factor(hht.mass_factor, hht.stiffness_factor)

@@ -1,4 +1,4 @@
-"""Section: all motions together, as they moved: fans, paths in plan, directions in which columns were lost."""
+"""Section: all motions together, as they moved: fans, paths in plan, directions in which what was analysed was lost."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _plan(sweep: Sweep, histories: Histories, shown: Setting, limit: float, gall
     outline = specimen_outline(sweep.case) if sweep.case and same else None
     caption = f"Paths of the top in plan, relative to the base, {sweep.at(shown.values)}"
     if len(directions[1]):
-        caption += ". Right or below: directions in which columns were lost, the share of each sector of 30°"
+        caption += f". Right or below: directions in which {sweep.subject.noun}s were lost, the share of each sector of 30°"
         caption += f"; filled, {len(directions[0])} of this setting; outline, {len(directions[1])} of all settings" if len(sweep.done) > 1 else ""
     return gallery.draw("plan", caption + ".", plan_figure, histories.of(shown), directions, "lost" if sweep.slides else "overturned",
                         None if outline is None else outline.foot, critical_of([shown]), limit)
