@@ -113,6 +113,11 @@ class Sweep:
         """Whether any column slid off its base: what is lost is then more than what overturned."""
         return any(run.get("slid_off") for setting in self.settings for run in setting.runs.values())
 
+    @property
+    def lost(self) -> str:
+        """What runs did that are lost."""
+        return "overturned or slid off" if self.slides else "overturned"
+
     @cached_property
     def subject(self) -> Subject:
         """What overturns, in words."""
