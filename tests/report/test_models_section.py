@@ -53,7 +53,7 @@ def test_an_engine_with_fewer_motions_is_measured_on_those_and_its_number_is_tol
     out = write_synthetic(tmp_path, {"integration.engine": engines}, 40, also=also, scatter=0.2, unfinished=range(80 + 12, 120))
     page = write_report(out, files=())
     words = " ".join(page.read_text().split())
-    assert words.count("the same 40 motions (finite elements, full order: 12 of them)") == 2  # in the text and below the figure
+    assert words.count("the same 40 motions (finite elements, full order: 12 of them)") == 3  # in the text, below the figure and in its place
     rows = {row["engine"]: row for row in rows_of(page)}
     assert {name: int(row["n"]) for name, row in rows.items()} == {"housner": 40, "reduced": 40, "full": 12}
     assert rows["reduced"]["distance"] == "" and float(rows["full"]["distance"]) == pytest.approx(kolmogorov_smirnov(kept["full"], kept["reduced"][:12]).statistic)
