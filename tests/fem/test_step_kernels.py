@@ -50,7 +50,7 @@ def tied_body():
     from fecolumn.case import case_from_tables
     from fecolumn.dynamics.assembly import column_body, share_specimen_mesh
 
-    case = case_from_tables({"column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.3}, "cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.02}, "mesh": {"coarse_size_m": 0.05, "cap_size_m": 0.05}}, "case")
+    case = case_from_tables({"column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.3}, "cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.02}, "mesh": {"coarse_size_m": 0.035, "cap_size_m": 0.05}}, "case")
     return column_body(case, share_specimen_mesh(case, MPI.COMM_SELF), MPI.COMM_SELF)
 
 
