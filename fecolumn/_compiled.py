@@ -48,6 +48,8 @@ def njit(function=None, *, alone: bool | tuple[str, ...] = False, **options):
     """
     if function is None:
         return lambda one: njit(one, alone=alone, **options)
+    # a division by zero gives what it gives in numpy: to raise Python's error each division would ask first, and each caller after
+    options.setdefault("error_model", "numpy")
     own, beside = Path(function.__code__.co_filename), () if alone is True else alone or ()
     files = (str(own), *(str(own.with_name(name)) for name in beside)) if alone else ()
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, compiled_folder(files)

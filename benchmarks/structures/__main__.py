@@ -1,6 +1,6 @@
-"""Finite elements beside the models: forces and free motion of the restrained wobbling frame, impacts of the rocking podium.
+"""Finite elements beside the models: forces and free motion of the restrained wobbling frame, impacts of the rocking podium; and what a step costs.
 
-    ./containers/run python -m benchmarks.structures [forces planar rolled impacts rocking] [-o DIR]
+    ./containers/run python -m benchmarks.structures [forces planar rolled impacts rocking speed] [-o DIR]
 
 Writes the rows of what was asked for into DIR as CSV, draws structures.png (and .pdf) from all that is there, and prints the tables. The first
 run makes the meshes and compiles; after it some minutes.
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.structures import frame, podium
+from benchmarks.structures import frame, podium, speed
 from benchmarks.structures.figure import draw
 from fecolumn.atomic import write_csv
 from fecolumn.rocking.podium_impact import LAWS
@@ -77,7 +77,22 @@ def rocking(folder: Path) -> None:
         print(f"| {floors} | " + " | ".join(", ".join(f"{top:.3f}" for top in podium.tops(tilt)) for _, tilt in tilts) + " |", flush=True)
 
 
-PARTS = dict(forces=forces, planar=planar, rolled=rolled, impacts=impacts, rocking=rocking)
+def speeds(folder: Path) -> None:
+    """By number of bodies; each in several runs, of which the fastest counts: other work on the machine only slows it down."""
+    print(f"\ncompiled in {speed.compile_time():.0f} s of CPU time (0 to 2 s: it was on disk)")
+    print("\n| structure | bodies | points | state | us a step | carrying | iterations | Newton steps | operators found |\n|---|---|---|---|---|---|---|---|---|")
+    table = []
+    for kind in ("frame", "stack"):
+        for number in speed.NUMBERS:
+            for rocks in (False, True):
+                found, state = speed.least_cost(kind, number, rocks), "rocking" if rocks else "standing"
+                table.append([kind, number, state, *found.values()])
+                print(f"| {kind} of {number} | {number + (kind == 'frame')} | {found['points']} | {state} | {found['us']:.0f} | {found['carrying']:.0f} | {found['iterations']:.2f} "
+                      f"| {found['newton']:.2f} | {found['assembled']:.2f} |", flush=True)
+    write_csv(folder / "speed.csv", [["structure", "number", "state", *found], *table])
+
+
+PARTS = dict(speed=speeds, forces=forces, planar=planar, rolled=rolled, impacts=impacts, rocking=rocking)
 
 
 def main() -> None:

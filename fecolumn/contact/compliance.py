@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
+from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import MASTER, SLAVE, turns
+from fecolumn.contact.tolerances import FEW_SIDES
 
 
 @njit
@@ -23,39 +25,43 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
     """
     k, m = len(active), 2 * len(active)
     rows, signs, nodes, shares, sides = np.empty(m, np.int64), np.empty(m), np.empty((m, 4), np.int64), np.empty((m, 4)), np.empty((m, 3))
-    turned, faces = turns(poses), np.empty((m, 2), np.int64)
+    turned, faces, concerned = turns(poses), np.empty((m, 2), np.int64), np.zeros(len(bodies.body), np.bool_)
     W[:] = 0.0
+    for i in active:
+        concerned[points[i].slave] = True
+        if points[i].master != BASE:
+            concerned[points[i].master] = True
     for b in range(len(bodies.body)):
         count = 0
+        if not concerned[b]:
+            continue
         for j in range(k):
             i = active[j]
-            if points[i].slave == b:
-                rows[count], signs[count] = j, 1.0
+            for side in range(2):
+                if (points[i].master if side else points[i].slave) != b:
+                    continue
+                rows[count], signs[count] = j, -1.0 if side else 1.0
                 for q in range(4):
-                    nodes[count, q], shares[count, q] = points[i].carriers[q], points[i].weights[q]
+                    nodes[count, q] = points[i].below[q] if side else points[i].carriers[q]
+                    shares[count, q] = points[i].shares[q] if side else points[i].weights[q]
                 for a in range(3):
-                    sides[count, a] = arms[i, a]
-                faces[count, 0], faces[count, 1] = points[i].interface, SLAVE
-                count += 1
-            if points[i].master == b:
-                rows[count], signs[count] = j, -1.0
-                for q in range(4):
-                    nodes[count, q], shares[count, q] = points[i].below[q], points[i].shares[q]
-                for a in range(3):
-                    sides[count, a] = points[i].seat[a]
-                faces[count, 0], faces[count, 1] = points[i].interface, MASTER
+                    sides[count, a] = points[i].seat[a] if side else arms[i, a]
+                faces[count, 0], faces[count, 1] = points[i].interface, MASTER if side else SLAVE
                 count += 1
         _add_body(bodies, b, rows, signs, nodes, shares, sides, faces, turned, count, rigid, nodal, W)
     if factor != 0.0:
         count = 0
+        gather(base, points, active)
         for j in range(k):
             i = active[j]
             if points[i].master == BASE:
                 rows[count] = j
                 for q in range(4):
-                    nodes[count, q], shares[count, q] = points[i].below[q], points[i].shares[q]
+                    shares[count, q] = points[i].shares[q]
+                    if shares[count, q] != 0.0:
+                        nodes[count, q] = base.gathered.place[points[i].below[q]]
                 count += 1
-        _add_interpolated(base.compliance, 0, rows, signs, nodes, shares, count, False, factor, W)
+        _add_interpolated(base.gathered.matrix, 0, base.gathered.number[0], rows, nodes, shares, count, factor, W)
         for j in range(k):
             for a in range(3):
                 W[3 * j + a, 3 * j + a] += factor * own[active[j], a]
@@ -70,10 +76,8 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
 def _add_body(bodies, b, rows, signs, nodes, shares, arms, faces, turned, count, rigid, nodal, W):
     """Add to the upper blocks of W what one body gives: `count` sides of points on it, for each row in W, sign, nodes, shares, arm, and its
     interface and side, whose turns (ni, 2, 3, 3) lead from the body to the frame of the interface."""
-    if count == 0:
-        return
-    B, block, half, lever = np.zeros((3 * count, 3 * count)), np.empty((3, 3)), np.empty((3, 3)), np.empty((count, 3, 3))
-    _add_interpolated(nodal, bodies.body[b].first, rows, signs, nodes, shares, count, True, 1.0, B)
+    B, block, half, lever, places = np.zeros((3 * count, 3 * count)), np.empty((3, 3)), np.empty((3, 3)), np.empty((count, 3, 3)), np.arange(count)
+    _add_interpolated(nodal, bodies.body[b].first, bodies.body[b].count, places, nodes, shares, count, 1.0, B)
     mobile = rigid * bodies.body[b].inverse_mass
     floats = mobile != 0.0
     if floats:
@@ -111,52 +115,46 @@ def _add_body(bodies, b, rows, signs, nodes, shares, arms, faces, turned, count,
 
 
 @njit
-def _add_interpolated(compliance, first, rows, signs, nodes, shares, count, local, factor, W):
-    """Add factor times the compliance of nodes, interpolated, to the upper blocks of W: at i, j of the sides if `local`, else at their rows.
+def _add_interpolated(compliance, first, number, rows, nodes, shares, count, factor, W):
+    """Add factor times the compliance of nodes, interpolated, to the upper blocks of W (3 k, 3 k) at the rows (count,) of the sides.
 
-    compliance: rows 3 node + a, columns 3 (node - first) + a. nodes, shares: (m, 4) those of which each side takes the displacement and to which
-    it gives its force.
+    compliance: rows 3 node + a, columns 3 (node - first) + a of `number` nodes. nodes, shares: (m, 4) those of which each side takes the displacement and to
+    which it gives its force.
     """
-    # the few nodes concerned, beside each other in memory
-    listed, places, m = np.empty(4 * count, np.int64), np.empty((count, 4), np.int64), 0
-    for i in range(count):
-        for q in range(4):
-            if shares[i, q] != 0.0:
-                places[i, q], m = place_of(nodes[i, q], listed, m)
-    gathered, line = np.empty((3 * m, 3 * m)), np.empty((3, 3 * m))
-    for u in range(m):
-        for v in range(m):
-            row, column = 3 * listed[u], 3 * (listed[v] - first)
-            for a in range(3):
-                for b in range(3):
-                    gathered[3 * u + a, 3 * v + b] = factor * compliance[row + a, column + b]
+    if count <= FEW_SIDES:
+        for i in range(count):
+            for j in range(i, count):
+                top, left = 3 * rows[i], 3 * rows[j]
+                for q in range(4):
+                    for r in range(4):
+                        w = factor * shares[i, q] * shares[j, r]
+                        if w != 0.0:
+                            row, column = 3 * nodes[i, q], 3 * (nodes[j, r] - first)
+                            for a in range(3):
+                                for b in range(3):
+                                    W[top + a, left + b] += w * compliance[row + a, column + b]
+        return
+    # whole lines, which are beside each other in memory
+    width = 3 * number
+    line = np.empty((3, width))
     for i in range(count):
         line[:] = 0.0
         for q in range(4):
-            w = shares[i, q]
+            w = factor * shares[i, q]
             if w != 0.0:
                 for a in range(3):
-                    for x in range(3 * m):
-                        line[a, x] += w * gathered[3 * places[i, q] + a, x]
-        top = 3 * (i if local else rows[i])
+                    source, target = compliance[3 * nodes[i, q] + a], line[a]
+                    for x in range(width):
+                        target[x] += w * source[x]
+        top = 3 * rows[i]
         for j in range(i, count):
-            left = 3 * (j if local else rows[j])
+            left = 3 * rows[j]
             for q in range(4):
-                w = shares[j, q]
+                w, column = shares[j, q], 3 * (nodes[j, q] - first)
                 if w != 0.0:
                     for a in range(3):
                         for b in range(3):
-                            W[top + a, left + b] += w * line[a, 3 * places[j, q] + b]
-
-
-@njit
-def place_of(item, items, count):
-    """Place of an item among the first `count`, after which it is put where it is not there, and how many there are then."""
-    for place in range(count - 1, -1, -1):
-        if items[place] == item:
-            return place, count
-    items[count] = item
-    return count, count + 1
+                            W[top + a, left + b] += w * line[a, column + b]
 
 
 @njit
@@ -221,10 +219,10 @@ def static_displacement(bodies, base, points, poses, contact, listed, target):
             target[i, a] = 0.0
     if loaded == 0:
         return
-    room, far, turned = 8 * loaded, 8 * len(listed), turns(poses)
-    pushed, pushes, reached, moved = np.empty(room, np.int64), np.empty((room, 3)), np.empty(far, np.int64), np.empty((far, 3))
-    for b in range(-1, len(bodies.body)):
-        _displace(bodies, base, points, b, turned, contact, listed, pushed, pushes, reached, moved, target)
+    if len(listed) > FEW_SIDES:
+        _displace_many(bodies, base, points, turns(poses), contact, listed, target)
+    else:
+        _displace_few(bodies, base, points, turns(poses), contact, listed, target)
     for i in listed:
         if contact[i].force[2] > 0 and points[i].count > 1:
             for a in range(3):
@@ -233,61 +231,116 @@ def static_displacement(bodies, base, points, poses, contact, listed, target):
 
 
 @njit
-def _displace(bodies, base, points, b, turned, contact, listed, pushed, pushes, reached, moved, target):
-    """What `static_displacement` finds of one body, or the base; the four arrays before the last are room to work in."""
-    n_pushed, first = 0, 0 if b == BASE else bodies.body[b].first
-    compliance = base.compliance if b == BASE else bodies.static
-    # forces on its nodes: points beside each other share them
+def _displace_few(bodies, base, points, turned, contact, listed, target):
+    """`static_displacement` without `uneven`, of few points: by the compliance of each two of them."""
+    force, way = np.empty(3), np.empty(3)
+    for i in listed:
+        for side in range(2):
+            b, k = points[i].master if side else points[i].slave, points[i].interface
+            compliance, first = (base.compliance, 0) if b == BASE else (bodies.static, bodies.body[b].first)
+            for a in range(3):
+                way[a] = 0.0
+            for j in listed:
+                if not contact[j].force[2] > 0.0:
+                    continue
+                for other in range(2):
+                    if (points[j].master if other else points[j].slave) != b:
+                        continue
+                    l, f = points[j].interface, contact[j].force
+                    for a in range(3):
+                        force[a] = f[a] if b == BASE else turned[l, other, 0, a] * f[0] + turned[l, other, 1, a] * f[1] + turned[l, other, 2, a] * f[2]
+                    for q in range(4 if side else points[i].count):
+                        w, node = -points[i].shares[q] if side else points[i].weights[q], points[i].below[q] if side else points[i].carriers[q]
+                        for r in range(4 if other else points[j].count):
+                            x, under = -points[j].shares[r] if other else points[j].weights[r], points[j].below[r] if other else points[j].carriers[r]
+                            if w * x == 0.0:
+                                continue
+                            column = 3 * (under - first)
+                            for a in range(3):
+                                line = compliance[3 * node + a]
+                                way[a] += w * x * (line[column] * force[0] + line[column + 1] * force[1] + line[column + 2] * force[2])
+            for a in range(3):
+                target[i, a] += way[a] if b == BASE else turned[k, side, a, 0] * way[0] + turned[k, side, a, 1] * way[1] + turned[k, side, a, 2] * way[2]
+
+
+@njit
+def _displace_many(bodies, base, points, turned, contact, listed, target):
+    """`static_displacement` without `uneven`, of many points: by forces on nodes, which they share."""
+    gather(base, points, listed)
+    # nodes of all bodies, then those gathered of the base; those of each that are pushed are listed from its first one on
+    own, own_count = len(bodies.arms), len(bodies.body)
+    count = own + base.gathered.number[0]
+    pushes, moved, pushed, number = np.zeros((count, 3)), np.empty((count, 3)), np.empty(count, np.int64), np.zeros(own_count + 1, np.int64)
+    is_pushed, is_moved, push, way = np.zeros(count, np.bool_), np.zeros(count, np.bool_), np.empty(3), np.empty(3)
     for i in listed:
         if not contact[i].force[2] > 0.0:
             continue
-        r0, r1, r2 = contact[i].force[0], contact[i].force[1], contact[i].force[2]
+        k = points[i].interface
         for side in range(2):
-            if (points[i].master if side else points[i].slave) != b:
-                continue
+            b, f = points[i].master if side else points[i].slave, contact[i].force
+            first = own if b == BASE else bodies.body[b].first
+            for a in range(3):
+                push[a] = f[a] if b == BASE else turned[k, side, 0, a] * f[0] + turned[k, side, 1, a] * f[1] + turned[k, side, 2, a] * f[2]
             for q in range(4 if side else points[i].count):
                 w = -points[i].shares[q] if side else points[i].weights[q]
-                before = n_pushed
-                place, n_pushed = place_of(points[i].below[q] if side else points[i].carriers[q], pushed, n_pushed)
-                if place == before:
-                    pushes[place, 0] = pushes[place, 1] = pushes[place, 2] = 0.0
-                if b == BASE:
-                    pushes[place, 0] += w * r0
-                    pushes[place, 1] += w * r1
-                    pushes[place, 2] += w * r2
-                else:
-                    k = points[i].interface
-                    for a in range(3):
-                        pushes[place, a] += w * (turned[k, side, 0, a] * r0 + turned[k, side, 1, a] * r1 + turned[k, side, 2, a] * r2)
-    if n_pushed == 0:
-        return
-    # what they do at the nodes of the near points, each found once
-    n_reached = 0
-    for i in listed:
-        for side in range(2):
-            if (points[i].master if side else points[i].slave) != b:
-                continue
-            u0 = u1 = u2 = 0.0
-            for q in range(4 if side else points[i].count):
-                w, node = -points[i].shares[q] if side else points[i].weights[q], points[i].below[q] if side else points[i].carriers[q]
-                if w == 0.0 or node < 0:
+                if w == 0.0:
                     continue
-                before = n_reached
-                place, n_reached = place_of(node, reached, n_reached)
-                if place == before:
-                    for a in range(3):
-                        total = 0.0
-                        for j in range(n_pushed):
-                            column = 3 * (pushed[j] - first)
-                            total += (compliance[3 * node + a, column] * pushes[j, 0] + compliance[3 * node + a, column + 1] * pushes[j, 1]
-                                      + compliance[3 * node + a, column + 2] * pushes[j, 2])
-                        moved[place, a] = total
-                u0, u1, u2 = u0 + w * moved[place, 0], u1 + w * moved[place, 1], u2 + w * moved[place, 2]
-            if b == BASE:
-                target[i, 0] += u0
-                target[i, 1] += u1
-                target[i, 2] += u2
-            else:
-                k = points[i].interface
+                node = points[i].below[q] if side else points[i].carriers[q]
+                if b == BASE:
+                    node = own + base.gathered.place[node]
+                if not is_pushed[node]:
+                    is_pushed[node] = True
+                    # the base is the last of all
+                    pushed[first + number[b]] = node
+                    number[b] += 1
                 for a in range(3):
-                    target[i, a] += turned[k, side, a, 0] * u0 + turned[k, side, a, 1] * u1 + turned[k, side, a, 2] * u2
+                    pushes[node, a] += w * push[a]
+    for i in listed:
+        k = points[i].interface
+        for side in range(2):
+            b = points[i].master if side else points[i].slave
+            if number[b] == 0:
+                continue
+            first, nodes = (own, count - own) if b == BASE else (bodies.body[b].first, bodies.body[b].count)
+            for a in range(3):
+                way[a] = 0.0
+            for q in range(4 if side else points[i].count):
+                w = -points[i].shares[q] if side else points[i].weights[q]
+                if w == 0.0:
+                    continue
+                node = points[i].below[q] if side else points[i].carriers[q]
+                if b == BASE:
+                    node = own + base.gathered.place[node]
+                if not is_moved[node]:
+                    is_moved[node] = True
+                    compliance, row = (base.gathered.matrix, 3 * (node - own)) if b == BASE else (bodies.static, 3 * node)
+                    if 3 * number[b] > nodes:
+                        _move(compliance, row, pushes[first:first + nodes], moved[node])
+                    else:
+                        _move_by_few(compliance, row, first, pushed[first:first + number[b]], pushes, moved[node])
+                for a in range(3):
+                    way[a] += w * moved[node, a]
+            for a in range(3):
+                target[i, a] += way[a] if b == BASE else turned[k, side, a, 0] * way[0] + turned[k, side, a, 1] * way[1] + turned[k, side, a, 2] * way[2]
+
+
+@njit(fastmath={"reassoc", "contract"})
+def _move(compliance, row, pushes, target):
+    """target (3,): displacement in three rows of a compliance by the pushes (n, 3) on all nodes of its columns."""
+    flat = pushes.reshape(3 * len(pushes))
+    for a in range(3):
+        line, total = compliance[row + a], 0.0
+        for j in range(len(flat)):
+            total += line[j] * flat[j]
+        target[a] = total
+
+
+@njit
+def _move_by_few(compliance, row, first, pushed, pushes, target):
+    """As `_move`, by the pushes (N, 3) on the nodes `pushed` (k,); first: node of the first column."""
+    for a in range(3):
+        line, total = compliance[row + a], 0.0
+        for j in pushed:
+            column = 3 * (j - first)
+            total += line[column] * pushes[j, 0] + line[column + 1] * pushes[j, 1] + line[column + 2] * pushes[j, 2]
+        target[a] = total

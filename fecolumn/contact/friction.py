@@ -66,8 +66,14 @@ def law_error(r0, r1, r2, s0, s1, s2, stiffness, friction):
 @njit
 def natural_residual(W, q, forces, friction, rho):
     """Largest violation of the contact laws [m], see `law_error`; rho: (n,) stiffness by which it is measured [N/m]."""
-    relative, worst = slips_and_gaps(W, q, forces), 0.0
-    for i in range(len(q)):
+    return _violation(slips_and_gaps(W, q, forces), forces, friction, rho)
+
+
+@njit
+def _violation(relative, forces, friction, rho):
+    """As `natural_residual`, of known slips and gaps (n, 3)."""
+    worst = 0.0
+    for i in range(len(forces)):
         worst = max(worst, law_error(forces[i, 0], forces[i, 1], forces[i, 2], relative[i, 0], relative[i, 1], relative[i, 2], rho[i], friction[i]))
     return worst
 
@@ -129,8 +135,10 @@ def frictionless(W, q, start):
 
 
 @njit
-def newton_step(W, q, forces, friction, rho, give):
+def newton_step(W, q, forces, relative, friction, rho, give):
     """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular.
+
+    relative: (n, 3) slips and gaps under the forces.
 
     give: compliance [m/N] of each point against a change of its force, in this step alone: 0, or little where W leaves open which of many points
     carry. The laws are not softened by it: where the forces change no more, it plays no part.
@@ -139,10 +147,10 @@ def newton_step(W, q, forces, friction, rho, give):
     slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c = mu r_n / |trial|: two unknowns, three for a sticking point.
     """
     n = len(q)
-    trial, updated = slips_and_gaps(W, q, forces), np.zeros((n, 3))
+    trial, updated = np.empty((n, 3)), np.zeros((n, 3))
     for i in range(n):
         for a in range(3):
-            trial[i, a] = forces[i, a] - rho[i] * trial[i, a]
+            trial[i, a] = forces[i, a] - rho[i] * relative[i, a]
     # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or gap along test[u]
     point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
     stiffening, count = np.zeros(3 * n), 0
@@ -173,21 +181,21 @@ def newton_step(W, q, forces, friction, rho, give):
         count += 2
     if count == 0:
         return updated, True
-    half, matrix, right = np.empty((count, 3 * n)), np.empty((count, count)), np.empty(count)
+    line, matrix, right = np.empty(3 * n), np.empty((count, count)), np.empty(count)
     for u in range(count):
         row, x, y, z = 3 * point[u], test[u, 0], test[u, 1], test[u, 2]
         right[u] = 0.0
         for a in range(3):
             right[u] -= test[u, a] * (q[point[u], a] - give * forces[point[u], a])
-        if x == 0.0 and y == 0.0 and z == 1.0:
-            half[u] = W[row + 2]
-        else:
-            for j in range(3 * n):
-                half[u, j] = x * W[row, j] + y * W[row + 1, j] + z * W[row + 2, j]
+        first, second, third = W[row], W[row + 1], W[row + 2]
+        for j in range(3 * n):
+            line[j] = x * first[j] + y * second[j] + z * third[j]
         for v in range(count):
             column = 3 * point[v]
-            matrix[u, v] = basis[v, 0] * half[u, column] + basis[v, 1] * half[u, column + 1] + basis[v, 2] * half[u, column + 2]
-            if give > 0.0 and point[u] == point[v]:
+            matrix[u, v] = basis[v, 0] * line[column] + basis[v, 1] * line[column + 1] + basis[v, 2] * line[column + 2]
+        # the unknowns of a point are beside each other
+        for v in range(max(u - 2, 0), min(u + 3, count)):
+            if point[v] == point[u]:
                 matrix[u, v] += give * (x * basis[v, 0] + y * basis[v, 1] + z * basis[v, 2])
         matrix[u, u] += stiffening[u]
     if not solve_in_place(matrix, right):
@@ -234,13 +242,14 @@ def solve_in_place(matrix, right):
     return True
 
 
-@njit
+@njit(fastmath={"reassoc", "contract"})
 def stiffness_together(W, i):
     """Stiffness [N/m] of point i when all points move: it is less than alone, with which each would seem to slip to and fro."""
     total = 0.0
     for a in range(3):
-        for j in range(W.shape[1]):
-            total += abs(W[3 * i + a, j])
+        row = W[3 * i + a]
+        for j in range(len(row)):
+            total += abs(row[j])
     return 3 / total
 
 
@@ -300,13 +309,14 @@ def _newtons(W, q, friction, start, tolerance, rho, rho_alone, give, most, patie
     forces, least, stalled, made = start, np.inf, 0, 0
     best = start
     while True:
-        residual = natural_residual(W, q, forces, friction, rho_alone)
+        relative = slips_and_gaps(W, q, forces)
+        residual = _violation(relative, forces, friction, rho_alone)
         stalled += 1
         if residual < least:
             best, least, stalled = forces, residual, 0
         if residual <= tolerance or stalled > patience or made == most:
             break
-        forces, regular = newton_step(W, q, forces, friction, rho, give)
+        forces, regular = newton_step(W, q, forces, relative, friction, rho, give)
         if not regular:
             break
         made += 1

@@ -10,13 +10,13 @@ from fecolumn.contact.record import record
 #: `contact.restitution`; rolling: coefficient of the rim's resistance, see `contact.rolling`; on_pad: whether a pad lies between, relaxation of it [s];
 #: rim_first, rim_count: places of its rim among those of all interfaces, none where it is not round; rim_angle of the rim's first
 #: point, sector between two [rad], radius [m]. Of the master's surface in its own frame: origin (3,) from its centre of mass [m], axes (3, 3), whose columns are
-#: two tangents and the outward normal; facet_first, facet_count: its triangles. foot: (3,) middle of the slave's nodes from its centre of mass [m];
+#: two tangents and the outward normal; facet_first, facet_count: its triangles; convex: see `joints.is_convex`. foot: (3,) middle of the slave's nodes from its centre of mass [m];
 #: reach: how far modes of the energy 1/2 J move a node of the master's surface at most [m/sqrt(J)]; bulge: how far a round surface reaches beyond the polygon of its
 #: nodes [m]. ball: radius of the balls with which the foot touches, see `contact.ball`, 0 of a flat one; edge: (2,) [m] where a dome ends, its radius and 0 of a
 #: circle, half sides of a rectangle, (0, 0) of a foot that is no dome.
 INTERFACE = record(("slave", "i8"), ("master", "i8"), ("width", "f8"), ("restitution", "f8"), ("rolling", "f8"), ("on_pad", "?"), ("relaxation", "f8"),
                       ("rim_first", "i8"), ("rim_count", "i8"), ("rim_angle", "f8"), ("sector", "f8"), ("radius", "f8"),
-                      ("origin", "f8", 3), ("axes", "f8", (3, 3)), ("facet_first", "i8"), ("facet_count", "i8"), ("foot", "f8", 3), ("reach", "f8"),
+                      ("origin", "f8", 3), ("axes", "f8", (3, 3)), ("facet_first", "i8"), ("facet_count", "i8"), ("convex", "?"), ("foot", "f8", 3), ("reach", "f8"),
                       ("bulge", "f8"), ("ball", "f8"), ("edge", "f8", 2))
 
 #: What a rolling rim carries from step to step: angle of its lowest contact point [rad], nan while the foot touches with its nodes only; lift:

@@ -15,7 +15,7 @@ from fecolumn.contact.arrays import flat, largest, put_matrix, put_points
 from fecolumn.contact.tolerances import INSIDE_END, INSIDE_WAY
 
 
-@njit(error_model="numpy")
+@njit
 def in_cones(W, q, friction):
     """Compliance (3 n, 3 n) and slip (n, 3) without forces in the units of R and U; arguments as of `friction.solve_contact`, friction (n,).
 
@@ -40,7 +40,7 @@ def in_cones(W, q, friction):
     return A, Q
 
 
-@njit(error_model="numpy")
+@njit
 def approach(A, Q, friction, R, U, most):
     """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the middle where they are zero; both change.
 
@@ -103,7 +103,7 @@ def approach(A, Q, friction, R, U, most):
     return _unscaled(R, friction), most
 
 
-@njit(error_model="numpy")
+@njit
 def _scaling(r, u, P, inverse):
     """Nesterov and Todd's symmetric P (3, 3) with P r = P^-1 u, and its inverse."""
     tangential, across = np.hypot(r[0], r[1]), np.hypot(u[0], u[1])
@@ -123,7 +123,7 @@ def _scaling(r, u, P, inverse):
     inverse[2, 0], inverse[2, 1] = -inverse[2, 0], -inverse[2, 1]
 
 
-@njit(error_model="numpy")
+@njit
 def _corrected(P, inverse, scaled, dr, du, target, wanted):
     """wanted (3,) = P x with scaled o x = target e - scaled o scaled - (P dr) o (P^-1 du)."""
     l0, l1, l2 = scaled[0], scaled[1], scaled[2]
@@ -141,7 +141,7 @@ def _corrected(P, inverse, scaled, dr, du, target, wanted):
         wanted[a] = P[a, 0] * x0 + P[a, 1] * x1 + P[a, 2] * x2
 
 
-@njit(error_model="numpy")
+@njit
 def _way(x, d):
     """Largest t for which x + t d (n, 3) lies in the cones."""
     least = np.inf
@@ -179,21 +179,22 @@ def _product(R, dR, U, dU, t):
     return total
 
 
-@njit(error_model="numpy")
+@njit(fastmath={"reassoc", "contract"})
 def _direction(A, factor, wanted, infeasible, dR, dU):
     """dR (n, 3) of factor factor^T dR = wanted - infeasible, and dU = A dR + infeasible."""
     m, n = 3 * len(wanted), len(wanted)
     x = np.empty(m)
     for i in range(m):
-        value = wanted[i // 3, i % 3] - infeasible[i // 3, i % 3]
+        row, value = factor[i], 0.0
         for j in range(i):
-            value -= factor[i, j] * x[j]
-        x[i] = value / factor[i, i]
+            value += row[j] * x[j]
+        x[i] = (wanted[i // 3, i % 3] - infeasible[i // 3, i % 3] - value) / row[i]
     for i in range(m - 1, -1, -1):
-        x[i] /= factor[i, i]
+        row = factor[i]
+        x[i] /= row[i]
         value = x[i]
         for j in range(i):
-            x[j] -= factor[i, j] * value
+            x[j] -= row[j] * value
     put_points(x, dR)
     put_points(A @ x, dU)
     for i in range(n):

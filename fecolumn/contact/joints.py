@@ -10,6 +10,7 @@ from fecolumn.contact.bodies import FACET, GOES_ON
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import BASE, node_points
 from fecolumn.contact.rim import Rim
+from fecolumn.contact.tolerances import SAME_PLACE
 
 
 class Joints(NamedTuple):
@@ -56,6 +57,7 @@ def joints_of(parts, joints) -> Joints:
                 found[key] = len(facets)
                 facets = np.concatenate([facets, facets_of(surface, parts[joint.master].model.arms, first[joint.master])])
             interface["facet_first"], interface["facet_count"] = found[key], len(surface.triangles)
+            interface["convex"] = is_convex(facets[found[key]:found[key] + len(surface.triangles)])
             interface["origin"], interface["axes"] = surface.origin, surface.axes
             around = Rim.find(surface.plane(parts[joint.master].model.arms[surface.nodes]))
             # a rim that rolls on it stands on the circle, too
@@ -88,3 +90,18 @@ def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
         if not surface.outlines[list(side)].all():
             facets["neighbours"][number, q] = GOES_ON
     return facets
+
+
+def is_convex(facets: np.ndarray) -> bool:
+    """Whether triangles (t,) of FACET cover all of a surface that is convex: what is beyond one side of its outline is beyond the surface."""
+    if (facets["neighbours"] == GOES_ON).any():
+        return False
+    corners = facets["corners"]
+    number, q = np.nonzero(facets["neighbours"] < 0)
+    start, own = corners[number, (q + 1) % 3], corners[number, q]
+    side = corners[number, (q + 2) % 3] - start
+    normal = np.stack([-side[:, 1], side[:, 0]], axis=1)
+    # towards the triangle
+    normal *= np.sign(np.einsum("ia,ia->i", normal, own - start))[:, None]
+    inside = np.einsum("ia,ika->ik", normal, corners.reshape(1, -1, 2) - start[:, None])
+    return bool((inside >= -SAME_PLACE * np.ptp(corners.reshape(-1, 2), axis=0).max() * np.linalg.norm(side, axis=1)[:, None]).all())

@@ -15,7 +15,7 @@ from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put, put_points
 from fecolumn.contact.projection import ON, UNKNOWN, project
 from fecolumn.contact.compliance import assemble, even_out, static_displacement
-from fecolumn.contact.friction import iterate, law_error
+from fecolumn.contact.friction import iterate, law_error, slips_and_gaps
 from fecolumn.contact.pad import indent
 from fecolumn.contact.stick import find_stick, solve_sticking
 from fecolumn.contact.tolerances import CLOSE, EXACT, NEAR, PENETRATION, SHARE, SHARP, SOLVED, SWEEPS_MOST, USABLE
@@ -234,13 +234,10 @@ def find_forces(problem, points, interfaces, stick, after, counts):
         friction[j] = points[listed[j]].friction
         for a in range(3):
             old[j, a] = after[listed[j]].force[a]
+    moved = slips_and_gaps(W, np.zeros((count, 3)), old)
     for j in range(count):
         for a in range(3):
-            moved = 0.0
-            for i in range(count):
-                for b in range(3):
-                    moved += W[3 * j + a, 3 * i + b] * old[i, b]
-            q[j, a] = problem.slack[listed[j], a] - moved
+            q[j, a] = problem.slack[listed[j], a] - moved[j, a]
     for j in range(count):
         # so small that the length would let it stay
         if _hangs(problem, after, listed[j]):

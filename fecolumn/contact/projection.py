@@ -8,6 +8,7 @@ import numpy as np
 
 from fecolumn._compiled import interpreted, njit
 from fecolumn.contact.bodies import GOES_ON, node_matrix
+from fecolumn.contact.gathered import Gathered, none_gathered
 from fecolumn.contact.points import BASE, BEYOND, OVER, POINT, SUNK, UNPREPARED
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.tolerances import CLOSE, EDGE
@@ -18,7 +19,7 @@ ON, OFF, UNKNOWN = range(3)
 
 class Base(NamedTuple):
     """Top of the base for compiled code: grid lines x, y [m]; number: (n_x, n_y) of its nodes; slot: (n_top,) of a node in `compliance`, -1 where it
-    is not known yet; compliance: (3 k, 3 k) [m/N]. square: side of the squares [m] by which an unbounded base follows the foot, 0 for a plate that stays."""
+    is not known yet; compliance: (3 k, 3 k) [m/N]. square: side of the squares [m] by which an unbounded base follows the foot, 0 for a plate that stays. gathered: of it."""
 
     x: np.ndarray
     y: np.ndarray
@@ -26,11 +27,17 @@ class Base(NamedTuple):
     slot: np.ndarray
     compliance: np.ndarray
     square: float
+    gathered: Gathered
+
+
+def base_of(x, y, number, slot, compliance, square: float = 0.0) -> Base:
+    """A Base of which nothing is gathered."""
+    return Base(x, y, number, slot, compliance, square, none_gathered(len(compliance) // 3))
 
 
 def base_for_steps(base) -> Base:
     """The Base of a `contact.base_plate.BasePlate`, or what answers as it does, as far as its compliance is known."""
-    return Base(base.grid.x, base.grid.y, base.grid.number, base.slot.copy(), node_matrix(base.compliance), base.grid.square)
+    return base_of(base.grid.x, base.grid.y, base.grid.number, base.slot.copy(), node_matrix(base.compliance), base.grid.square)
 
 
 @njit
@@ -69,8 +76,8 @@ def project_on_body(bodies, interface, point, x, y):
     """Find the three nodes of a moving master's surface around the place x, y [m] in its frame, and their shares: ON or OFF the surface, or UNKNOWN where
     the face goes on without nodes that are known.
 
-    From the facet where the point was found last towards the place; all facets are looked at where an outline or a hole is in the way. Off the surface, of
-    the nearest facet.
+    From the facet where the point was found last towards the place; all facets are looked at where an outline or a hole is in the way of a surface that is not
+    convex. Off the surface, of the nearest facet, or of a convex one of the last on the way.
     """
     first, count, facet, margin = interface.facet_first, interface.facet_count, point.facet, EDGE * interface.width + interface.bulge
     shares, nearest, least, side = np.empty(3), 0, np.inf, 0
@@ -79,9 +86,13 @@ def project_on_body(bodies, interface, point, x, y):
         if across < 0:
             _take(bodies.facets[first + facet], facet, shares, point)
             return ON
-        facet = bodies.facets[first + facet].neighbours[across]
-        if facet < 0:
+        beside = bodies.facets[first + facet].neighbours[across]
+        if beside < 0 and interface.convex:
+            _take(bodies.facets[first + facet], facet, shares, point)
+            return OFF
+        if beside < 0:
             break
+        facet = beside
     for facet in range(count):
         across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
         if across < 0:
@@ -191,6 +202,6 @@ def nodes_under(grid, positions: np.ndarray, wanted: np.ndarray | None = None) -
     """Nodes (n, 4) of a `contact.base_top.BaseTop` under `positions` (n, 3) [m] and their shares (n, 4), of the wanted ones (mask) if it is given."""
     points, listed = np.zeros(len(positions), POINT), np.arange(len(positions)) if wanted is None else np.flatnonzero(wanted)
     points["master"] = BASE
-    base = Base(grid.x, grid.y, grid.number, np.arange(len(grid.points)), np.empty((0, 0)), grid.square)
+    base = base_of(grid.x, grid.y, grid.number, np.arange(len(grid.points)), np.empty((0, 0)), grid.square)
     interpreted(project)(base, positions, listed, points)
     return points["below"], points["shares"]

@@ -40,13 +40,19 @@ def no_stick(n: int, interfaces: int = 1) -> Stick:
 
 
 @njit
+def same_points(angle, other):
+    """Whether the points of a rim are in the same places on it for two angles of its lowest one, nan while they are its nodes."""
+    return angle == other or np.isnan(angle) and np.isnan(other)
+
+
+@njit
 def holds(stick, interfaces, rims, rigid, poses):
     """Whether all feet are where the operator was found."""
     if stick.key[1] == 0.0 or stick.key[0] != rigid:
         return False
     for k in range(len(interfaces)):
         on_pad, then, now = interfaces[k].on_pad, stick.poses[k], poses[k]
-        if not (stick.angles[k] == rims[k].angle or np.isnan(stick.angles[k]) and np.isnan(rims[k].angle)):
+        if not same_points(stick.angles[k], rims[k].angle):
             return False
         for a in range(0 if on_pad else 2):
             if abs(now.foot[a] - then.foot[a]) > STICK_WAY * interfaces[k].width:

@@ -22,6 +22,8 @@ SHARP = 0.1
 USABLE = 1e-9
 #: Depth to which points outside the contact problem may sink below the base: a tenth of USABLE.
 PENETRATION = 1e-10
+#: Points up to which compliance is taken node by node; of more, whole lines of the gathered compliance are beside each other in memory.
+FEW_SIDES = 8
 #: Iterations of a step: Newton takes two to five, more where points come and go.
 ITERATIONS = 25
 

@@ -46,7 +46,8 @@ def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     files = [path.with_name(f"{path.name}.{suffix}") for suffix in formats]
-    figure.draw_without_rendering()  # lays the figure out, which takes as long as to draw it: once for all files
+    if engine := figure.get_layout_engine():
+        engine.execute(figure)  # takes as long as to draw it: once for all files
     with matplotlib.rc_context({"figure.constrained_layout.use": False}):
         figure.set_layout_engine(None)
         for file in files:

@@ -82,10 +82,10 @@ def find_elastic(structure, points, i, motion, elastic, when):
 
 
 @njit
-def find_places(structure, points, motion, pose, elastic, wanted, places):
-    """places (N, 3): positions at the START of the wanted nodes (mask) of the points of one interface in its frame, without their static part."""
+def find_places(structure, points, rim, motion, pose, elastic, wanted, places):
+    """places (N, 3): positions at the START of the wanted nodes (mask) of the points of a rim (n,) in the frame of its interface, without their static part."""
     x = np.empty(3)
-    for i in range(len(points)):
+    for i in rim:
         node, b = points[i].node, points[i].slave
         if not wanted[node]:
             continue

@@ -26,7 +26,7 @@ from fecolumn.contact.problem import (
     stored_energy,
 )
 from fecolumn.contact.outline import mark_sunk, was_beyond
-from fecolumn.contact.stick import Stick, holds, no_stick
+from fecolumn.contact.stick import Stick, holds, no_stick, same_points
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_on_master, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, begin_frames, follow, no_action
@@ -63,10 +63,13 @@ def work_of(structure, points) -> Work:
 
 
 @njit
-def stays(interfaces, poses, start, free_center, advance):
-    """Whether all feet stay in their places long enough for finding their stick operator to pay; poses: at the start."""
+def stays(interfaces, poses, start, rims, free_center, advance):
+    """Whether all feet stay in their places long enough for finding their stick operator to pay; poses: at the start, rims: (ni,) of RIM at the end."""
     for k in range(len(interfaces)):
         way, turn, b, turned = 0.0, 0.0, interfaces[k].slave, poses[k].turned
+        if not same_points(start.rims[k].angle, rims[k].angle):
+            # they rolled in this step, and would in the next
+            return False
         for a in range(3):
             turn = max(turn, abs(advance[b, a]))
             if a < 2:
@@ -86,13 +89,14 @@ def find_positions(structure, work, start, end):
     """Positions of the points at the END of the step, those of points too high to matter without their elastic displacement; whether all are over surfaces that are known."""
     interfaces, points, elastic, positions, poses = structure.interfaces, work.points, work.elastic, work.positions, work.poses[END]
     all_of_them, reach, known = work.problem.flags[STICKS_STILL], np.zeros(len(end.frames)), True
+    most = all_of_them or 2 * work.problem.count[0] > len(points)
     find_poses(interfaces, end.frames, end.rotation, poses)
     for b in range(len(end.frames)):
         for k in range(end.modal.shape[2]):
             reach[b] += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
         # no node moves farther than the modes' energy allows
         reach[b] = np.sqrt(reach[b])
-        if all_of_them and end.modal.shape[2] > 0:
+        if most and end.modal.shape[2] > 0:
             find_all_elastic(structure, b, end, elastic, END)
     turned, center = np.empty((len(interfaces), 3, 3)), np.empty((len(interfaces), 3))
     for k in range(len(interfaces)):
@@ -153,6 +157,19 @@ def _slave_in_frame(interface, pose, motion, turned, center):
 
 
 @njit
+def find_arms(structure, work, end):
+    """Elastic displacements and seats at the END of the step of the points that carry, on which their moments depend."""
+    points, elastic, poses, place = work.points, work.elastic, work.poses[END], np.empty(3)
+    find_poses(structure.interfaces, end.frames, end.rotation, poses)
+    for i in near_points(work.problem):
+        if end.contact[i].force[2] > 0:
+            find_elastic(structure, points, i, end, elastic, END)
+            if points[i].master != BASE:
+                find_position(points, i, end, elastic, END, place)
+                find_on_master(structure, points, i, end, poses, elastic, END, place)
+
+
+@njit
 def equilibrate(structure, base, scheme, work, start, free_center, free_modal, advance, rims, end, counts):
     """Find forces and motion at the end of a step; the motion is exact for the forces at every iteration of `contact.problem`.
 
@@ -182,12 +199,17 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
         for a in range(3):
             elastic.point[END, i, a], elastic.seat[END, i, a] = elastic.point[START, i, a], elastic.seat[START, i, a]
     find_sunk(structure, base, work, start, rims)
-    begin_problem(problem, still, not still and stays(interfaces, poses[START], start, free_center, advance))
+    begin_problem(problem, still, not still and stays(interfaces, poses[START], start, rims, free_center, advance))
     begin_frames(structure, start, free_center, advance, end, work.action)
     for iteration in range(ITERATIONS):
         counts[N_ITERATIONS] += 1
         if not follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action):
             return ITERATIONS_SPENT
+        if iteration == 1 and len(interfaces) > 1 and not problem.flags[STICKS_STILL]:
+            # the first forces found in the step bend the bodies: with the arms that these then have, else there would be one iteration more
+            find_arms(structure, work, end)
+            if not follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action):
+                return ITERATIONS_SPENT
         if not find_positions(structure, work, start, end):
             return OFF_PATCH
         if iteration == 0 or not problem.flags[STICKS_STILL]:

@@ -146,8 +146,8 @@ def follow(structure, scheme, points, listed, start, free_center, free_modal, ad
         if sweep > 0 and change <= SETTLED:
             break
         _carry_bodies(structure, scheme, points, listed, start, free_center, advance, elastic, end, action)
+    modal_forces(structure, points, listed, action.halfway, action.frames, end.contact, action.modal)
     for b in range(len(start.frames)):
-        modal_forces(structure, points, listed, b, action.halfway[b], action.frames, end.contact, action.modal[b])
         for k in range(free_modal.shape[1]):
             end.modal[b, COORDINATE, k] = scheme.shrink[b, k] * (free_modal[b, k] + scheme.half * action.modal[b, k])
     elastic.now[END] += 1
@@ -158,38 +158,43 @@ def follow(structure, scheme, points, listed, start, free_center, free_modal, ad
 @njit
 def _carry_bodies(structure, scheme, points, listed, start, free_center, advance, elastic, end, action):
     """`follow`, with frames and links where they are, without modes."""
-    bodies, force = structure.bodies.body, np.empty(3)
+    bodies, force, arm = structure.bodies.body, np.empty(3), np.empty(3)
+    spread = np.zeros((len(bodies), 3, 3))
     for b in range(len(bodies)):
-        spread, arm = np.zeros((3, 3)), np.empty(3)
         for a in range(3):
             action.push[b, a] = 0.0
-        for i in listed:
-            on, under = points[i].slave == b, points[i].master == b
-            if not (on or under) or end.contact[i].force[2] <= 0.0:
+    for i in listed:
+        if end.contact[i].force[2] <= 0.0:
+            continue
+        _turned(action.frames, points[i], end.contact[i].force[0], end.contact[i].force[1], end.contact[i].force[2], force)
+        for side in range(2):
+            b = points[i].master if side else points[i].slave
+            if b == BASE:
                 continue
-            _turned(action.frames, points[i], end.contact[i].force[0], end.contact[i].force[1], end.contact[i].force[2], force)
             for a in range(3):
-                if on:
-                    arm[a] = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
-                else:
+                if side:
                     arm[a], force[a] = (elastic.seat[START, i, a] + elastic.seat[END, i, a]) / 2, -force[a]
+                else:
+                    arm[a] = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
             for a in range(3):
                 for c in range(3):
-                    spread[a, c] += arm[a] * force[c]
+                    spread[b, a, c] += arm[a] * force[c]
                 action.push[b, a] += force[a]
-        for n in range(len(structure.links)):
-            for side in range(2):
-                if (structure.links[n].b if side else structure.links[n].a) != b:
-                    continue
-                ends = structure.links[n].arm_b if side else structure.links[n].arm_a
-                for c in range(3):
-                    value = -action.pulls[n, c] if side else action.pulls[n, c]
-                    for a in range(3):
-                        spread[a, c] += ends[a] * value
-                    action.push[b, c] += value
+    for n in range(len(structure.links)):
+        for side in range(2):
+            b = structure.links[n].b if side else structure.links[n].a
+            if b == BASE:
+                continue
+            ends = structure.links[n].arm_b if side else structure.links[n].arm_a
+            for c in range(3):
+                value = -action.pulls[n, c] if side else action.pulls[n, c]
+                for a in range(3):
+                    spread[b, a, c] += ends[a] * value
+                action.push[b, c] += value
+    for b in range(len(bodies)):
         for a in range(3):
             end.frames[b].center[a] = free_center[b, a] + scheme.half * action.push[b, a] / bodies[b].mass
-        turning(bodies[b], advance[b], start.rotation[b], scheme.half, spread, action.resistance[b], action.turn[b], action.moment[b], action.halfway[b])
+        turning(bodies[b], advance[b], start.rotation[b], scheme.half, spread[b], action.resistance[b], action.turn[b], action.moment[b], action.halfway[b])
         turn_by(start.rotation[b], action.turn[b], end.rotation[b])
 
 
@@ -205,40 +210,37 @@ def _turned(frames, point, x, y, z, target):
 
 
 @njit
-def modal_forces(structure, points, listed, b, rotation, frames, contact, target):
-    """target (m,): what the forces of `contact` at the listed points (k,) do on the modes of body b turned by `rotation`; frames: (ni, 3, 3) of the interfaces."""
+def modal_forces(structure, points, listed, rotation, frames, contact, target):
+    """target (nb, m): what the forces of `contact` at the listed points (k,) do on the modes of the bodies turned by `rotation` (nb, 3, 3); frames: (ni, 3, 3) of the interfaces."""
     target[:] = 0.0
-    if len(target) == 0:
+    if target.shape[1] == 0:
         return
-    force = np.empty(3)
-    if 2 * len(listed) <= len(points):
-        for i in listed:
-            if contact[i].force[2] <= 0.0:
-                continue
-            if points[i].slave == b:
-                _turned(frames, points[i], contact[i].force[0], contact[i].force[1], contact[i].force[2], force)
-                _add_modal(structure.pushes, points[i], True, rotation, force[0], force[1], force[2], target)
-            elif points[i].master == b:
-                _turned(frames, points[i], contact[i].force[0], contact[i].force[1], contact[i].force[2], force)
-                _add_modal(structure.pushes, points[i], False, rotation, -force[0], -force[1], -force[2], target)
-        return
-    # of a whole foot: forces on its nodes first, then one product
-    first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
-    nodal, flat = np.zeros(3 * count), structure.pushes.reshape(3 * len(structure.pushes), len(target))
+    force, few = np.empty(3), 2 * len(listed) <= len(points)
+    nodal = np.zeros((0 if few else len(structure.pushes), 3))
     for i in listed:
-        on = points[i].slave == b
-        if contact[i].force[2] <= 0.0 or not (on or points[i].master == b):
+        if contact[i].force[2] <= 0.0:
             continue
         _turned(frames, points[i], contact[i].force[0], contact[i].force[1], contact[i].force[2], force)
-        for a in range(3):
-            along = rotation[0, a] * force[0] + rotation[1, a] * force[1] + rotation[2, a] * force[2]
-            if on:
-                for q in range(points[i].count):
-                    nodal[3 * (points[i].carriers[q] - first) + a] += points[i].weights[q] * along
-            else:
-                for q in range(3):
-                    nodal[3 * (points[i].below[q] - first) + a] -= points[i].shares[q] * along
-    put(nodal @ flat[3 * first:3 * (first + count)], target)
+        for side in range(2):
+            b, sign = points[i].master if side else points[i].slave, -1.0 if side else 1.0
+            if b == BASE:
+                continue
+            R = rotation[b]
+            if few:
+                _add_modal(structure.pushes, points[i], side == 0, R, sign * force[0], sign * force[1], sign * force[2], target[b])
+                continue
+            # of whole feet: forces on their nodes first, then one product a body
+            for a in range(3):
+                along = sign * (R[0, a] * force[0] + R[1, a] * force[1] + R[2, a] * force[2])
+                for q in range(3 if side else points[i].count):
+                    node, w = points[i].below[q] if side else points[i].carriers[q], points[i].shares[q] if side else points[i].weights[q]
+                    nodal[node, a] += w * along
+    if few:
+        return
+    loads, flat = nodal.reshape(3 * len(nodal)), structure.pushes.reshape(3 * len(structure.pushes), target.shape[1])
+    for b in range(len(target)):
+        first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
+        put(loads[3 * first:3 * (first + count)] @ flat[3 * first:3 * (first + count)], target[b])
 
 
 @njit

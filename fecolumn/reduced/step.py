@@ -79,9 +79,10 @@ def _place_rim(structure, k, rim, work, start, end, allowed):
     points, now, then = work.points, work.poses[START, k].turned, work.poses[END, k].turned
     rolls, tilt, roll = plan_roll(structure.interfaces[k], rim, start.rims[k], start.contact, now[SLAVE], then[SLAVE], allowed)
     if rolls:
-        work.wanted[:] = False
+        for i in rim:
+            work.wanted[points[i].node] = False
         mark_rolling(roll, rim, points, start.contact, work.wanted)
-        find_places(structure, points, start, work.poses[START, k], work.elastic, work.wanted, work.places)
+        find_places(structure, points, rim, start, work.poses[START, k], work.elastic, work.wanted, work.places)
         roll_points(roll, rim, end.rims[k], structure.bodies.arms, work.places, start.contact, points, work.before)
     else:
         stay(roll, rim, end.rims[k], tilt, structure.bodies.arms, points)

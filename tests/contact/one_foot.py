@@ -4,7 +4,7 @@ import numpy as np
 from two_blocks import Blocks, compliance
 
 from fecolumn._compiled import interpreted
-from fecolumn.contact.projection import Base
+from fecolumn.contact.projection import base_of
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.interface import interface_of, rims_at_rest
@@ -23,7 +23,7 @@ GIVES, DEEP = 1e-9, 1e-6
 def flat(compliance=None):
     """A base of one facet, 4 m wide; compliance: (12, 12) [m/N] of its corners, rigid unless given."""
     side = np.array([-2.0, 2.0])
-    return Base(side, side, np.array([[0, 2], [1, 3]]), np.arange(4), np.zeros((12, 12)) if compliance is None else compliance, 0.0)
+    return base_of(side, side, np.array([[0, 2], [1, 3]]), np.arange(4), np.zeros((12, 12)) if compliance is None else compliance)
 
 
 class Foot:

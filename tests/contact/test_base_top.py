@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fecolumn.contact.base_top import BaseTop
-from fecolumn.contact.projection import OFF, ON, UNKNOWN, Base, nodes_under, project
+from fecolumn.contact.projection import OFF, ON, UNKNOWN, base_of, nodes_under, project
 from fecolumn.contact.points import node_points
 
 
@@ -23,21 +23,21 @@ def test_a_linear_field_is_interpolated_exactly(top):
 
 
 def test_point_beyond_the_edge_matters_only_where_it_is_wanted(top):
-    base = Base(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36)), 0.0)
+    base = base_of(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36)))
     positions, points = np.array([[0.0, 0.1, 0.0], [0.26, 0.1, 0.0]]), node_points(np.zeros((2, 3)), 0.5)
     assert project(base, positions, np.array([0]), points) == ON
     assert project(base, positions, np.array([0, 1]), points) == OFF
 
 
 def test_point_on_another_body_needs_no_base_below_it(top):
-    base = Base(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36)), 0.0)
+    base = base_of(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36)))
     points = node_points(np.zeros((1, 3)), 0.5, master=1)
     assert project(base, np.array([[5.0, 0.1, 0.0]]), np.array([0]), points) == ON and not points["shares"].any()
 
 
 def test_node_whose_compliance_is_not_known_is_asked_for(top):
     slot = np.full(12, -1)
-    base, points = Base(top.x, top.y, top.number, slot, np.zeros((0, 0)), 0.0), node_points(np.zeros((1, 3)), 0.5)
+    base, points = base_of(top.x, top.y, top.number, slot, np.zeros((0, 0))), node_points(np.zeros((1, 3)), 0.5)
     place = np.array([[-0.2, 0.3, 0.0]])
     assert project(base, place, np.array([0]), points) == UNKNOWN
     slot[top.around(place, 0)] = np.arange(4)

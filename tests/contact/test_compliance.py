@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from two_blocks import NO_BASE, Blocks, compliance
 
-from fecolumn.contact.projection import Base
+from fecolumn.contact.projection import base_of
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble, static_displacement
+from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.pose import poses_on_base
 
@@ -18,7 +19,7 @@ def found(blocks, nodal, rigid, active=None, factor=0.0):
     return W
 
 
-@pytest.mark.parametrize("n", [1, 2, 7])
+@pytest.mark.parametrize("n", [1, 2, 7, 12])
 @pytest.mark.parametrize("mobile", [True, False])
 def test_mobility_of_points_between_two_bodies_is_the_sum_over_both(n, mobile):
     """The master's lower nodes are interpolated, its rigid motion too; whether that comes by mass and inertia or in the nodal matrix."""
@@ -45,23 +46,55 @@ def test_two_points_on_a_rod_are_coupled_by_its_rotation():
     assert W[0::3, 0::3] == pytest.approx(np.full((2, 2), 1 / mass))
 
 
-def test_static_displacement_is_the_compliance_times_the_forces():
-    blocks, rng = Blocks(5, False), np.random.default_rng(3)
-    contact, moved = np.zeros(5, CONTACT), np.empty((5, 3))
-    contact["force"][[0, 2, 3]] = np.abs(rng.normal(size=(3, 3)))
-    listed = np.array([0, 2, 3, 4])
+@pytest.mark.parametrize("n", [5, 12])
+def test_static_displacement_is_the_compliance_times_the_forces(n):
+    blocks, rng = Blocks(n, False), np.random.default_rng(3)
+    contact, moved = np.zeros(n, CONTACT), np.empty((n, 3))
+    contact["force"][[0, 2, *range(3, n - 1)]] = np.abs(rng.normal(size=(n - 2, 3)))
+    listed = np.delete(np.arange(n), 1)
     static_displacement(blocks.bodies, NO_BASE, blocks.points, blocks.poses, contact, listed, moved)
-    whole = (blocks.dense(blocks.static, 0.0) @ contact["force"].ravel()).reshape(5, 3)
+    whole = (blocks.dense(blocks.static, 0.0) @ contact["force"].ravel()).reshape(n, 3)
     np.testing.assert_allclose(moved[listed], whole[listed], rtol=1e-12)
 
 
-def test_base_gives_way_below_the_points():
-    """Two points on one facet: the base's compliance between the points by their shares in its nodes."""
+@pytest.mark.parametrize("n", [2, 12])
+def test_base_gives_way_below_the_points(n):
+    """Points on two facets: the base's compliance between the points by their shares in its nodes."""
     rng = np.random.default_rng(4)
-    C, arms = compliance(rng, 4), np.zeros((2, 3))
-    body, points = one_body(arms, np.zeros((6, 6)), np.zeros((6, 6))), node_points(arms, 0.5)
-    points["below"], points["shares"] = np.arange(4), rng.dirichlet(np.ones(4), 2)
-    base, W = Base(np.zeros(2), np.zeros(2), np.zeros((2, 2), np.int64), np.zeros(4, np.int64), C, 0.0), np.empty((6, 6))
-    assemble(body, base, points, arms, np.arange(2), poses_on_base(np.eye(3)[None]), 0.0, body.static, 1.0, np.zeros((2, 3)), W)
-    H = np.kron(points["shares"], np.eye(3))
-    np.testing.assert_allclose(W, H @ C @ H.T, rtol=1e-12)
+    C, arms = compliance(rng, 6), np.zeros((n, 3))
+    body, points = one_body(arms, np.zeros((3 * n, 3 * n)), np.zeros((3 * n, 3 * n))), node_points(arms, 0.5)
+    points["below"], points["shares"] = np.arange(4) + 2 * (np.arange(n)[:, None] % 2), rng.dirichlet(np.ones(4), n)
+    base, W, poses = base_of(np.zeros(2), np.zeros(2), np.zeros((2, 2), np.int64), np.zeros(6, np.int64), C), np.empty((3 * n, 3 * n)), poses_on_base(np.eye(3)[None])
+    H = np.zeros((3 * n, 18))
+    for row, (below, shares) in enumerate(zip(points["below"], points["shares"])):
+        for node, share in zip(below, shares):
+            H[3 * row:3 * row + 3, 3 * node:3 * node + 3] += share * np.eye(3)
+    contact, moved = np.zeros(n, CONTACT), np.empty((n, 3))
+    contact["force"] = 1.0
+    # what has been gathered is taken from then on
+    for again in range(2):
+        assemble(body, base, points, arms, np.arange(n), poses, 0.0, body.static, 1.0, np.zeros((n, 3)), W)
+        np.testing.assert_allclose(W, H @ C @ H.T, rtol=1e-12)
+        static_displacement(body, base, points, poses, contact, np.arange(n), moved)
+        np.testing.assert_allclose(moved.ravel(), H @ C @ H.T @ np.ones(3 * n), rtol=1e-12)
+    assert base.gathered.number[0] == 6
+
+
+def test_what_a_foot_has_left_behind_is_not_gathered_for_ever():
+    """Ten points that go over two hundred nodes: what is gathered stays below what they could need at once, and is right."""
+    rng = np.random.default_rng(5)
+    n, slots = 10, 200
+    half = rng.normal(size=(3 * slots, 3 * slots))
+    C, points = half @ half.T, node_points(np.zeros((n, 3)), 0.5)
+    base = base_of(np.zeros(2), np.zeros(2), np.zeros((2, 2), np.int64), np.zeros(slots, np.int64), C)
+    points["shares"] = 0.25
+    for step in range(45):
+        points["below"] = 4 * step + np.arange(4) + np.arange(n)[:, None]
+        gather(base, points, np.arange(n))
+        number = base.gathered.number[0]
+        assert number <= 8 * n + 4 * n
+        below = points["below"].ravel()
+        places = base.gathered.place[below]
+        assert (places >= 0).all()
+        rows = (3 * places[:, None] + np.arange(3)).ravel()
+        np.testing.assert_array_equal(base.gathered.matrix[np.ix_(rows, rows)], C[np.ix_(*2 * [(3 * below[:, None] + np.arange(3)).ravel()])])

@@ -6,7 +6,9 @@ import numpy as np
 
 from fecolumn._compiled import interpreted
 from fecolumn.contact.bodies import Bodies
-from fecolumn.contact.joints import joints_of
+from fecolumn.contact.interface import INTERFACE
+from fecolumn.contact.joints import facets_of, is_convex, joints_of
+from fecolumn.contact.points import POINT
 from fecolumn.contact.projection import OFF, ON, project_on_body
 from fecolumn.structures.model import GROUND, Surface
 from fecolumn.verification.boxes import box, joint, part
@@ -38,3 +40,41 @@ def test_a_rim_that_rolls_on_a_drum_stands_on_its_circle_between_the_nodes():
         for angle in between:
             point = made.points[made.points["interface"] == 1][0]
             assert interpreted(project_on_body)(bodies, made.interfaces[1], point, place * np.cos(angle), place * np.sin(angle)) == answer
+
+
+def grid_of(present, goes_on=False):
+    """Facets of unit squares, each two triangles, where `present` (n, m) is true; goes_on: no node is on an outline."""
+    n, m = np.array(present).shape
+    number = np.arange((n + 1) * (m + 1)).reshape(n + 1, m + 1)
+    corners = np.array([(i, j, 0.0) for i in range(n + 1) for j in range(m + 1)])
+    triangles = [three for i, j in zip(*np.nonzero(present)) for three in ((number[i, j], number[i + 1, j], number[i + 1, j + 1]),
+                                                                         (number[i, j], number[i + 1, j + 1], number[i, j + 1]))]
+    outlines = np.full(len(corners), not goes_on)
+    return facets_of(Surface(np.arange(len(corners)), np.zeros(3), np.eye(3), np.ones(len(corners)), outlines, np.array(triangles)), corners, 0)
+
+
+def test_surfaces_without_corners_holes_and_parts_left_out_are_convex():
+    model = drum()
+    arms, head = model.arms, model.surfaces["head"]
+    assert is_convex(facets_of(head, arms, 0)) and is_convex(grid_of([[1, 1], [1, 1]]))
+    assert not is_convex(grid_of([[1, 1], [1, 0]]))
+    assert not is_convex(grid_of([[1, 1, 1], [1, 0, 1], [1, 1, 1]]))
+    assert not is_convex(grid_of([[1, 1], [1, 1]], goes_on=True))
+
+
+def test_points_around_a_convex_surface_are_on_or_off_it_as_when_all_its_facets_are_looked_at():
+    facets, rng = grid_of([[1, 1], [1, 1]]), np.random.default_rng(7)
+    interface = np.zeros(1, INTERFACE)
+    interface["facet_count"], interface["width"] = len(facets), 1.0
+    bodies, point, kept = Bodies(np.zeros(1), np.zeros((9, 3)), np.zeros((0, 0)), np.zeros((0, 0)), facets), np.zeros(1, POINT)[0], []
+    for x, y in rng.uniform(-1, 3, (200, 2)):
+        answers = []
+        for convex in (True, False):
+            interface["convex"] = convex
+            answers.append((interpreted(project_on_body)(bodies, interface[0], point, x, y), point["below"].tolist(), point["shares"].tolist()))
+        kept.append(answers[0][0])
+        assert answers[0][0] == answers[1][0]
+        if answers[0][0] == ON:
+            places = facets["corners"].reshape(-1, 2)[[facets["nodes"].ravel().tolist().index(node) for node in answers[0][1][:3]]]
+            np.testing.assert_allclose(np.array(answers[0][2][:3]) @ places, (x, y), atol=1e-12)
+    assert {ON, OFF} == set(kept)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fecolumn.contact.projection import Base
+from fecolumn.contact.projection import base_of
 from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.pad import Springs
@@ -10,7 +10,7 @@ from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.pose import MASTER, poses_on_base
 from fecolumn.fem.rotation import rotation_matrix
 
-NO_BASE = Base(np.zeros(2), np.zeros(2), np.zeros((2, 2), np.int64), np.zeros(4, np.int64), np.zeros((0, 0)), 0.0)
+NO_BASE = base_of(np.zeros(2), np.zeros(2), np.zeros((2, 2), np.int64), np.zeros(4, np.int64), np.zeros((0, 0)))
 
 
 def compliance(rng, n, size=1e-9):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from coarse_column import coarse_system
+from coarse_column import THICK, coarse_system
 from mpi4py import MPI  # noqa: F401  (before petsc4py)
 
 from fecolumn.dynamics.energy import Ledger
@@ -10,9 +10,9 @@ from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.stepper import Stepper
 
 
-def _shaken(steps=150, **sections):
+def _shaken(steps=100, **sections):
     """Path of the highest node (steps, 2) [m] and the deepest penetration [m] under two tones."""
-    system = coarse_system(**sections)
+    system = coarse_system(**THICK, **sections)
     state = standing(system)
     ledger = Ledger(system)
     ledger.open(state)

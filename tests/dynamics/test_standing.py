@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from coarse_column import coarse_system
+from coarse_column import THICK, coarse_system
 
 from fecolumn.dynamics.energy import Ledger
 from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, standing
@@ -12,7 +12,7 @@ from fecolumn.dynamics.stepper import Stepper
 @pytest.mark.parametrize("alpha", [0.0, -0.2, -0.333])
 @pytest.mark.parametrize("dt", [0.02, 1e-3, 1e-4])
 def test_standing_column_neither_drifts_nor_gains_energy(dt, alpha):
-    system = coarse_system(integration={"dt_s": dt, "alpha_hht": alpha})
+    system = coarse_system(**THICK, integration={"dt_s": dt, "alpha_hht": alpha})
     state = start = standing(system)
     assert start.forces[:, 2].sum() == pytest.approx(system.weight, rel=1e-6)
     ledger = Ledger(system)

@@ -12,6 +12,7 @@ import pytest
 from documents import PAGES, ROOT, blocks
 
 from fecolumn.cli import _parser, main
+from fecolumn.schema import merge, read_toml
 
 SHELLS = ("sh", "slurm")
 COMMANDS = [(page, command) for page in PAGES for block in blocks(page) if block.language in SHELLS for command in block.commands]
@@ -78,11 +79,12 @@ def test_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch):
 
 def walk(page, folder, monkeypatch, small):
     """Write the files of a page and run its commands in `folder`."""
+    asked = [command for block in blocks(page) if not block.mark for command in block.commands]
     for part in ("meshes", "benchmarks"):
         (folder / part).mkdir()
         for file in (ROOT / part).glob("*.toml"):
             shutil.copy(file, folder / part / file.name)
-            if small and file.name == "quick_study.toml":
+            if small and any(f"{part}/{file.name}" in command for command in asked):
                 shrink(folder / part / file.name)
     monkeypatch.chdir(folder)
     for block in blocks(page):
@@ -126,21 +128,27 @@ def shrink(path):
         text = re.sub(r'"lick:1-\d+"', '"lick:1-2"', text).replace("samples = 20", "samples = 2")
         with open(own, "w") as file:
             file.write(text)
-        change = "" if isinstance(tables["case"], str) else "[case.integration]\nduration_s = 0.02\n"
+        case = tables["case"]
+        change = "" if isinstance(case, str) else f"[case.integration]\nduration_s = 0.02\n{coarse(whole(case, folder), 'case.mesh')}"
     else:
         modes = "n_modes = 3\n" if "column" in tables or "extends" in tables else ""  # rocking models have none
-        change = f"[integration]\nduration_s = 0.02\n{modes}{coarse(tables)}"
+        change = f"[integration]\nduration_s = 0.02\n{modes}{coarse(whole(tables, folder), 'mesh')}"
     with open(path, "w") as file:
         file.write(f'extends = "whole-{name}"\n{change}')
 
 
-def coarse(tables) -> str:
-    """Sizes of bricks of a case that has a column of its own."""
+def whole(tables, folder) -> dict:
+    """Tables of a case with those of the file that it extends."""
+    return merge(read_toml(os.path.join(folder, tables["extends"])), tables) if "extends" in tables else tables
+
+
+def coarse(tables, section) -> str:
+    """Sizes of bricks of a case of one column, unless it brings its mesh."""
     column = tables.get("column", {})
     if column.get("mesh_file") or not column:
         return ""
     if column.get("shape", "tube") == "tube":
         fine, around = column["wall_m"], 3.1416 * (column["outer_diameter_m"] - column["wall_m"]) / 8.1
-        return f"[mesh]\nfine_size_m = {fine}\ncoarse_size_m = {around}\ncap_size_m = {around}\nbase_size_m = {around}\n"
+        return f"[{section}]\nfine_size_m = {fine}\ncoarse_size_m = {around}\ncap_size_m = {around}\nbase_size_m = {around}\n"
     side = column.get("outer_diameter_m") or column["width_m"]
-    return f"[mesh]\nfine_size_m = {side / 6}\ncoarse_size_m = {side / 4}\nbase_size_m = {side / 4}\n"
+    return f"[{section}]\nfine_size_m = {side / 6}\ncoarse_size_m = {side / 4}\nbase_size_m = {side / 4}\n"

@@ -30,7 +30,7 @@ base_size_m = 0.05
 [motion]
 source = "motion.csv"
 [integration]
-duration_s = 0.2
+duration_s = 0.1
 dt_s = 2e-3
 alpha_hht = -0.05
 kinematics = "{kinematics}"

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -13,8 +14,27 @@ RUN = ROOT / "containers" / "run"
 SCRIPTS = [RUN, ROOT / "containers" / "check-bare-debian", ROOT / ".ci" / "run"]
 
 
+@pytest.fixture(scope="module", autouse=True)
+def environment_of_the_tests(tmp_path_factory):
+    """A view of the environment that runs the tests, with a stamp of its own: `run` would renew another one below their feet."""
+    folder = tmp_path_factory.mktemp("environment")
+    for entry in Path(sys.prefix).iterdir():
+        if entry.name != "stamp":
+            (folder / entry.name).symlink_to(entry)
+    name = next(line for line in RUN.read_text().splitlines() if line.startswith("fingerprint()"))
+    report = subprocess.run(["bash", "-c", f'{name}; here={RUN.parent} root={ROOT}; fingerprint'], capture_output=True, text=True, check=True)
+    (folder / "stamp").write_text(report.stdout)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("FECOLUMN_VENV", str(folder))
+        yield folder
+
+
 def run(*command, **options):
     return subprocess.run([RUN, *command], capture_output=True, text=True, check=False, **options)
+
+
+def test_the_environment_that_runs_the_tests_is_left_alone(environment_of_the_tests):
+    assert run("printenv", "VIRTUAL_ENV").stdout == f"{environment_of_the_tests}\n"
 
 
 def test_exit_code_is_the_commands():

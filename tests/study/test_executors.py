@@ -42,11 +42,13 @@ def study(tmp_path):
     return write_study(tmp_path, pulses=[*range(6), "diverges"])
 
 
-@pytest.fixture
-def expected(tmp_path, study):
-    plan = read_plan(study)
-    write_tables(plan, run_study(plan, tmp_path / "expected", workers=2, entry=ENTRY, stream=io.StringIO()), tmp_path / "expected")
-    return _tables(tmp_path / "expected")
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory):
+    """Tables of the same study by two processes of this machine."""
+    folder = tmp_path_factory.mktemp("expected")
+    plan = read_plan(write_study(folder, pulses=[*range(6), "diverges"]))
+    write_tables(plan, run_study(plan, folder / "out", workers=2, entry=ENTRY, stream=io.StringIO()), folder / "out")
+    return _tables(folder / "out")
 
 
 def test_ranks_of_mpirun_give_the_tables_of_local_processes(tmp_path, study, expected):

@@ -64,7 +64,7 @@ def _kill(what: str, driver, draw) -> None:
             os.kill(draw.choice(workers), signal.SIGKILL)
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_killed_at_random_moments_a_study_gives_the_bytes_of_an_uninterrupted_one(tmp_path, seed):
     study = write_study(tmp_path, pulses=[*range(60), "diverges"])
     plan, draw = read_plan(study), random.Random(seed)
