@@ -6,9 +6,9 @@ each foot and head move by 5 mm along x and y; they are links of 0.45 m, so that
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
-from benchmarks.wobbling.bins import LEVELS
 from benchmarks.wobbling.frame import SPECIMEN, specimen
 from fecolumn.atomic import write_bytes
 from fecolumn.motions.ensemble import Ensemble
@@ -82,7 +82,8 @@ extends = "frame.toml"
 motion.strong_part = [0.001, 0.999]   # [A] of the Arias intensity: before it the frame stands
 
 [axes]
-"motion.source" = [{motions}]
+"motion.source" = [
+    {motions}]
 "integration.engine" = [{engines}]
 """
 
@@ -104,7 +105,10 @@ def write_study(motions, folder: Path) -> Path:
     write_bytes(folder / "frame.toml", text.encode())
     for (name, level), members in motions.items():
         write_ensemble(Ensemble(f"{name} {level}", tuple(members), {}, {}), folder / f"{name}_{level}.h5")
-    sources = ", ".join(f'"{name}_{level}.h5#*"' for name, level in sorted(motions, key=lambda one: list(LEVELS).index(one[1]), reverse=True))
+    # bins in turn, in proportion to their numbers: a study that is stopped has motions of all of them
+    turns = sorted((number / len(members), key) for key, members in motions.items() for number in range(len(members)))
+    numbers = {key: itertools.count(1) for key in motions}
+    sources = ",\n    ".join(f'"{name}_{level}.h5#{next(numbers[name, level])}"' for _, (name, level) in turns)
     study = _STUDY.format(engines=", ".join(f'"{one}"' for one in ENGINES), motions=sources)
     write_bytes(folder / "study.toml", (study + ('"motion.vertical" = [true]\n' if vertical else "")).encode())
     return folder / "study.toml"

@@ -27,8 +27,8 @@ class Ledger:
     def state_terms(self, state) -> dict[str, float]:
         """Kinetic, strain and gravity energy now; gravity is relative to the reference configuration."""
         system, column = self.system, self.system.column
-        weight = np.einsum("c,cna->na", system.gravity, column.unit_loads)
-        return dict(kinetic=0.5 * column.dot(state.v, column.apply(column.mass, state.v)),
+        weight = system.load(np.zeros(3))
+        return dict(kinetic=0.5 * column.dot(state.v, column.momentum(state.v)),
                     strain=state.strain + state.static,
                     gravity=-column.dot(weight, state.x - column.placed))
 

@@ -60,7 +60,7 @@ class Observer:
     def _spin(self, state) -> np.ndarray:
         """Angular velocity (3,) [rad/s] in the column's frame, of the rigid body with the angular momentum of the column."""
         column = self.system.column
-        momentum = column.apply(column.mass, state.v)
+        momentum = column.momentum(state.v)
         center = column.sum(column.node_mass @ state.x) / column.total_mass
         angular = column.sum(np.cross(state.x - center, momentum).sum(axis=0))
         return np.linalg.solve(self.stance.inertia, state.rotation.T @ angular)

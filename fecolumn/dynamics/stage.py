@@ -94,7 +94,8 @@ class Middle(NamedTuple):
 
 def arms_of(column, x: np.ndarray) -> np.ndarray:
     """Arms (n_owned, 3) [m] of positions x (n_owned, 3) from the centres of mass."""
-    return x - np.repeat(column.centers(x), [rows.stop - rows.start for rows in column.rows], axis=0)
+    centers = column.centers(x)
+    return x - (centers if len(centers) == 1 else np.repeat(centers, [rows.stop - rows.start for rows in column.rows], axis=0))
 
 
 def turn_of(product: np.ndarray, moment: np.ndarray) -> np.ndarray:
@@ -169,7 +170,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         positions = interface.positions(x, rotation, poses)
         push = interface.load(contact["force"], halfway)
         pushed = operators.mass_factor * (middle.target - x) + scale * sum(stage.untwisting(system, x, internal, rotation, halfway, contact["force"], push))
-        residual = column.apply(column.mass, pushed) + middle.load - operators.stiffness_factor * inner
+        residual = column.momentum(pushed) + middle.load - operators.stiffness_factor * inner
         if links:
             residual += scale * links.load(links.pulls(stage, x, rotation), halfway)
         total = residual + scale * push

@@ -98,7 +98,7 @@ class Stepper:
         damping, resistance, links = system.damping, system.resistance, system.links
         damped = damping.force(start.v, start.rotation) if damping else 0.0
         turned = resistance.acceleration(start, dt) if resistance else 0.0
-        resisted = column.apply(column.mass, turned) if resistance else 0.0
+        resisted = column.momentum(turned) if resistance else 0.0
         stage = Stage(
             target=start.x + dt * start.v,
             load=(1 + al) * F1 - al * F0 + resisted / (2 * be),
@@ -122,8 +122,8 @@ class Stepper:
         push = interface.load(after.forces, R)
         if self.plastic:
             straight, led = stage.untwisting(system, after.x, after.internal, after.rotation, R, after.forces, push)
-            w, untwists = interface.acceleration(after.forces, R) + turned + straight + led, column.apply(column.mass, straight)
-            push = push + column.apply(column.mass, led)
+            w, untwists = interface.acceleration(after.forces, R) + turned + straight + led, column.momentum(straight)
+            push = push + column.momentum(led)
             if links:
                 pulls = links.pulls(stage, after.x, after.rotation)
                 push, w = push + links.load(pulls, R), w + links.acceleration(pulls, R)
@@ -170,12 +170,12 @@ class Stepper:
             resisted: rolling resistance, part of `worked`, each (n_owned, 3) [N] or 0.
         """
         column, interface, step = self.system.column, self.system.interface, after.x - start.x
-        mean = column.apply(column.mass, (1 - hht.gamma) * ends[0] + hht.gamma * ends[1])
+        mean = column.momentum((1 - hht.gamma) * ends[0] + hht.gamma * ends[1])
         total = mean + worked + untwists if self.plastic else mean
         smooth = mean if self.plastic else mean - worked
         algorithmic = column.dot(step, smooth - load_sum / 2)
         algorithmic -= hht.dt**2 * hht.alpha**2 / 4 * column.dot(ends[1] - ends[0], total)
-        shaken = column.sum(np.einsum("cna,na->c", column.unit_loads, step))
+        shaken = column.sum(column.unit_loads.reshape(3, -1) @ step.ravel())
         damping = -column.dot(step, damped) / 2 if self.system.damping else 0.0
         rolling = column.dot(step, resisted) if self.system.resistance else 0.0
         dashed = lost = 0.0
@@ -214,7 +214,7 @@ class Stepper:
         if not pushed:
             return
         jump = interface.acceleration(impulses, R, False)
-        gained = column.dot(after.v + jump / 2, column.apply(column.mass, jump))
+        gained = column.dot(after.v + jump / 2, column.momentum(jump))
         names = ("impact", "contact", "friction") if happens == LANDS else ("friction", "contact", "impact")
         terms = interpreted(book_impulses)(gained, *(self.ledger.work[name] - booked[name] for name in names))
         self.ledger.work.update({name: booked[name] + float(term) for name, term in zip(names, terms)})

@@ -164,7 +164,8 @@ class System:
 
     def load(self, ground: np.ndarray) -> np.ndarray:
         """Gravity and base-motion forces (n_owned, 3) on the column for a ground acceleration (3,)."""
-        return np.einsum("c,cna->na", self.gravity - ground, self.column.unit_loads)
+        loads = self.column.unit_loads
+        return ((self.gravity - ground) @ loads.reshape(3, -1)).reshape(loads.shape[1:])
 
 
 def one_column(column, kinematics, base, foot, friction, law, gravity, hht: HHT, filtered=True, rim=None, damping=None, restitution: float = 0.0,

@@ -50,8 +50,14 @@ class Body:
         self.constraint = Constraint(self, *(constrain(self) if constrain else ({}, ())))
         self.mass, self.stiffness = self.constraint.reduce(mass), self.constraint.reduce(stiffness)
         mass.destroy(), stiffness.destroy()
+        # the consistent mass joins no two axes and is the same along each: a ninth of its entries serves all three
+        one_axis = PETSc.IS().createStride(self.n_owned, 3 * self.first, 3, comm)
+        self._mass_of_axis = self.mass.createSubMatrix(one_axis, one_axis)
+        self._motion = PETSc.Mat().createDense(((self.n_owned, None), (None, 3)), comm=comm)
+        self._motion.setUp(), self._motion.assemble(), one_axis.destroy()
+        self._momentum = self._mass_of_axis.matMult(self._motion)
         tie = self.constraint.projection
-        _dolfinx.release_with(self, self.mass, self.stiffness, *self.work, *([] if tie is None else [tie]))
+        _dolfinx.release_with(self, self.mass, self.stiffness, self._mass_of_axis, self._motion, self._momentum, *self.work, *([] if tie is None else [tie]))
         #: Largest diagonal entries of stiffness [N/m] and mass [kg].
         self.stiffness_scale, self.mass_scale = (matrix.getDiagonal().max()[1] for matrix in (self.stiffness, self.mass))
         self.unit_loads = np.stack([self.apply(self.mass, np.tile(e, (self.n_owned, 1))) for e in np.eye(3)])
@@ -60,7 +66,7 @@ class Body:
         self.center = self.sum(self.node_mass @ self.X) / self.total_mass
         #: Positions (n_owned, 3) from the centre of mass [m], and the mass matrix times them [kg m].
         self.arms = self.X - self.center
-        self.mass_arms = self.apply(self.mass, self.arms)
+        self.mass_arms = self.momentum(self.arms)
         #: As of `fem.composite.Composite`: one body, all rows its own, where it is drawn.
         self.rows, self.placed, self.extent, self.unturned = [slice(0, self.n_owned)], self.X, np.ptp(self.all_X, axis=0).max(), np.eye(3)
 
@@ -120,6 +126,12 @@ class Body:
         source.array[:] = values.reshape(-1)
         matrix.mult(source, target)
         return target.array.reshape(-1, 3).copy()
+
+    def momentum(self, values: np.ndarray) -> np.ndarray:
+        """Product of the mass with an owned array (n_owned, 3)."""
+        self._motion.getDenseArray()[:] = values
+        self._mass_of_axis.matMult(self._motion, self._momentum)
+        return np.array(self._momentum.getDenseArray(), order="C")
 
     def apply_many(self, matrix: PETSc.Mat, columns: np.ndarray) -> np.ndarray:
         """Product of a matrix with columns (3 n_owned, m)."""

@@ -32,7 +32,7 @@ class Composite:
         places = np.concatenate([center + (part.all_X - part.center) @ R.T for part, center, R in zip(parts, centers, rotations)])
         #: Largest extent along an axis [m].
         self.extent = np.ptp(places, axis=0).max()
-        self.mass, self.stiffness = ([getattr(part, name) for part in parts] for name in ("mass", "stiffness"))
+        self.stiffness = [part.stiffness for part in parts]
         self.stiffness_scale, self.mass_scale = (max(getattr(part, name) for part in parts) for name in ("stiffness_scale", "mass_scale"))
         self.unit_loads = np.concatenate([part.unit_loads for part in parts], axis=1)
         self.node_mass = np.concatenate([part.node_mass for part in parts])
@@ -46,6 +46,10 @@ class Composite:
     def apply(self, matrices, values: np.ndarray) -> np.ndarray:
         """Product of each body's matrix with its rows of an owned array (n_owned, 3)."""
         return np.concatenate([part.apply(matrix, values[rows]) for part, matrix, rows in zip(self.parts, matrices, self.rows)])
+
+    def momentum(self, values: np.ndarray) -> np.ndarray:
+        """Product of each body's mass with its rows of an owned array (n_owned, 3)."""
+        return np.concatenate([part.momentum(values[rows]) for part, rows in zip(self.parts, self.rows)])
 
     def centers(self, x: np.ndarray) -> np.ndarray:
         """Centres of mass (nb, 3) of positions x (n_owned, 3) [m]."""

@@ -19,7 +19,7 @@ class Corotated:
     """Internal forces f = R K (R^T x - X), R the body's mean rotation.
 
     The elastic energy is that of the co-rotated small strains. Its gradient has besides what takes away the moment of these forces, which is of second order in
-    the strain: see `dynamics.stage.without_moment`.
+    the strain: see `dynamics.stage.Stage.untwisting`.
     """
 
     name = "corotated"

@@ -99,10 +99,8 @@ def as_row(values: np.ndarray) -> np.ndarray:
 
 
 def _combine(columns: np.ndarray, forces: np.ndarray) -> np.ndarray:
-    """Sums (..., n_owned, 3) of columns times forces (..., n, 3), over the nodes that any of them loads only: few while rocking."""
-    loaded = np.flatnonzero(np.any(forces != 0, axis=(*range(forces.ndim - 2), -1)))
-    if len(loaded) * 3 > columns.shape[1] // 2:
-        sums = as_row(forces) @ columns.T
-    else:
-        sums = as_row(forces[..., loaded, :]) @ columns[:, (3 * loaded[:, None] + np.arange(3)).ravel()].T
+    """Sums (..., n_owned, 3) of columns times forces (..., n, 3), over what any of them loads only: few while rocking."""
+    row = as_row(forces)
+    loaded = np.flatnonzero(row if row.ndim == 1 else row.any(axis=tuple(range(row.ndim - 1))))
+    sums = row @ columns.T if 2 * len(loaded) > columns.shape[1] else row[..., loaded] @ columns.T[loaded]
     return sums.reshape(*forces.shape[:-2], -1, 3)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.fem.polar import polar_of
+
 
 def rotation_matrix(vector) -> np.ndarray:
     """Rotation (3, 3) of the rotation vector (3,) [rad], by Rodrigues' formula."""
@@ -20,9 +22,11 @@ def polar_rotation(moment: np.ndarray) -> np.ndarray:
     """Rotation R (3, 3) nearest to `moment` = sum m x X^T, so that x ~ R X in the mass-weighted mean; (nb, 3, 3) of as many moments."""
     if moment.ndim == 3:
         return np.stack([polar_rotation(one) for one in moment])
+    rotation = np.empty((3, 3))
+    if polar_of(np.ascontiguousarray(moment, float), rotation):
+        return rotation
     left, _, right = np.linalg.svd(moment)
-    flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
-    return left @ flip @ right
+    return left @ np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))]) @ right
 
 
 def tilt_angle(rotation: np.ndarray) -> float:

@@ -13,6 +13,7 @@ from fecolumn.structures.keys import KINDS
 _SYMBOLS = {"integration.dt_s": r"$\Delta t$", "integration.alpha_hht": r"$\alpha$", "contact.friction_coefficient": r"$\mu$",
             "material.youngs_modulus_pa": "$E$"}
 _NAMED = ("base", "cap")  # parts whose keys other parts have, too
+_WORDS = {"podium.impact": "law of impact", "podium.storeys": "number of storeys"}  # of keys that are no words for their values
 
 
 def axis_text(key: str, value) -> str:
@@ -25,6 +26,8 @@ def axis_text(key: str, value) -> str:
 
 def axis_words(key: str) -> str:
     """Last word of a key without its unit, after the part it belongs to where others have it, too."""
+    if key in _WORDS:
+        return _WORDS[key]
     section, _, last = key.rpartition(".")
     name = last.removesuffix(f"_{axis_unit(key).lower()}").replace("_", " ")
     return f"{section} {name}" if section in _NAMED else name

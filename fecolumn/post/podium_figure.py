@@ -38,7 +38,7 @@ def podium_figure(found, name: str, label: str, limits: tuple[float, float], pat
             axes.set_ylabel("share of motions up to")
         for axes in figure.axes[-len(grid[0]):]:
             axes.set_xlabel(label)
-        figure.axes[0].legend(loc="lower right")
+        figure.axes[0].legend(loc="best")
         return save(figure, path, formats)
 
 

@@ -1,4 +1,4 @@
-"""Section: all motions together, as they moved: fans, paths in plan, directions in which columns were lost."""
+"""Section: all motions together, as they moved: fans, paths in plan, directions in which what was analysed was lost."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from fecolumn.report.notation import axis_name, count
 from fecolumn.report.sweep import Setting, Sweep
 
 _PANELS, _ACROSS = 20, 5
-_WHAT = "Displacement of the top relative to the base"
 SHAPE = {"column", "cap", "flange"}
 
 
@@ -29,16 +28,22 @@ def all_motions(sweep: Sweep, histories: Histories, gallery: Gallery) -> Section
         return None
     shown = sweep.reference if sweep.reference in drawn else drawn[0]
     limit, own = 1.03 * sweep.limit_m, histories.of(shown)
-    caption = f"{_WHAT} of {count(len(own), 'motion')} {sweep.at(shown.values)}, against time. {_marked(sweep, shown)}"
-    blocks = [Paragraph(_opening(sweep, histories, len(drawn))), gallery.draw("fan", caption, fan_figure, [Fan("", own)], limit, critical_of([shown]), 1),
-              _plan(sweep, histories, shown, limit, gallery)]
+    in_plan = any(trace.u_top[:, 1].any() for trace in own)  # a model of a plane has no path in plan
+    caption = f"{_what(sweep)} in {count(len(own), 'motion')} {sweep.at(shown.values)}, against time. {_marked(sweep, shown)}"
+    blocks = [Paragraph(_opening(sweep, histories, len(drawn), in_plan)), gallery.draw("fan", caption, fan_figure, [Fan("", own)], limit, critical_of([shown]), 1)]
+    if in_plan:
+        blocks.append(_plan(sweep, histories, shown, limit, gallery))
     if len(drawn) > 1:
         blocks.append(_multiples(sweep, histories, drawn, limit, gallery))
     return Section("All motions together", blocks)
 
 
-def _opening(sweep: Sweep, histories: Histories, drawn: int) -> str:
-    text = f"[[fan]] and [[plan]] show the motions of one setting together{', [[multiples]] those of each' if drawn > 1 else ''}. "
+def _what(sweep: Sweep) -> str:
+    return f"Displacement of {sweep.subject.top} relative to the base"
+
+
+def _opening(sweep: Sweep, histories: Histories, drawn: int, in_plan: bool) -> str:
+    text = f"[[fan]] {'and [[plan]] show' if in_plan else 'shows'} the motions of one setting together{', [[multiples]] those of each' if drawn > 1 else ''}. "
     if histories.missing:
         text += f"{count(histories.missing, 'history')} of analyses that are done could not be read and {'is' if histories.missing == 1 else 'are'} not drawn. "
     if histories.skipped:
@@ -50,7 +55,7 @@ def _opening(sweep: Sweep, histories: Histories, drawn: int) -> str:
 def _marked(sweep: Sweep, setting: Setting) -> str:
     if not any(lost(run) for run in setting.runs.values()):
         return "None was lost."
-    return f"Crosses: {'overturned or slid off' if sweep.slides else 'overturned'}, where the analysis stopped or left the axes."
+    return f"Crosses: {sweep.lost}, where the analysis stopped or left the axes."
 
 
 def _plan(sweep: Sweep, histories: Histories, shown: Setting, limit: float, gallery: Gallery):
@@ -59,7 +64,7 @@ def _plan(sweep: Sweep, histories: Histories, shown: Setting, limit: float, gall
     outline = specimen_outline(sweep.case) if sweep.case and same else None
     caption = f"Paths of the top in plan, relative to the base, {sweep.at(shown.values)}"
     if len(directions[1]):
-        caption += ". Right or below: directions in which columns were lost, the share of each sector of 30°"
+        caption += f". Right or below: directions in which {sweep.subject.noun}s were lost, the share of each sector of 30°"
         caption += f"; filled, {len(directions[0])} of this setting; outline, {len(directions[1])} of all settings" if len(sweep.done) > 1 else ""
     return gallery.draw("plan", caption + ".", plan_figure, histories.of(shown), directions, "lost" if sweep.slides else "overturned",
                         None if outline is None else outline.foot, critical_of([shown]), limit)
@@ -87,7 +92,7 @@ def _multiples(sweep: Sweep, histories: Histories, drawn: list[Setting], limit: 
     across = levels[-1] if math.prod(levels) == len(ordered) and levels[-1] <= _ACROSS else min(len(chosen), _ACROSS - 1)
     fans = [Fan("\n".join([*(axis_text(axis, one.values[axis]) for axis in axes[-3:]), _share(sweep, one)]), histories.of(one)) for one in chosen]
     part = f" ({len(chosen)} of {len(ordered)} settings, evenly spaced in their order)" if len(chosen) < len(ordered) else ""
-    return gallery.draw("multiples", f"{_WHAT} of all motions, a panel for each setting{part}, varying "
+    return gallery.draw("multiples", f"{_what(sweep)} in all motions, a panel for each setting{part}, varying "
                         f"{' and '.join(axis_name(axis) for axis in axes)}; the same axes in all.", fan_figure, fans, limit, critical_of(chosen), across)
 
 

@@ -87,4 +87,4 @@ def _why(pair: Pair) -> str:
     low, high = (setting_text({pair.axis: value}) for value in (pair.low, pair.high))
     text = f"From {low} to {high}, {pair.p_lost} goes from {percent(it.p_lost_a)} to {percent(it.p_lost_b)}"
     return text + (", which makes most of the distance." if abs(change) > 0.5 * pair.distance else
-                   ": the distance is in the peaks of standing columns more than in those that are lost.")
+                   ": the distance is in the peaks of runs that stand more than in those that are lost.")

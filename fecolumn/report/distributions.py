@@ -113,7 +113,7 @@ def _opening(sweep: Sweep, figure: str) -> str:
     low, high = proportion_interval(int(fallen.sum()), fallen.size)
     median = percentile(u, over, 0.5)
     half = " mm" if np.isfinite(median) else f" (half or more {'are lost' if fallen.sum() < over.sum() else 'overturn'})"
-    return (f"[[{figure}]] shows the distribution of the largest top displacement of the column, u_max, in every setting. "
+    return (f"[[{figure}]] shows the distribution of the largest displacement of {sweep.subject.top}, u_max, in every setting. "
             f"{sentence(sweep.at(sweep.reference.values))} half of the {count(over.size, 'motion')} stay below "
             f"{millimetres(median)}{half}, and "
             f"{int(fallen.sum())} overturn: P(overturn) = {percent(fallen.mean())}, 95 % interval {interval(low, high, percent)}.")

@@ -48,7 +48,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Secti
         panels.append(CurvePanel(LABEL, r"$P$(overturn)", settings_curves(axis, own, found), {"ylim": (0, 1), "xlim": (0, None)}, legend="upper left"))
         caption += f" Right: for each {axis_name(axis)}; bands as bars, of each curve at places of its own, where there are more than two."
     fit, repeated = here.fit, here.fit.clusters < here.fit.n
-    told = (f"{sentence(sweep.at(own))} half of the columns overturn at {_speed(fit.median)} m/s {interval(*fit.median_interval(), _speed)}, with a logarithmic "
+    told = (f"{sentence(sweep.at(own))} half of the {sweep.subject.noun}s overturn at {_speed(fit.median)} m/s {interval(*fit.median_interval(), _speed)}, with a logarithmic "
             f"standard deviation of {fixed(fit.beta)}{_more(_second(here.runs))}. ")
     known = (f"The {count(fit.n, 'run')} are of {count(fit.clusters, 'record')} at several scales or in several directions: intervals and bands count records and "
              "not runs (Liang and Zeger 1986). " if repeated else "")

@@ -48,13 +48,13 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sec
     fallen = sum(np.isfinite(curve.first[1]) for curve in here.curves)
     levels = max(len(curve.im) for curve in here.curves)
     text = (f"[[ida]]: each of {count(len(here.curves), 'motion')} scaled to {count(levels, 'level')} (Vamvatsikos and Cornell 2002), {at}. "
-            f"{fallen} overturn the column at one of their scales{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. ")
+            f"{fallen} overturn the {sweep.subject.noun} at one of their scales{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. ")
     if here.fit:
         text += (f"Half of the motions have overturned it by a PGV of {_speed(here.fit.median)} m/s {interval(*here.fit.median_interval(), _speed)}, "
                  f"with a logarithmic standard deviation of {fixed(here.fit.beta)} {interval(*here.fit.beta_interval())}. Each motion counts once, by the intensities between which it "
-                 "first overturns the column; those that never do count as beyond their largest. ")
-    text += (f"With {count(again, 'motion')} the column stands again at a larger scale: to have overturned by an intensity is then more probable "
-             "than to overturn at it, which the fragility below tells." if again else "No motion lets the column stand again at a larger scale.")
+                 f"first overturns the {sweep.subject.noun}; those that never do count as beyond their largest. ")
+    text += (f"With {count(again, 'motion')} the {sweep.subject.noun} stands again at a larger scale: to have overturned by an intensity is then more probable "
+             "than to overturn at it, which the fragility below tells." if again else f"No motion lets the {sweep.subject.noun} stand again at a larger scale.")
     blocks.append(Paragraph(f"{text} [[first_overturnings]] has all settings, [[ida_motions]] every motion."))
     blocks.append(gallery.draw("ida", f"Incremental dynamic analysis {at}: peak displacement of the top over the intensity, a thin line a motion, "
                                       "and the 16, 50 and 84 % fractiles over the motions, as far as all motions are known. A line that turns level and ends in a mark: overturned.",
@@ -98,7 +98,7 @@ def _panels(sweep: Sweep, here: Scaled, found: list[Scaled]) -> tuple[list[Curve
     panels = [CurvePanel(LABEL, "share of motions\nthat have overturned", [
         Curve("lognormal, intervals as known", grid, p.p, (p.lower, p.upper)), steps("scale that overturns", upper),
         steps("largest scale below it", np.where(np.isinf(upper), np.inf, lower))], settings, legend="upper left")]
-    caption = (f"Share of motions that have overturned the column by an intensity {sweep.at(here.values)}, with the 95 % band over the motions. Steps: "
+    caption = (f"Share of motions that have overturned the {sweep.subject.noun} by an intensity {sweep.at(here.values)}, with the 95 % band over the motions. Steps: "
                "the two ends of what is known of each motion.")
     if axis := line_axis(sweep, [one.values for one in found if one.fit]):
         line = [one for one in found if one.fit and all(one.values[key] == value for key, value in here.values.items() if key != axis)]
@@ -120,7 +120,7 @@ def _table(sweep: Sweep, found: list[Scaled]) -> Table:
         rows.append((*(one.values[axis] for axis in axes), len(one.curves), sum(len(curve.im) for curve in one.curves),
                      sum(bool(np.isfinite(curve.first[1])) for curve in one.curves), sum(curve.stands_again for curve in one.curves), *law))
     return Table("first_overturnings", columns, rows,
-                 f"PGV by which half of the motions have overturned the column{', or let it slide off' if sweep.slides else ''}, and logarithmic standard deviation β of that PGV over the motions: "
+                 f"PGV by which half of the motions have overturned the {sweep.subject.noun}{', or let it slide off' if sweep.slides else ''}, and logarithmic standard deviation β of that PGV over the motions: "
                  "lognormal, maximum likelihood of the intervals known, 95 % intervals over the motions. A dash: the motions do not bound the law.",
                  folded=len(rows) > _FOLD)
 

@@ -39,7 +39,7 @@ def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
         blocks.append(Table("trends", columns, rows,
                             "Trend of the peak of one and the same motion along a parameter: motions whose peak rises or falls on the "
                             "whole, mean Kendall τ with its 95 % interval over the motions, p of no trend (Page; sign test for two levels). "
-                            "Lost runs, overturned or slid off, rank above all standing ones.", folded=len(rows) > _FOLD))
+                            f"Runs that {sweep.lost} rank above all that stand.", folded=len(rows) > _FOLD))
     if ALPHA in sweep.varied and sweep.alpha_note:
         blocks.append(Paragraph(sweep.alpha_note, warning=True))
     blocks.append(_motions(sweep))
@@ -60,7 +60,7 @@ def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
     name = f"scatter_by_{axis.split('.')[-1]}"
     at = f" {sweep.at(line.others)}" if line.others else ""
     return gallery.draw(name, f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} values of {axis_name(axis)}{at}, one "
-                              "against the other. Shaded strip: lost (overturned or slid off); open red diamonds: lost in one of the two alone (flips). R with "
+                              f"against the other. Shaded strip: {sweep.lost}; open red diamonds: lost in one of the two alone (flips). R with "
                               f"lost runs at {millimetres(sweep.limit_m)} mm.", pair_figure, variables, sweep.limit_m)
 
 

@@ -120,7 +120,7 @@ def _abstract(sweep: Sweep, sections: list[Section]) -> str:
     done, failed, total = sum(row["state"] == DONE for row in sweep.rows), sum(row["state"] == FAILED for row in sweep.rows), sweep.analyses
     shares = {id(setting): setting.column("overturned").mean() for setting in sweep.done}
     low, high = min(shares.values()), max(shares.values())
-    parts = [f"{count(len(sweep.motions), 'ground motion')} {'was' if len(sweep.motions) == 1 else 'were'} run through {_specimen(sweep.case)}"
+    parts = [f"{count(len(sweep.motions), 'ground motion')} {'was' if len(sweep.motions) == 1 else 'were'} run through {sweep.subject.article}"
              + (f", varying {_listed([axis_name(axis) for axis in sweep.varied])} in {count(len(sweep.settings), 'setting')}." if sweep.varied else ".")]
     if done < total:
         parts.append(f"{total - done - failed} of {total} analyses not run yet" + (f", {failed} failed." if failed else ".") if total - done - failed
@@ -142,15 +142,6 @@ def _abstract(sweep: Sweep, sections: list[Section]) -> str:
             f"{len(keys)} {'is' if len(keys) == 1 else 'are'} {verdict}" + ("" if verdict == SUPPORTED else f" ({'; '.join(keys)})")
             for verdict, keys in tally.items()]) + ".")
     return " ".join(parts)
-
-
-def _specimen(case: dict) -> str:
-    """What was analysed."""
-    if case.get("bodies"):
-        return "a structure of free-standing bodies"
-    names = {"frame": "a rocking frame", "wobbling_frame": "a wobbling frame", "podium": "a building on a rocking storey", "block": "a rocking block"}
-    return next((words for name, words in names.items() if case.get(name)), "a free-standing column")
-
 
 def _listed(words: list[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

@@ -65,7 +65,7 @@ def _thousandths(value) -> str:
 
 
 def _table(buildings: list[Building]) -> Table:
-    columns = (Column("profile", "profile", text=True), Column("storeys", "n"), Column("motions", "motions"), Column("still", "start no rocking", percent),
+    columns = (Column("profile", "profile", text=True), Column("storeys", "storeys"), Column("motions", "motions"), Column("still", "start no rocking", percent),
                Column("overturned_crv", "over\N{SOFT HYPHEN}turned, CRV", percent), Column("overturned_cav", "over\N{SOFT HYPHEN}turned, CAV", percent), Column("distance_tilt", "D, tilt", _thousandths),
                Column("p_tilt", "p", p_value), Column("distance_shear", "D, shear", _thousandths), Column("p_shear", "p", p_value), Column("median_ratio", "median shear, CAV over CRV", _thousandths))
     rows = [(one.profile, one.storeys, one.motions, one.still, *one.overturned, *one.tilt, *one.shear, one.median_ratio) for one in buildings]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fecolumn.report.sweep import Setting, Sweep, common_motions
+from fecolumn.report.sweep import ENGINE, Setting, Sweep, common_motions
 from fecolumn.statistics.sensitivity import Sensitivity, sensitivity
 
 _SAMPLED = 8  # an axis with more levels is a sampled one: its outer quarters are compared
@@ -31,8 +31,8 @@ class Rank:
 
 
 def ranking(sweep: Sweep) -> list[Rank]:
-    """Axes by the distance of the CDF between their extreme levels, the largest first."""
-    found = [rank for axis in sweep.varied for rank in [_sampled(sweep, axis) if len(sweep.axes[axis]) > _SAMPLED else _crossed(sweep, axis)]
+    """Axes by the distance of the CDF between their extreme levels, the largest first; not the engines, which have none and a section of their own."""
+    found = [rank for axis in sweep.varied if axis != ENGINE for rank in [_sampled(sweep, axis) if len(sweep.axes[axis]) > _SAMPLED else _crossed(sweep, axis)]
              if rank]
     return sorted(found, key=lambda rank: -rank.effect.distance)
 

@@ -22,7 +22,7 @@ def specimen(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sectio
         return None
     tilt = next((run.get("critical_tilt_rad") for run in sweep.reference.runs.values()), None)
     same = {axis: levels[0] for axis, levels in sweep.axes.items() if len(levels) == 1}
-    text = "[[specimen]] shows what was analysed. "
+    text = f"[[specimen]] shows {'one of the ground motions' if outline is None else 'what was analysed'}. "
     if outline is not None:
         text += f"Specimen: {outline.words}{' in the first setting; others vary it' if varied else ''}. "
     text += told + (f"In all analyses {setting_text(same)}." if same else "")

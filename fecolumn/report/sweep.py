@@ -12,12 +12,13 @@ import numpy as np
 from fecolumn.ending import P_LOST, P_OVERTURN, cut_short
 from fecolumn.files import read_json
 from fecolumn.report.notation import ALL, setting_text
+from fecolumn.report.subject import Subject, subject_of
 from fecolumn.statistics.ecdf import largest_peak
 from fecolumn.study.alpha import ALPHA, alpha_note
 from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE, FAILED, read_study
 
-DT = "integration.dt_s"
+DT, ENGINE = "integration.dt_s", "integration.engine"
 FINE_DT_S = 1e-3 * (1 + 1e-9)  # what the paper calls small enough
 PAPER_CHOICE = {DT: 1e-3, ALPHA: -0.2}
 
@@ -113,6 +114,16 @@ class Sweep:
         return any(run.get("slid_off") for setting in self.settings for run in setting.runs.values())
 
     @property
+    def lost(self) -> str:
+        """What runs did that are lost."""
+        return "overturned or slid off" if self.slides else "overturned"
+
+    @cached_property
+    def subject(self) -> Subject:
+        """What overturns, in words."""
+        return subject_of(self.case)
+
+    @property
     def alpha_note(self) -> str:
         """What goes beside every statement on the effect of alpha, see `study.alpha`."""
         return alpha_note(self.case, self.axes)
@@ -144,15 +155,19 @@ class Sweep:
         """Values of the axes that vary, such as "Δt = 0.001 s, α = −0.2"; those of one value alone are told once, at the top."""
         return setting_text({axis: values[axis] for axis in self.varied if axis in values})
 
-    def lines(self, axis: str) -> list[Line]:
-        """Every line along an axis with at least two levels that have runs of common motions."""
+    def groups(self, axis: str) -> list[tuple[dict[str, Any], tuple[Setting, ...]]]:
+        """Values of the other axes, and the settings with runs that have them, in rising order of the axis' levels."""
         groups: dict[str, list[Setting]] = {}
         for setting in self.done:
             others = {key: setting.values[key] for key in self.varied if key != axis}
             groups.setdefault(repr(others), []).append(setting)
         order = {repr(level): place for place, level in enumerate(self.axes[axis])}
-        lines = [Line(axis, {key: group[0].values[key] for key in self.varied if key != axis},
-                      tuple(sorted(group, key=lambda s: order[repr(s.values[axis])]))) for group in groups.values()]
+        return [({key: group[0].values[key] for key in self.varied if key != axis}, tuple(sorted(group, key=lambda s: order[repr(s.values[axis])])))
+                for group in groups.values()]
+
+    def lines(self, axis: str) -> list[Line]:
+        """Every line along an axis with at least two levels that have runs of common motions."""
+        lines = [Line(axis, others, settings) for others, settings in self.groups(axis)]
         return [line for line in lines if len(line.settings) > 1 and line.motions()]
 
 

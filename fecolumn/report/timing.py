@@ -30,6 +30,9 @@ def timing(sweep: Sweep, gallery: Gallery) -> Section | None:
                Column("ms_per_step", "step [ms]", number), Column("steps", "steps", lambda value: f"{value:.0f}"),
                Column("iterations_per_step", "itera\N{SOFT HYPHEN}tions a step", number),
                Column("contact_iterations_per_step", "contact itera\N{SOFT HYPHEN}tions a step", number), Column("wall_h", "total [h]", number))
+    # a model in closed form has no iterations
+    stated = [place for place, column in enumerate(columns) if "iterations" not in column.name or any(row[place] is not None for row in rows)]
+    columns, rows = tuple(columns[place] for place in stated), [tuple(row[place] for place in stated) for row in rows]
     total = np.nansum([row[-1] for row in rows])
     blocks = [Paragraph(f"{sentence(sweep.at(sweep.reference.values))} a second of analysed motion takes {number(base)} s of one core in the "
                         f"median; the whole study took {number(float(total))} h of one core. Times are those of workers that may have shared "

@@ -77,7 +77,7 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
 
 def drive(store: Store, team: Team, stream, only: set[str] | None = None) -> Progress:
     """Have a team do what is missing in a study's folder, or of the ids `only`; the counts, of which `stream` is told."""
-    queue = collections.deque(analysis for analysis in store.missing() if only is None or analysis.id in only)
+    queue = collections.deque(analysis for analysis in store.missing(team.size) if only is None or analysis.id in only)
     progress = Progress(store.ledger.counts(), sum(a.effort for a in queue), min(team.size, len(queue)), stream)
     try:
         _work_off(store, queue, team, progress)

@@ -106,10 +106,12 @@ class Store:
                 for file in files_of(other):
                     file.unlink(missing_ok=True)
 
-    def missing(self) -> list[Analysis]:
-        """What is planned, longest first, so that no straggler is left at the end."""
+    def missing(self, workers: int = 1) -> list[Analysis]:
+        """What is planned: in the order of the study file for one worker, so that a study which is stopped has what stands first there; for several the longest first, so
+        that no straggler is left at the end."""
         states = self.ledger.states()
-        return sorted((a for _, a in self.analyses if states[a.id] == PLANNED), key=lambda a: -a.effort)
+        planned = [a for _, a in self.analyses if states[a.id] == PLANNED]
+        return planned if workers == 1 else sorted(planned, key=lambda a: -a.effort)
 
     def rows(self) -> list[dict]:
         """As `Study.rows`."""

@@ -70,7 +70,7 @@ class Mode:
         system = self.system(dt, alpha)
         scale = AMPLITUDE * np.array([1, 1 / dt, 1 / dt**2])
         trial = begin(self.engine, system, lambda system: afloat(system, *(value * self.shape for value in scale * start), height=1e-3))
-        rest, measure = trial.state.x - scale[0] * start[0] * self.shape, system.column.apply(system.column.mass, self.shape)
+        rest, measure = trial.state.x - scale[0] * start[0] * self.shape, system.column.momentum(self.shape)
         history, energy = [np.array(start, float)], [trial.mechanical()]
         for _ in range(count):
             state = trial.step()

@@ -52,7 +52,7 @@ class Reduction:
         motion, whole = engine.motion_at_rest(), {"time": state.time, "static": state.static, "ground": state.ground}
 
         def modal(field):
-            return np.tensordot(self.shapes, body.apply(body.mass, field), axes=2)
+            return np.tensordot(self.shapes, body.momentum(field), axes=2)
 
         center, rotation = body.node_mass @ state.x / body.total_mass, state.rotation
         for _ in range(3):

@@ -31,7 +31,7 @@ class RollingRim:
         """That of a system's column, from its consistent mass and the farthest nodes of its foot."""
         column = system.column
         turns = [np.cross(axis, column.X - column.center) for axis in np.eye(3)]
-        transverse, _, axial = (column.dot(turn, column.apply(column.mass, turn)) for turn in turns)
+        transverse, _, axial = (column.dot(turn, column.momentum(turn)) for turn in turns)
         return cls(column.total_mass, transverse, axial, float(np.linalg.norm(system.interface.reference[:, :2], axis=1).max()),
                    float(column.center[2]))
 

@@ -109,7 +109,7 @@ class RigidRocking:
         height = column.center[2]
         self.slenderness, self.diagonal = float(np.arctan2(radius, height)), float(np.hypot(radius, height))
         turn = np.cross([0.0, 1.0, 0.0], column.X - column.center)
-        about_center = column.dot(turn, column.apply(column.mass, turn))
+        about_center = column.dot(turn, column.momentum(turn))
         self.inertia = float(about_center + column.total_mass * self.diagonal**2)
         self.p = float(np.sqrt(system.weight * self.diagonal / self.inertia))
         self.restitution = 1 - 2 * column.total_mass * self.diagonal**2 * np.sin(self.slenderness) ** 2 / self.inertia

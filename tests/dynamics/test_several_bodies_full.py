@@ -128,7 +128,7 @@ def test_internal_forces_neither_make_energy_nor_turn_a_body_that_spins_in_the_a
     column = run.system.column
 
     def angular_momentum(state):
-        return np.cross(state.x - column.centers(state.x), column.apply(column.mass, state.v)).sum(axis=0)
+        return np.cross(state.x - column.centers(state.x), column.momentum(state.v)).sum(axis=0)
 
     start, kinetic = angular_momentum(run.state), run.ledger.state_terms(run.state)["kinetic"]
     _, energies = run.advance(np.zeros((100, 3)))
@@ -240,7 +240,7 @@ def test_forces_on_a_bent_body_are_the_gradients_of_its_energy_and_of_the_places
     interface.positions(x, R, interface.poses(x, R))
     forces = 1e3 * random.normal(size=(interface.size, 3))
     stage, push = Stage(x, 0.0, x, 1.0, run.state.contact, np.inf, R, turns=True), interface.load(forces, R)
-    straight, led = (column.apply(column.mass, one) for one in stage.untwisting(system, x, internal, R, R, forces, push))
+    straight, led = (column.momentum(one) for one in stage.untwisting(system, x, internal, R, R, forces, push))
     for way in random.normal(size=(3, *x.shape)):
         ends = [x + sign * 1e-6 * way for sign in (1, -1)]
         energy = [system.kinematics.internal(end)[2] for end in ends]

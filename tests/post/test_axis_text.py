@@ -12,4 +12,4 @@ def test_a_key_has_the_unit_of_its_declaration(key, unit):
 
 
 def test_axes_of_structures_and_models_are_written_with_number_and_unit():
-    assert axis_text("bodies.slab.length_m", 3.0) == "length = 3 m" and axis_text("podium.impact", "CRV") == "impact = CRV"
+    assert axis_text("bodies.slab.length_m", 3.0) == "length = 3 m" and axis_text("podium.impact", "CRV") == "law of impact = CRV"

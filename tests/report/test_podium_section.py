@@ -26,7 +26,7 @@ def peaks(values, summary):
     larger = {3: 1.33, 9: 1.1}[values.get("podium.storeys", 3)] if values.get("podium.impact") == "CAV" else 1.0
     storeys = values.get("podium.storeys", 3)
     scatter = {3: 0.1, 9: 0.01}[storeys]
-    return {"engine": "podium", "overturned": False, "u_max_m": tilt, "peaks": {"tilt over alpha [-]": tilt, "base shear over V_st [-]": shear * larger * math.exp(own.gauss(0, scatter))}}
+    return {"engine": "podium", "iterations": None, "contact_iterations": None, "overturned": False, "u_max_m": tilt, "peaks": {"tilt over alpha [-]": tilt, "base shear over V_st [-]": shear * larger * math.exp(own.gauss(0, scatter))}}
 
 
 def study(tmp_path, axes, motions):
@@ -50,6 +50,9 @@ def test_page_of_two_laws_names_what_was_analysed_and_whose_claims_are_judged(tm
     text = page.read_text()
     assert "Two laws of impact" in text and "run through a building on a rocking storey" in text and "findings of Bantilas, Kavvadias and Vasiliadis put to it" in text
     assert (page.parent / "tables" / "laws.csv").exists() and (page.parent / "tables" / "claims.csv").exists()
+    assert "the largest displacement of the roof of the building" in text and "of the column" not in text
+    assert sum(run["iterations"] is None for setting in read_sweep(tmp_path / "study" / "out").done for run in setting.runs.values()) == 12
+    assert "itera\N{SOFT HYPHEN}tions a step" not in text  # a model in closed form has none
 
 
 def test_a_study_of_one_law_or_of_more_than_the_building_has_no_such_section(tmp_path):

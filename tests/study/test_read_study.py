@@ -66,3 +66,16 @@ def test_what_is_no_study_is_refused(tmp_path, content, message):
         (tmp_path / "study.json").write_text(content)
     with pytest.raises(InputError, match=message):
         read_study(tmp_path)
+
+
+def test_one_worker_does_what_stands_first_in_the_file_and_several_the_longest_first(tmp_path):
+    """A study that is stopped has then, of one worker, what its file puts first."""
+    from fecolumn.study.plan import read_plan
+    from fecolumn.study.store import Store
+
+    plan = read_plan(write_study(tmp_path, dt=[0.02, 0.001], alpha=[0], pulses=range(2)))
+    with Store(tmp_path / "out", plan, "none:run") as store:
+        alone, together = store.missing(1), store.missing(2)
+    assert [one.id for one in alone] == [one.id for one in plan.analyses]
+    assert [one.case.integration.dt_s for one in together] == [0.001, 0.001, 0.02, 0.02]
+    assert {one.id for one in alone} == {one.id for one in together}
