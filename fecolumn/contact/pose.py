@@ -70,7 +70,7 @@ def poses_of(interfaces: np.ndarray, centers: np.ndarray, rotations: np.ndarray)
     return poses
 
 
-@njit
+@njit(inline="always")
 def into_frame(pose, place):
     """A position (3,) in the table frame as one in that of an interface, in place."""
     x, y, z, Q = place[0] - pose.origin[0], place[1] - pose.origin[1], place[2] - pose.origin[2], pose.frame

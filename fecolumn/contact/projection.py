@@ -115,7 +115,7 @@ def side_of_outline(answer, was, height, width):
     return OVER if answer == ON else BEYOND
 
 
-@njit
+@njit(inline="always")
 def find_seat(bodies, interface, point, pose, place):
     """Bring the place (3,) of a point [m] from the table frame into that of its interface, and find its seat and the nodes below it on the moving master: as
     `project_on_body`."""
@@ -126,7 +126,7 @@ def find_seat(bodies, interface, point, pose, place):
     return project_on_body(bodies, interface, point, place[0], place[1])
 
 
-@njit
+@njit(inline="always")
 def take_surface(interface, point, q, moved, place):
     """Take from a place (3,) in the frame of the interface what displacement or velocity `moved` (3,) of node q below it, in the master's frame, gives the surface."""
     w, axes = point.shares[q], interface.axes

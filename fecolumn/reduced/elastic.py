@@ -11,6 +11,8 @@ from fecolumn.contact.points import BASE, OVER
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.projection import find_seat, side_of_outline, take_surface
 
+# What is asked for at each point is put in place of its call: a call would hand on two hundred addresses of arrays, which takes as long as what is done there
+
 # Rows of Motion.modal: coordinate, rate, and the acceleration that HHT remembers, without contact
 COORDINATE, RATE, ACCELERATION = range(3)
 
@@ -57,7 +59,7 @@ def find_all_elastic(structure, b, motion, elastic, when):
             elastic.node[when, first + i, a] = moved[3 * i + a]
 
 
-@njit
+@njit(inline="always")
 def _find_node(structure, node, b, motion, elastic, when):
     """Find the elastic displacement of a node of body b unless it is known."""
     if elastic.stamp[when, node] != elastic.now[when]:
@@ -65,7 +67,7 @@ def _find_node(structure, node, b, motion, elastic, when):
         _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node])
 
 
-@njit
+@njit(inline="always")
 def find_elastic(structure, points, i, motion, elastic, when):
     """Find the elastic displacement of point i in a motion at START or END of a step."""
     b = points[i].slave
@@ -105,7 +107,7 @@ def _into_table(motion, b, x, y, z, target):
         target[a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
 
 
-@njit
+@njit(inline="always")
 def find_position(points, i, motion, elastic, when, target):
     """target (3,): position of point i in the table frame without its static part, its elastic displacement being known; on the base that is all of it."""
     b, u = points[i].slave, elastic.point[when, i]
@@ -116,7 +118,7 @@ def find_position(points, i, motion, elastic, when, target):
         target[2] += points[i].lift
 
 
-@njit
+@njit(inline="always")
 def find_on_master(structure, points, i, motion, poses, elastic, when, target):
     """Position (3,) of point i in the table frame as its place relative to its moving master's surface, in the frame of its interface, in place.
 

@@ -205,7 +205,7 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
         counts[N_ITERATIONS] += 1
         if not follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action):
             return ITERATIONS_SPENT
-        if iteration == 1 and len(interfaces) > 1 and not problem.flags[STICKS_STILL]:
+        if iteration == 1 and len(interfaces) > 1:
             # the first forces found in the step bend the bodies: with the arms that these then have, else there would be one iteration more
             find_arms(structure, work, end)
             if not follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action):
