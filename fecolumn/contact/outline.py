@@ -6,7 +6,7 @@ They are at the side of the master: were they let in, contact would push them up
 from __future__ import annotations
 
 from fecolumn._compiled import njit
-from fecolumn.contact.compliance import static_displacement
+from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.points import SUNK
 from fecolumn.contact.tolerances import OPEN
 

@@ -6,7 +6,8 @@ from two_blocks import NO_BASE, Blocks, compliance
 
 from fecolumn.contact.projection import base_of
 from fecolumn.contact.bodies import one_body
-from fecolumn.contact.compliance import assemble, static_displacement
+from fecolumn.contact.compliance import assemble
+from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.pose import poses_on_base
