@@ -54,7 +54,9 @@ def _driver(tmp_path, study, folder, *options, sleep_s=0.0) -> subprocess.Popen:
     paths = os.pathsep.join([str(HERE.parents[1]), str(HERE)])
     return subprocess.Popen([sys.executable, script, study, "-o", folder, "-j", "2", "--entry", ENTRY, *options],
                             env={**os.environ, "PYTHONPATH": paths, "ROCKING_BLOCK_SLEEP_S": str(sleep_s)},
-                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+                            # where the tests run in the background of a shell, interrupts are ignored, and children would inherit that
+                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 
 
 def _wait_for(condition, timeout_s=20.0):
