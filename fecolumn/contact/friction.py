@@ -300,6 +300,13 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
         if residual < least:
             best, least = forces, residual
         count *= 4
+    if least > tolerance:
+        # many small steps, each held by a compliance against change: they end where the active sets of all other ways cycle
+        held = give * tolerances.HELD_GIVE / tolerances.GIVE
+        forces, residual, made = _newtons(W, q, friction, best, tolerance, rho, rho, held, tolerances.HELD_STEPS, tolerances.HELD_STALLED)
+        iterations += made
+        if residual < least:
+            best, least = forces, residual
     return best, least, iterations, others
 
 

@@ -37,6 +37,9 @@ FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 6, 3, 30
 #: Compliance against a change of force in a Newton step from inside, over the softest point's own: forces that W leaves open stay, others converge by
 #: this over their own compliance in a step.
 GIVE = 1e-9
+#: The same of the last way of all, the proximal point, its Newton steps and those without a better residual: stiff bodies in many contacts, whose forces W hardly
+#: tells apart (1e-6), need some fifty.
+HELD_GIVE, HELD_STEPS, HELD_STALLED = 1e-4, 200, 60
 #: Share of the way to the boundary of the cones in an interior iteration, and the residual, over the first one, that rounding leaves.
 INSIDE_WAY, INSIDE_END = 0.95, 1e-12
 #: Sweeps of Gauss-Seidel: the first try, each next takes four times as many, and the largest.
