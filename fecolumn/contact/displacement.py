@@ -85,12 +85,9 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
             for a in range(3):
                 push[a] = f[a] if b == BASE else turned[k, side, 0, a] * f[0] + turned[k, side, 1, a] * f[1] + turned[k, side, 2, a] * f[2]
             for q in range(4 if side else points[i].count):
-                w = -points[i].shares[q] if side else points[i].weights[q]
+                w, node = _share(base, points[i], side, q, own)
                 if w == 0.0:
                     continue
-                node = points[i].below[q] if side else points[i].carriers[q]
-                if b == BASE:
-                    node = own + base.gathered.place[node]
                 if not is_pushed[node]:
                     is_pushed[node] = True
                     # the base is the last of all
@@ -108,12 +105,9 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
             for a in range(3):
                 way[a] = 0.0
             for q in range(4 if side else points[i].count):
-                w = -points[i].shares[q] if side else points[i].weights[q]
+                w, node = _share(base, points[i], side, q, own)
                 if w == 0.0:
                     continue
-                node = points[i].below[q] if side else points[i].carriers[q]
-                if b == BASE:
-                    node = own + base.gathered.place[node]
                 if not is_moved[node]:
                     is_moved[node] = True
                     compliance, row = (base.gathered.matrix, 3 * (node - own)) if b == BASE else (bodies.static, 3 * node)
@@ -125,6 +119,15 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
                     way[a] += w * moved[node, a]
             for a in range(3):
                 target[i, a] += way[a] if b == BASE else turned[k, side, a, 0] * way[0] + turned[k, side, a, 1] * way[1] + turned[k, side, a, 2] * way[2]
+
+
+@njit
+def _share(base, point, side, q, own):
+    """What a point gives to node q of its slave (side 0) or of its master, negative there, and the node; those gathered of the base come after the `own` of all bodies."""
+    w, node = -point.shares[q] if side else point.weights[q], point.below[q] if side else point.carriers[q]
+    if side and point.master == BASE and w != 0.0:
+        node = own + base.gathered.place[node]
+    return w, node
 
 
 @njit(fastmath={"reassoc", "contract"})
