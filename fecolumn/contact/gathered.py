@@ -31,9 +31,9 @@ def none_gathered(slots: int) -> Gathered:
 
 @njit
 def gather(base, points, listed):
-    """Gather the nodes below the listed points (k,); where far more are gathered than these points can have, as a foot goes on its way, from the beginning."""
+    """Gather the nodes below the listed points (k,); where far more are gathered than all points can have, as a foot goes on its way, from the beginning."""
     gathered, compliance = base.gathered, base.compliance
-    if gathered.number[0] > 8 * len(listed):
+    if gathered.number[0] > 8 * len(points):
         gathered.place[:] = -1
         gathered.number[0] = 0
     for i in listed:
