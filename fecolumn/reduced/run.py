@@ -106,9 +106,8 @@ def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, s
     Without any step to make: the row of `motion` where there is one to fill, else one proximal step of the first scheme towards gravity equilibrium, from
     `motion` to `spare`; see `start.standing`. They are here because each function that Python calls is compiled with all it calls.
     """
-    structure, base, schemes, work, eye, motion, spare, kept = (
-        borrowed(structure), borrowed(base), borrowed(schemes), borrowed(work), borrowed(eye), borrowed(motion), borrowed(spare), borrowed(kept))
-    grounds, steepest, rows, ledger, counts = borrowed(grounds), borrowed(steepest), borrowed(rows), borrowed(ledger), borrowed(counts)
+    structure, base, schemes, work, eye, motion, spare, kept, grounds, steepest, rows, ledger, counts = borrowed(
+        (structure, base, schemes, work, eye, motion, spare, kept, grounds, steepest, rows, ledger, counts))
     elastic, bodies, scheme, longest = work.elastic, len(motion.frames), schemes[0], len(schemes) - 1
     elastic.now[START] += 1
     if len(grounds) == 0:
