@@ -22,11 +22,9 @@ _STUFF = dict(poissons_ratio=0.2, modes=10)
 
 
 def frame_case(columns: int, rocks: bool, dt: float = 1e-3):
-    """A slab on so many columns of concrete, in rows of four at most."""
-    rows, (diameter, height) = math.ceil(columns / 4), COLUMN
-    many = min(columns, 4)
-    if columns in (2, 4):
-        rows, many = 2 if columns == 4 else 1, 2
+    """A slab on so many columns of concrete, a power of two, in a square or two beside each other."""
+    (diameter, height), rows = COLUMN, 2 ** (int(math.log2(columns)) // 2)
+    many = columns // rows
     places = [[2.0 * (i - (many - 1) / 2), 2.0 * (j - (rows - 1) / 2), 0.0] for j in range(rows) for i in range(many)]
     slab = dict(kind="slab", length_m=2.0 * many, width_m=2.0 * rows, thickness_m=0.4, at_m=[0.0, 0.0, height], density_kg_m3=2500.0, youngs_modulus_pa=30e9)
     column = dict(kind="cylinder", outer_diameter_m=diameter, height_m=height, copies_m=places, density_kg_m3=2500.0, youngs_modulus_pa=30e9)
@@ -67,12 +65,13 @@ def least_cost(kind: str, number: int, rocks: bool, steps: int = 200, runs: int 
     case = (frame_case if kind == "frame" else stack_case)(number, rocks)
     diameter, height = COLUMN if kind == "frame" else (DRUM[0], DRUM[1] * number)
     ground = np.zeros((steps, 3)) if rocks else grounds(case, steps, diameter / height)
-    return min((cost(case, ground, 50) for _ in range(runs)), key=lambda found: found["us"])
+    model = structure_model(case)
+    return min((cost(case, model, ground, 50) for _ in range(runs)), key=lambda found: found["us"])
 
 
-def cost(case, ground: np.ndarray, first: int) -> dict:
-    """CPU time a step [us] after the first steps, and what a step is made of."""
-    engine = engine_of(case, structure_model(case), "speed")
+def cost(case, model, ground: np.ndarray, first: int) -> dict:
+    """CPU time a step [us] after the first steps, and what a step is made of; model: the StructureModel of the case."""
+    engine = engine_of(case, model, "speed")
     engine.advance(ground[:first])
     counts, began = engine.counts.copy(), time.process_time()
     rows, _ = engine.advance(ground[first:])
