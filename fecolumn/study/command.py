@@ -144,7 +144,7 @@ def _until_decided(plan, rule, work):
     verdicts, looks, rows = [], sequential.stages(plan, rule), []
     for motions in looks:
         rows = work(sequential.stage_analyses(plan, motions, verdicts))
-        verdicts = sequential.judge(plan, rows, rule, len(looks), verdicts)
+        verdicts = sequential.judge(plan, rows, rule, looks, motions, verdicts)
         still = sum(verdict.word == sequential.OPEN for verdict in verdicts)
         print(f"{motions} motions: {len(verdicts) - still} of {len(verdicts)} pairs of settings decided", file=sys.stderr, flush=True)
         if verdicts and not still:

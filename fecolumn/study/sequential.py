@@ -1,8 +1,8 @@
 """A study that goes on until its question is decided: more motions of its ensemble until each pair of settings is told apart, or told alike.
 
-A look at the results after each stage of motions may end it. Each look is one more chance to be wrong, so that the error allowed is divided by the number of
-looks that are planned (Bonferroni): whatever the course of the study, a false statement on a pair is as rare as that error. For "differ" the
-p-values are corrected (Holm 1979) for all pairs besides.
+A look at the results after each stage of motions may end it. Each look is one more chance to be wrong, so that the error allowed is divided among the looks
+that are planned (Bonferroni): whatever the course of the study, a false statement on a pair is as rare as that error. Each gets its share by its number of motions,
+since few decide little. For "differ" the p-values are corrected (Holm 1979) for all pairs besides.
 """
 
 from __future__ import annotations
@@ -82,13 +82,13 @@ def stage_analyses(plan: Plan, motions: int, verdicts: list[Verdict]) -> set[str
     return {analysis.id for analysis in plan.analyses if member_of(analysis.values) in chosen and (not verdicts or repr(analysis.combination) in open_settings)}
 
 
-def judge(plan: Plan, rows: list[dict], rule: Rule, looks: int, before: list[Verdict]) -> list[Verdict]:
+def judge(plan: Plan, rows: list[dict], rule: Rule, looks: list[int], motions: int, before: list[Verdict]) -> list[Verdict]:
     """Verdict on each pair of settings after a stage; those of `before` that are decided stay.
 
     Args:
-        rows: of the ledger. looks: planned in all.
+        rows: of the ledger. looks: motions of all stages, as of `stages`; motions: those of this one.
     """
-    level = rule.error / looks
+    level = rule.error * motions / sum(looks)
     pairs = pairs_of(settings_of(plan, rows), confidence=1 - level)
     decided = {verdict.pair.names: verdict for verdict in before if verdict.word != OPEN}
     corrected = holm([pair.p for pair in pairs])

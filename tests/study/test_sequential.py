@@ -49,7 +49,7 @@ def test_stages_double_up_to_all_motions_or_the_most(tmp_path):
 def test_clear_difference_ends_at_the_first_look(tmp_path):
     plan = plan_of(tmp_path, 80)
     rows = rows_of(plan, stage_analyses(plan, 40, []), peaks(3.0))
-    verdict, = judge(plan, rows, Rule(), 2, [])
+    verdict, = judge(plan, rows, Rule(), [40, 80], 40, [])
     assert verdict.word == DIFFER and verdict.pair.n == 40
 
 
@@ -57,7 +57,7 @@ def test_equal_settings_need_motions_until_a_distance_is_excluded(tmp_path):
     plan, peak, rule = plan_of(tmp_path, 640), peaks(1.0, scatter=0.05), Rule()
     looks, verdicts, words = stages(plan, rule), [], []
     for motions in looks:
-        verdicts = judge(plan, rows_of(plan, stage_analyses(plan, motions, []), peak), rule, len(looks), verdicts)
+        verdicts = judge(plan, rows_of(plan, stage_analyses(plan, motions, []), peak), rule, looks, motions, verdicts)
         words.append(verdicts[0].word)
     assert words[0] == OPEN and words[-1] == ALIKE
     # what is decided stays as it was decided
@@ -69,7 +69,7 @@ def test_settings_that_are_decided_get_no_more_motions(tmp_path):
     far = {1e-3: 1.0, 2e-3: 1.02, 4e-3: 6.0}
     base = peaks(1.0, scatter=0.3)
     peak = lambda analysis: base(analysis) * far[analysis.values[DT]]  # noqa: E731
-    verdicts = judge(plan, rows_of(plan, stage_analyses(plan, FIRST, []), peak), Rule(), 2, [])
+    verdicts = judge(plan, rows_of(plan, stage_analyses(plan, FIRST, []), peak), Rule(), [FIRST, 80], FIRST, [])
     assert sorted(verdict.word for verdict in verdicts) == [DIFFER, DIFFER, OPEN]
     more = stage_analyses(plan, 80, verdicts)
     assert {analysis.values[DT] for analysis in plan.analyses if analysis.id in more} == {1e-3, 2e-3}
@@ -85,7 +85,7 @@ def test_false_statements_stay_below_the_error_allowed(tmp_path):
         for motions in looks:
             ids = stage_analyses(plan, motions, [])
             rows = [row if row["id"] in ids else {**row, "state": "planned", "summary": None} for row in whole]
-            verdicts = judge(plan, rows, rule, len(looks), verdicts)
+            verdicts = judge(plan, rows, rule, looks, motions, verdicts)
         wrong += verdicts[0].word == DIFFER
     assert wrong <= 9  # of 100 at 5 %: 9 or fewer with probability 0.97
 
