@@ -230,11 +230,14 @@ class Analysis:
 
         return dict(critical_tilt_rad=self.stance.critical, u_critical_m=critical_displacement(self.stance, self.top_arm))
 
-    def slid_off(self, failure, base, foot: np.ndarray) -> Ending | None:
-        """The ending of a column whose step failed because its foot, at (n, 3) [m] before, met the edge of the base; None for another failure."""
+    def slid_off(self, failure, base, foot: np.ndarray, velocity: np.ndarray) -> Ending | None:
+        """The ending of a column whose step failed because its foot, at (n, 3) [m] with velocities (n, 3) [m/s] before, met the edge of the base; None for another failure."""
         from fecolumn.dynamics.cuts import Stop
 
-        if failure.stop is not Stop.OFF_BASE or not base.grid.at_edge(foot, EDGE * np.ptp(foot, axis=0)[:2].max()):
+        if failure.stop is not Stop.OFF_BASE:
+            return None
+        way = self.case.integration.dt_s * np.hypot(velocity[:, 0], velocity[:, 1]).max()
+        if not base.grid.at_edge(foot, way + EDGE * np.ptp(foot, axis=0)[:2].max()):
             return None
         return Ending(SLID_OFF, f"{Stop.OFF_BASE.value}, at {self.history.last()['time']:.3f} s")
 

@@ -10,7 +10,7 @@ AT_REST, STILL_ROCKING, OVERTURNED, SLID_OFF = "at rest", "still rocking", "over
 #: Names of a share of columns: of those that overturned, and of those that overturned or slid off where both are counted together.
 P_OVERTURN, P_LOST = "P(overturn)", "P(lost: overturned or slid off)"
 
-#: A column whose foot meets the edge of the base has come as near to it before as this share of the foot's width; else a step went astray.
+#: A column whose foot meets the edge of the base has come as near to it before as it goes in a step and this share of the foot's width; else a step went astray.
 EDGE = 0.05
 
 #: A column is at rest when its mechanical energy above gravity equilibrium is below this share of the energy that lifts it onto its edge.

@@ -280,7 +280,7 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
         A, Q = in_cones(W, q, friction)
         R, U, inside, most = np.zeros((n, 3)), np.zeros((n, 3)), 0, tolerances.INSIDE_FIRST
         while inside < tolerances.INSIDE_MOST:
-            forces, made = approach(A, Q, friction, R, U, most)
+            forces, made = approach(A, Q, friction, R, U, most, rho, False)
             inside += made
             # from inside Newton needs a step or two when the active set is right, and costs a tenth
             forces, residual, newtons = _newtons(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
@@ -307,6 +307,36 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
         iterations += made
         if residual < least:
             best, least = forces, residual
+    if least > tolerance and tolerances.FEW_POINTS < n <= tolerances.FROZEN_POINTS:
+        forces, residual, made, inside = _with_frozen_slips(W, q, friction, tolerance, rho, give)
+        iterations += made
+        others += inside
+        if residual < least:
+            best, least = forces, residual
+    return best, least, iterations, others
+
+
+@njit
+def _with_frozen_slips(W, q, friction, tolerance, rho, give):
+    """Forces by a fixed point on the sizes of the slips (Acary, Cadoux, Lemarechal and Malick 2011, ZAMM 91): best forces, residual, steps of Newton, iterations inside.
+
+    With these sizes frozen the problem is convex, and an interior point solves it to its end; Newton tries from each solution.
+    """
+    n, slips, least, iterations, others = len(q), np.zeros(len(q)), np.inf, 0, 0
+    A, Q = in_cones(W, q, friction)
+    best = np.zeros((n, 3))
+    for _ in range(tolerances.FROZEN_TURNS):
+        forces, inside = approach(A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips, True)
+        relative = slips_and_gaps(W, q, forces)
+        for i in range(n):
+            slips[i] = np.hypot(relative[i, 0], relative[i, 1])
+        forces, residual, made = _newtons(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
+        iterations += made
+        others += inside
+        if residual < least:
+            best, least = forces, residual
+        if least <= tolerance:
+            break
     return best, least, iterations, others
 
 

@@ -3,7 +3,7 @@
 With R = (r_t, mu r_n) and U = (s_t, s_n / mu + |s_t|), s = W r + q, the laws of Coulomb and Signorini are a complementarity in the
 cone of Lorentz, K = {|x_t| <= x_n}: R in K, U in K, R.U = 0 (De Saxce and Feng 1998). A primal-dual method in the scaling of Nesterov
 and Todd, with Mehrotra's corrector, follows R o U = sigma e; the term |s_t| is taken from the last iterate (Acary, Armand, Nguyen and
-Shpakovych 2023).
+Shpakovych 2023), or frozen, which makes the problem convex (Acary, Cadoux, Lemarechal and Malick 2011).
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ def in_cones(W, q, friction):
 
 
 @njit
-def approach(A, Q, friction, R, U, most):
+def approach(A, Q, friction, R, U, most, slips, frozen):
     """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the middle where they are zero; both change.
 
-    A, Q: of `in_cones`.
+    A, Q: of `in_cones`. slips: (n,) |s_t| [m] where they are `frozen`; else they are those of the last iterate.
     Returns: forces (n, 3), iterations made: fewer where it is at its end.
     """
     n = len(Q)
@@ -63,7 +63,7 @@ def approach(A, Q, friction, R, U, most):
         for i in range(n):
             for a in range(3):
                 infeasible[i, a] += Q[i, a] - U[i, a]
-            infeasible[i, 2] += np.hypot(U[i, 0], U[i, 1])
+            infeasible[i, 2] += slips[i] if frozen else np.hypot(U[i, 0], U[i, 1])
         gap = _product(R, R, U, U, 0.0) / n
         if gap <= INSIDE_END * length * force and largest(infeasible) <= INSIDE_END * length:
             return _unscaled(R, friction), iteration

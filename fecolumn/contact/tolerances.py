@@ -37,9 +37,12 @@ FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 6, 3, 30
 #: Compliance against a change of force in a Newton step from inside, over the softest point's own: forces that W leaves open stay, others converge by
 #: this over their own compliance in a step.
 GIVE = 1e-9
-#: The same of the last way of all, the proximal point, its Newton steps and those without a better residual: stiff bodies in many contacts, whose forces W hardly
+#: The same of the proximal point, its Newton steps and those without a better residual: stiff bodies in many contacts, whose forces W hardly
 #: tells apart (1e-6), need some fifty.
 HELD_GIVE, HELD_STEPS, HELD_STALLED = 1e-4, 200, 60
+#: The same with slips frozen from solution to solution: points at most, of more a shorter step costs less; solutions, of which one on 18 points needed 70; and iterations
+#: of the interior point for each, some 16 but where rounding rules.
+FROZEN_POINTS, FROZEN_TURNS, FROZEN_INSIDE = 40, 200, 40
 #: Share of the way to the boundary of the cones in an interior iteration, and the residual, over the first one, that rounding leaves.
 INSIDE_WAY, INSIDE_END = 0.95, 1e-12
 #: Sweeps of Gauss-Seidel: the first try, each next takes four times as many, and the largest.

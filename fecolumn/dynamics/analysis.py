@@ -143,7 +143,7 @@ class FullAnalysis(Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            off = self.slid_off(failure, self.system.base, self.foot())
+            off = self.slid_off(failure, self.system.base, self.foot(), self.system.column.gather(self.system.foot_nodes, self.state.v))
             if off is None:
                 self._save()
                 raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None

@@ -121,7 +121,8 @@ class ReducedAnalysis(Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            off = self.slid_off(failure, self.base, engine.motion.frames["center"][0] + self.model.arms @ engine.motion.rotation[0].T)
+            frame, rotation = engine.motion.frames[0], engine.motion.rotation[0]
+            off = self.slid_off(failure, self.base, frame["center"] + self.model.arms @ rotation.T, frame["velocity"] + np.cross(frame["spin"], self.model.arms) @ rotation.T)
             if off is None:
                 self._save()
                 raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None

@@ -10,7 +10,7 @@ from fecolumn.fem.rotation import tilt_angle
 from fecolumn.dynamics.stepper import Stepper
 
 
-@pytest.mark.parametrize("alpha", [0.0, -0.2])
+@pytest.mark.parametrize("alpha", [0.0, pytest.param(-0.2, marks=pytest.mark.slow)])
 def test_quarter_period_loss_and_ledger_of_free_rocking(alpha):
     """T/4 = acosh(1 / (1 - th0/al)) / p; loss at the impact near Housner's 1 - r^2.
 

@@ -45,3 +45,12 @@ def test_foot_that_reaches_the_edge_of_its_plate_ends_the_analysis_as_slid_off(e
     assert summary["slid_off_time_s"] == pytest.approx(0.005, abs=1.5e-3)  # 10 mm at 2 m/s
     assert abs(summary["slid_off_direction_deg"]) == pytest.approx(180.0, abs=1e-2)
     assert summary["residual_slide_m"] == pytest.approx(0.01, abs=2.5e-3) and (tmp_path / "out" / "summary.json").is_file()
+
+
+@pytest.mark.parametrize("engine", ["corotated", "rigid"])
+def test_foot_that_passes_the_edge_within_one_long_step_has_slid_off(engine, tmp_path):
+    """25 mm a step, towards an edge 40 mm away: after the first it is still 15 mm inside."""
+    case = column_case(engine, **STOUT, base={"length_m": 0.28, "width_m": 0.3, "slide_allowance_m": 0.0, "thickness_m": 0.05},
+                       initial={"velocity_m_s": [-2.0, 0.0, 0.0]}, contact={"friction_coefficient": 0.05}, integration={"duration_s": 0.1, "dt_s": 12.5e-3})
+    summary = simulation.run(case, tmp_path / "out", quiet=True)
+    assert summary["outcome"] == "slid off" and summary["slid_off_time_s"] == pytest.approx(0.0125)

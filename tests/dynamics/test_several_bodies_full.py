@@ -1,15 +1,11 @@
 """Bodies on moving ones with all their degrees of freedom: stacks, frames and links, against closed forms and the reduced engine."""
 
-import subprocess
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from brick_bodies import FullRun, Structure, brick_body, closure, frame, pulse, stack
 
-from fecolumn._mpi import launch_environment
 from fecolumn.case import Material
 from fecolumn.contact.points import SUNK
 from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
@@ -155,33 +151,6 @@ def test_a_structure_goes_on_from_a_checkpoint_as_if_nothing_had_happened(tmp_pa
     assert len(extra["work"]) == len(TERMS) - 4
     resumed, _ = FullRun(other.system, other.model, state=state).advance(np.zeros((90, 3)))
     np.testing.assert_allclose(resumed, whole, rtol=0, atol=1e-10)
-
-
-ON_RANKS = """
-import sys
-sys.path.insert(0, {folder!r})
-import numpy as np
-from mpi4py import MPI
-from test_several_bodies_full import rocking
-rows, energies = rocking().full().advance(np.zeros((30, 3)))
-if MPI.COMM_WORLD.rank == 0:
-    np.savez({out!r}, rows=rows, energies=energies, ranks=MPI.COMM_WORLD.size)
-"""
-
-
-def test_two_ranks_move_a_structure_as_one_does(tmp_path):
-    found = []
-    for n in (1, 2):
-        out = str(tmp_path / f"{n}.npz")
-        script = ON_RANKS.format(folder=str(Path(__file__).parent), out=out)
-        command = ["mpirun", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n", str(n), sys.executable, "-c", script]
-        done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
-        assert done.returncode == 0, done.stderr
-        with np.load(out) as file:
-            found.append({name: file[name] for name in file.files})
-    one, two = found
-    assert (one["ranks"], two["ranks"]) == (1, 2) and np.abs(one["rows"]).max() > 1e-3
-    np.testing.assert_allclose(two["rows"], one["rows"], rtol=0, atol=1e-9)
 
 
 def tie(**settings):

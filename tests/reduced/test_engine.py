@@ -56,6 +56,7 @@ def test_standing_column_neither_drifts_nor_gains_energy(dt, alpha):
     assert energy.max() < 1e-9
 
 
+@pytest.mark.slow
 def test_more_modes_converge_to_the_full_engine():
     """0.05 s of shaking at dt = 1e-4, which resolves modes up to 3 kHz: the error falls with the modes kept."""
     system = system_of(integration={"dt_s": 1e-4}, contact={"friction_coefficient": 0.8})
