@@ -71,9 +71,9 @@ class FullAnalysis(Analysis):
         plate = self.system.base if len(self.specimen.base.cells) else None
         return SpecimenFields(self.system.column, plate, self.system.footprint, self.specimen)
 
-    def foot(self) -> np.ndarray:
-        """Places (n, 3) [m] of what stands on the base."""
-        return self.system.column.gather(self.system.foot_nodes, self.state.x)
+    def foot(self) -> tuple[np.ndarray, np.ndarray]:
+        """Places (n, 3) [m] of what stands on the base, and velocities (n, 3) [m/s]."""
+        return tuple(self.system.column.gather(self.system.foot_nodes, values) for values in (self.state.x, self.state.v))
 
     def _standing(self):
         """Gravity equilibrium, its energy noted; None of what is released leaning and cannot stand."""
@@ -143,7 +143,7 @@ class FullAnalysis(Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            off = self.slid_off(failure, self.system.base, self.foot(), self.system.column.gather(self.system.foot_nodes, self.state.v))
+            off = self.slid_off(failure, self.system.base, *self.foot())
             if off is None:
                 self._save()
                 raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None

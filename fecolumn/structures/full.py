@@ -47,5 +47,6 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
 
         return StructureFields(self.system.column, self.meshed, self.standing, self.system.interface.points)
 
-    def foot(self) -> np.ndarray:
-        return self.system.interface.node_positions(self.state.x, self.state.rotation)
+    def foot(self) -> tuple[np.ndarray, np.ndarray]:
+        places = self.system.interface.node_positions(self.state.x, self.state.rotation)
+        return places, np.zeros_like(places)  # the ground has no edge
