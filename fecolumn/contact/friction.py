@@ -280,7 +280,7 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
         A, Q = in_cones(W, q, friction)
         R, U, inside, most = np.zeros((n, 3)), np.zeros((n, 3)), 0, tolerances.INSIDE_FIRST
         while inside < tolerances.INSIDE_MOST:
-            forces, made = approach(A, Q, friction, R, U, most, rho, False)
+            forces, made = approach(A, Q, friction, R, U, most, np.empty(0))
             inside += made
             # from inside Newton needs a step or two when the active set is right, and costs a tenth
             forces, residual, newtons = _newtons(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
@@ -326,7 +326,7 @@ def _with_frozen_slips(W, q, friction, tolerance, rho, give):
     A, Q = in_cones(W, q, friction)
     best = np.zeros((n, 3))
     for _ in range(tolerances.FROZEN_TURNS):
-        forces, inside = approach(A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips, True)
+        forces, inside = approach(A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips)
         relative = slips_and_gaps(W, q, forces)
         for i in range(n):
             slips[i] = np.hypot(relative[i, 0], relative[i, 1])

@@ -2,8 +2,8 @@
 
 With R = (r_t, mu r_n) and U = (s_t, s_n / mu + |s_t|), s = W r + q, the laws of Coulomb and Signorini are a complementarity in the
 cone of Lorentz, K = {|x_t| <= x_n}: R in K, U in K, R.U = 0 (De Saxce and Feng 1998). A primal-dual method in the scaling of Nesterov
-and Todd, with Mehrotra's corrector, follows R o U = sigma e; the term |s_t| is taken from the last iterate (Acary, Armand, Nguyen and
-Shpakovych 2023), or frozen, which makes the problem convex (Acary, Cadoux, Lemarechal and Malick 2011).
+and Todd follows R o U = sigma e by Newton steps, in which |s_t| counts as what it is, a function of U; with |s_t| of the last iterate (Acary,
+Armand, Nguyen and Shpakovych 2023) it would creep. With |s_t| frozen the problem is convex (Acary, Cadoux, Lemarechal and Malick 2011).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import flat, largest, put_matrix, put_points
-from fecolumn.contact.tolerances import INSIDE_END, INSIDE_WAY
+from fecolumn.contact.tolerances import INSIDE_CENTRED, INSIDE_END, INSIDE_JAMMED, INSIDE_SMOOTH, INSIDE_WAY
 
 
 @njit
@@ -41,13 +41,13 @@ def in_cones(W, q, friction):
 
 
 @njit
-def approach(A, Q, friction, R, U, most, slips, frozen):
+def approach(A, Q, friction, R, U, most, slips):
     """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the middle where they are zero; both change.
 
-    A, Q: of `in_cones`. slips: (n,) |s_t| [m] where they are `frozen`; else they are those of the last iterate.
-    Returns: forces (n, 3), iterations made: fewer where it is at its end.
+    A, Q: of `in_cones`. slips: (n,) |s_t| [m] where they are frozen; (0,) where they are to be those of U.
+    Returns: forces (n, 3), iterations made: fewer where it is at its end, or gets no farther.
     """
-    n = len(Q)
+    n, frozen = len(Q), len(slips) > 0
     length, total = max(largest(Q), 1e-300), 0.0
     for i in range(3 * n):
         for j in range(3 * n):
@@ -56,89 +56,86 @@ def approach(A, Q, friction, R, U, most, slips, frozen):
     if R[0, 2] == 0.0:
         for i in range(n):
             R[i, 2], U[i, 2] = force, length
-    P, inverse, scaled, matrix = np.empty((n, 3, 3)), np.empty((n, 3, 3)), np.empty((n, 3)), np.empty((3 * n, 3 * n))
-    wanted, infeasible, dR, dU = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3))
+    matrix, right, block = np.empty((3 * n, 3 * n)), np.empty((3 * n, 2)), np.empty((3, 3))
+    infeasible, slope, ways, changes = np.empty((n, 3)), np.zeros((n, 2)), np.empty((2, n, 3)), np.empty((2, n, 3))
     for iteration in range(most):
+        gap = _product(R, R, U, U, 0.0) / n
+        smoothing = INSIDE_SMOOTH * gap / force
         put_points(A @ flat(R), infeasible)
         for i in range(n):
             for a in range(3):
                 infeasible[i, a] += Q[i, a] - U[i, a]
-            infeasible[i, 2] += slips[i] if frozen else np.hypot(U[i, 0], U[i, 1])
-        gap = _product(R, R, U, U, 0.0) / n
+            if frozen:
+                infeasible[i, 2] += slips[i]
+            else:
+                size = np.sqrt(U[i, 0] ** 2 + U[i, 1] ** 2 + smoothing**2)
+                infeasible[i, 2] += size - smoothing
+                slope[i, 0], slope[i, 1] = U[i, 0] / size, U[i, 1] / size
         if gap <= INSIDE_END * length * force and largest(infeasible) <= INSIDE_END * length:
             return _unscaled(R, friction), iteration
         put_matrix(A, matrix)
         finite = 0.0
         for i in range(n):
-            _scaling(R[i], U[i], P[i], inverse[i])
-            for a in range(3):
-                finite += P[i, a, 0] + P[i, a, 1] + P[i, a, 2]
-                scaled[i, a] = P[i, a, 0] * R[i, 0] + P[i, a, 1] * R[i, 1] + P[i, a, 2] * R[i, 2]
-                for b in range(3):
-                    matrix[3 * i + a, 3 * i + b] += P[i, a, 0] * P[i, 0, b] + P[i, a, 1] * P[i, 1, b] + P[i, a, 2] * P[i, 2, b]
+            # dU = G (A dR + infeasible) and P^2 dR + dU = wanted, G = 1 + e_n slope^T; its inverse takes `slope` times two rows from the third
+            _scaling(R[i], U[i], block)
+            square, x, y = R[i, 2] ** 2 - R[i, 0] ** 2 - R[i, 1] ** 2, slope[i, 0], slope[i, 1]
+            for b in range(3):
+                matrix[3 * i, 3 * i + b] += block[0, b]
+                matrix[3 * i + 1, 3 * i + b] += block[1, b]
+                matrix[3 * i + 2, 3 * i + b] += block[2, b] - x * block[0, b] - y * block[1, b]
+                finite += block[0, b] + block[1, b] + block[2, b]
+                right[3 * i + b, 0] = -U[i, b] - infeasible[i, b]
+                # what leads to R o U = gap e, apart from the first
+                right[3 * i + b, 1] = gap * (R[i, b] if b == 2 else -R[i, b]) / square
+            right[3 * i + 2, 0] += x * U[i, 0] + y * U[i, 1]
+            right[3 * i + 2, 1] -= x * right[3 * i, 1] + y * right[3 * i + 1, 1]
         # at the cones' very boundary, where rounding rules, there is no scaling
         if not np.isfinite(finite):
             return _unscaled(R, friction), iteration
         try:
-            factor = np.linalg.cholesky(matrix)
+            found = np.linalg.solve(matrix, right)
         except Exception:
             return _unscaled(R, friction), iteration
+        moved = A @ found
+        for k in range(2):
+            for i in range(n):
+                for a in range(3):
+                    ways[k, i, a] = found[3 * i + a, k]
+                    changes[k, i, a] = moved[3 * i + a, k] + (infeasible[i, a] if k == 0 else 0.0)
+                changes[k, i, 2] += slope[i, 0] * changes[k, i, 0] + slope[i, 1] * changes[k, i, 1]
+        t = min(1.0, _way(R, ways[0]), _way(U, changes[0]))
+        after = max(_product(R, ways[0], U, changes[0], t) / n, 0.0)
+        centring = min(max((after / gap) ** 1.5, INSIDE_CENTRED), 1.0)
         for i in range(n):
             for a in range(3):
-                wanted[i, a] = -U[i, a]
-        _direction(A, factor, wanted, infeasible, dR, dU)
-        t = min(1.0, _way(R, dR), _way(U, dU))
-        after = max(_product(R, dR, U, dU, t) / n, 0.0)
-        centring = min(max((after / gap) ** 3, 1e-4), 1.0)
-        for i in range(n):
-            _corrected(P[i], inverse[i], scaled[i], dR[i], dU[i], centring * gap, wanted[i])
-        _direction(A, factor, wanted, infeasible, dR, dU)
-        if not np.isfinite(_product(dR, dR, dU, dU, 0.0)):
+                ways[0, i, a] += centring * ways[1, i, a]
+                changes[0, i, a] += centring * changes[1, i, a]
+        if not np.isfinite(_product(ways[0], ways[0], changes[0], changes[0], 0.0)):
             return _unscaled(R, friction), iteration
-        t = min(1.0, INSIDE_WAY * min(_way(R, dR), _way(U, dU)))
+        t = min(1.0, INSIDE_WAY * min(_way(R, ways[0]), _way(U, changes[0])))
         for i in range(n):
             for a in range(3):
-                R[i, a] += t * dR[i, a]
-                U[i, a] += t * dU[i, a]
+                R[i, a] += t * ways[0, i, a]
+                U[i, a] += t * changes[0, i, a]
+        if t < INSIDE_JAMMED:
+            return _unscaled(R, friction), iteration
     return _unscaled(R, friction), most
 
 
 @njit
-def _scaling(r, u, P, inverse):
-    """Nesterov and Todd's symmetric P (3, 3) with P r = P^-1 u, and its inverse."""
+def _scaling(r, u, square):
+    """P^2 (3, 3) of Nesterov and Todd's symmetric P with P r = P^-1 u."""
     tangential, across = np.hypot(r[0], r[1]), np.hypot(u[0], u[1])
     size_r = np.sqrt(max((r[2] - tangential) * (r[2] + tangential), 1e-300))
     size_u = np.sqrt(max((u[2] - across) * (u[2] + across), 1e-300))
     half = np.sqrt((1 + (r[0] * u[0] + r[1] * u[1] + r[2] * u[2]) / (size_r * size_u)) / 2)
     w0, w1 = (u[0] / size_u - r[0] / size_r) / (2 * half), (u[1] / size_u - r[1] / size_r) / (2 * half)
-    w2, eta = (u[2] / size_u + r[2] / size_r) / (2 * half), np.sqrt(size_u / size_r)
-    P[0, 0], P[1, 1], P[0, 1] = 1 + w0 * w0 / (1 + w2), 1 + w1 * w1 / (1 + w2), w0 * w1 / (1 + w2)
-    P[0, 2], P[1, 2], P[2, 2] = w0, w1, w2
-    P[1, 0], P[2, 0], P[2, 1] = P[0, 1], P[0, 2], P[1, 2]
-    for a in range(3):
-        for b in range(3):
-            inverse[a, b] = P[a, b] / eta
-            P[a, b] *= eta
-    inverse[0, 2], inverse[1, 2] = -inverse[0, 2], -inverse[1, 2]
-    inverse[2, 0], inverse[2, 1] = -inverse[2, 0], -inverse[2, 1]
-
-
-@njit
-def _corrected(P, inverse, scaled, dr, du, target, wanted):
-    """wanted (3,) = P x with scaled o x = target e - scaled o scaled - (P dr) o (P^-1 du)."""
-    l0, l1, l2 = scaled[0], scaled[1], scaled[2]
-    a0 = P[0, 0] * dr[0] + P[0, 1] * dr[1] + P[0, 2] * dr[2]
-    a1 = P[1, 0] * dr[0] + P[1, 1] * dr[1] + P[1, 2] * dr[2]
-    a2 = P[2, 0] * dr[0] + P[2, 1] * dr[1] + P[2, 2] * dr[2]
-    b0 = inverse[0, 0] * du[0] + inverse[0, 1] * du[1] + inverse[0, 2] * du[2]
-    b1 = inverse[1, 0] * du[0] + inverse[1, 1] * du[1] + inverse[1, 2] * du[2]
-    b2 = inverse[2, 0] * du[0] + inverse[2, 1] * du[1] + inverse[2, 2] * du[2]
-    c0, c1 = -2 * l2 * l0 - a2 * b0 - b2 * a0, -2 * l2 * l1 - a2 * b1 - b2 * a1
-    c2 = target - l0 * l0 - l1 * l1 - l2 * l2 - a0 * b0 - a1 * b1 - a2 * b2
-    x2 = (l2 * c2 - l0 * c0 - l1 * c1) / (l2 * l2 - l0 * l0 - l1 * l1)
-    x0, x1 = (c0 - x2 * l0) / l2, (c1 - x2 * l1) / l2
-    for a in range(3):
-        wanted[a] = P[a, 0] * x0 + P[a, 1] * x1 + P[a, 2] * x2
+    w2, share = (u[2] / size_u + r[2] / size_r) / (2 * half), size_u / size_r
+    square[0, 0], square[1, 1] = share * (1 + 2 * w0 * w0), share * (1 + 2 * w1 * w1)
+    square[0, 1] = square[1, 0] = share * 2 * w0 * w1
+    square[0, 2] = square[2, 0] = share * 2 * w0 * w2
+    square[1, 2] = square[2, 1] = share * 2 * w1 * w2
+    square[2, 2] = share * (2 * w2 * w2 - 1)
 
 
 @njit
@@ -177,26 +174,3 @@ def _product(R, dR, U, dU, t):
         for a in range(3):
             total += (R[i, a] + t * dR[i, a]) * (U[i, a] + t * dU[i, a])
     return total
-
-
-@njit(fastmath={"reassoc", "contract"})
-def _direction(A, factor, wanted, infeasible, dR, dU):
-    """dR (n, 3) of factor factor^T dR = wanted - infeasible, and dU = A dR + infeasible."""
-    m, n = 3 * len(wanted), len(wanted)
-    x = np.empty(m)
-    for i in range(m):
-        row, value = factor[i], 0.0
-        for j in range(i):
-            value += row[j] * x[j]
-        x[i] = (wanted[i // 3, i % 3] - infeasible[i // 3, i % 3] - value) / row[i]
-    for i in range(m - 1, -1, -1):
-        row = factor[i]
-        x[i] /= row[i]
-        value = x[i]
-        for j in range(i):
-            x[j] -= row[j] * value
-    put_points(x, dR)
-    put_points(A @ x, dU)
-    for i in range(n):
-        for a in range(3):
-            dU[i, a] += infeasible[i, a]

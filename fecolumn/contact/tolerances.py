@@ -33,7 +33,7 @@ NEWTON_STEPS, NEWTON_STALLED = 25, 6
 #: The same from frictionless forces, from where Newton finds its way late rather than never.
 FAR_STEPS, FAR_STALLED = 60, 15
 #: Points above which an interior point helps; its iterations before Newton's first try, between two tries, and at most.
-FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 6, 3, 30
+FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 8, 4, 60
 #: Compliance against a change of force in a Newton step from inside, over the softest point's own: forces that W leaves open stay, others converge by
 #: this over their own compliance in a step.
 GIVE = 1e-9
@@ -41,10 +41,13 @@ GIVE = 1e-9
 #: tells apart (1e-6), need some fifty.
 HELD_GIVE, HELD_STEPS, HELD_STALLED = 1e-4, 200, 60
 #: The same with slips frozen from solution to solution: points at most, of more a shorter step costs less; solutions, of which one on 18 points needed 70; and iterations
-#: of the interior point for each, some 16 but where rounding rules.
-FROZEN_POINTS, FROZEN_TURNS, FROZEN_INSIDE = 40, 200, 40
-#: Share of the way to the boundary of the cones in an interior iteration, and the residual, over the first one, that rounding leaves.
-INSIDE_WAY, INSIDE_END = 0.95, 1e-12
+#: of the interior point for each, some 25 but where rounding rules.
+FROZEN_POINTS, FROZEN_TURNS, FROZEN_INSIDE = 40, 200, 60
+#: Share of the way to the boundary of the cones in an interior iteration, that below which it gets no farther, and the residual, over the first one, that rounding leaves.
+INSIDE_WAY, INSIDE_JAMMED, INSIDE_END = 0.9, 1e-4, 1e-12
+#: Least share of the middle of the cones that an interior iteration aims at, and the length that rounds the kink of |s_t|, over the mean length that is left to
+#: go: a hundredth hardly moves the slip of any point that slides.
+INSIDE_CENTRED, INSIDE_SMOOTH = 1e-4, 0.01
 #: Sweeps of Gauss-Seidel: the first try, each next takes four times as many, and the largest.
 SWEEPS_FIRST, SWEEPS_MOST = 50, 800
 

@@ -46,7 +46,7 @@ def test_interior_point_leads_into_the_cone_from_nothing():
     W, q = foot(60, 3)
     R, U = np.zeros_like(q), np.zeros_like(q)
     mu = np.full(len(q), 0.3)
-    forces, _ = approach(*in_cones(W, q, mu), mu, R, U, 30, np.zeros(len(q)), False)
+    forces, _ = approach(*in_cones(W, q, mu), mu, R, U, 40, np.empty(0))
     exact = solve_contact(W, q, 0.3, np.zeros_like(q), tolerance=1e-14).forces
     assert np.abs(forces - exact).max() < 1e-3 * np.abs(exact).max()
 
@@ -56,7 +56,7 @@ def test_points_on_the_boundary_of_the_cone_end_the_interior_point_in_peace():
     W, q = foot(8, 1)
     R, U = np.tile([1.0, 0.0, 1.0], (8, 1)), np.tile([-1e-9, 0.0, 1e-9], (8, 1))
     mu = np.full(len(q), 0.3)
-    forces, made = approach(*in_cones(W, q, mu), mu, R, U, 5, np.zeros(len(q)), False)
+    forces, made = approach(*in_cones(W, q, mu), mu, R, U, 5, np.empty(0))
     assert np.isfinite(forces).all() and made < 5
 
 
@@ -70,3 +70,13 @@ def test_stiff_bodies_in_many_contacts_whose_forces_hardly_differ_in_what_they_d
     size, pull, normal = np.abs(case["q"]).max(), np.hypot(*found.forces[:, :2].T), found.forces[:, 2]
     assert relative[:, 2].min() > -1e-8 * size and normal.min() >= 0 and np.abs(normal * relative[:, 2]).max() < 1e-8 * size * normal.max()
     assert (pull <= case["friction"] * normal * (1 + 1e-9) + 1e-9).all()
+
+
+def test_an_impact_of_elastic_columns_in_many_contacts_is_solved():
+    """Of a frame of four elastic columns with 24 points around each face; with the slip of its last iterate the interior point creeps at a thousandth of the velocity."""
+    case = np.load(Path(__file__).with_name("impact_in_eighty_four_contacts.npz"))
+    q = case["q"]
+    W = np.zeros((q.size, q.size))
+    W[np.tril_indices(q.size)] = case["W"]
+    W += np.tril(W, -1).T
+    assert solve_contact(W, q, case["friction"], np.zeros_like(q), 1e-12).residual <= 1e-12
