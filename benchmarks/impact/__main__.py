@@ -40,7 +40,7 @@ SERIES = {
     "alpha-0.2": _series("reduced", FEW, FEW_STEPS, alpha=-0.2),
     "damping-0.02": _series("reduced", FEW, FEW_STEPS, damping=0.02),
     **{f"height-{height:g}": _series("reduced", FEW, FEW_STEPS, height=height) for height in (0.5, 3.0)},
-    "bricks-10": _series("full", (1.0,), STEPS[:5], size=0.01, away=1e-3),
+    "bricks-2.5": _series("full", (1.0,), STEPS[:3], size=0.0025, away=1e-3),
 }
 FIELDS = ("series", "kind", "share", "dt", "modes", "alpha", "damping", "height", "size", "away", "contact", "rocking", "restitution", "housner", "seconds")
 

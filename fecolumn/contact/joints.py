@@ -102,11 +102,13 @@ def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
 
 
 def is_convex(facets: np.ndarray) -> bool:
-    """Whether triangles (t,) of FACET cover all of a surface that is convex: what is beyond one side of its outline is beyond the surface."""
-    if (facets["neighbours"] == GOES_ON).any():
-        return False
+    """Whether all of the outline of triangles (t,) of FACET is known and convex: what is beyond one side of it is beyond the surface. Inside it nodes may lack."""
     corners = facets["corners"]
-    number, q = np.nonzero(facets["neighbours"] < 0)
+    number, q = np.nonzero(facets["neighbours"] == -1)
+    ends = np.stack([facets["nodes"][number, (q + 1) % 3], facets["nodes"][number, (q + 2) % 3]])
+    if len(number) == 0 or not np.array_equal(*map(np.sort, ends)):
+        # each node of a closed outline ends one side and begins another
+        return False
     start, own = corners[number, (q + 1) % 3], corners[number, q]
     side = corners[number, (q + 2) % 3] - start
     normal = np.stack([-side[:, 1], side[:, 0]], axis=1)

@@ -76,8 +76,8 @@ def project_on_body(bodies, interface, point, x, y):
     """Find the three nodes of a moving master's surface around the place x, y [m] in its frame, and their shares: ON or OFF the surface, or UNKNOWN where
     the face goes on without nodes that are known.
 
-    From the facet where the point was found last towards the place; all facets are looked at where an outline or a hole is in the way of a surface that is not
-    convex. Off the surface, of the nearest facet, or of a convex one of the last on the way.
+    From the facet where the point was found last towards the place; all facets are looked at where nodes that are not known are in the way, or an outline of a
+    surface that is not convex. Off the surface, of the nearest facet, or of a convex one of the last on the way.
     """
     first, count, facet, margin = interface.facet_first, interface.facet_count, point.facet, EDGE * interface.width + interface.bulge
     shares, nearest, least, side = np.empty(3), 0, np.inf, 0
@@ -87,7 +87,7 @@ def project_on_body(bodies, interface, point, x, y):
             _take(bodies.facets[first + facet], facet, shares, point)
             return ON
         beside = bodies.facets[first + facet].neighbours[across]
-        if beside < 0 and interface.convex:
+        if beside < 0 and beside != GOES_ON and interface.convex:
             _take(bodies.facets[first + facet], facet, shares, point)
             return OFF
         if beside < 0:

@@ -75,6 +75,8 @@ class Interface:
         self._below, self._shares = self.points["below"].copy(), self.points["shares"].copy()
         #: Arms (N, 3) of the surface nodes from the centres of mass, in the frames of their bodies, where they were found last.
         self._arms_now = self.reference - centers
+        # Positions and rotation that were filtered last, and what came of it
+        self._filtered = None, None, None
 
     def prepare(self, say=lambda text: None) -> None:
         """Have compiled what the steps call, so that the first landing costs what all cost; `say` is told why it takes long, if it does."""
@@ -134,8 +136,11 @@ class Interface:
         return self._out_of_frames(self.reference + self._displacement(x, rotation), rotation)
 
     def _displacement(self, x, rotation) -> np.ndarray:
-        """Filtered displacement (N, 3) of the surface nodes in the frames of their bodies, from where these are drawn."""
-        return self.foot.position(into_frames(x, rotation, self.column.rows) - self.column.X)
+        """Filtered displacement (N, 3) of the surface nodes in the frames of their bodies, from where these are drawn; of the same x once, as the filter of a large body is
+        the most of what a step reads."""
+        if self._filtered[0] is not x or self._filtered[1] is not rotation:
+            self._filtered = x, rotation, self.foot.position(into_frames(x, rotation, self.column.rows) - self.column.X)
+        return self._filtered[2]
 
     def _into_frames(self, values, rotation):
         return into_frames(values, rotation, self.rows)

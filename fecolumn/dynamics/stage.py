@@ -118,7 +118,7 @@ def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
 @dataclass(slots=True)
 class Outcome:
     """Positions, internal forces and strain energy of the column, what its points carry now (n,) of CONTACT, the energy `static` [J]
-    of base, foot's static rest, penalty springs and pad, and the record."""
+    of base, foot's static rest, penalty springs and pad, and the record; push: (n_owned, 3) nodal forces of the contact forces [N], mends: of `Stage.untwisting`."""
 
     stop: Stop
     x: np.ndarray
@@ -130,6 +130,8 @@ class Outcome:
     static: float
     iterations: int
     residual: float
+    push: np.ndarray
+    mends: tuple
     message: str = ""
 
 
@@ -155,7 +157,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             contact["relative"][far] = interface.positions(x, rotation, poses)[far]
             contact["anchor"][far] = contact["relative"][far, :2]
         contact["located"] = True
-        return Outcome(stop, x, internal, strain, rotation, halfway, contact, static, iteration, size, message)
+        return Outcome(stop, x, internal, strain, rotation, halfway, contact, static, iteration, size, push, mends, message)
 
     for iteration in range(max_iterations + 1):
         rotation, internal, strain = system.kinematics.internal(x)
@@ -169,7 +171,8 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         poses = interface.poses(x, rotation)
         positions = interface.positions(x, rotation, poses)
         push = interface.load(contact["force"], halfway)
-        pushed = operators.mass_factor * (middle.target - x) + scale * sum(stage.untwisting(system, x, internal, rotation, halfway, contact["force"], push))
+        mends = stage.untwisting(system, x, internal, rotation, halfway, contact["force"], push)
+        pushed = operators.mass_factor * (middle.target - x) + scale * sum(mends)
         residual = column.momentum(pushed) + middle.load - operators.stiffness_factor * inner
         if links:
             residual += scale * links.load(links.pulls(stage, x, rotation), halfway)

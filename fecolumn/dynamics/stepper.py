@@ -119,9 +119,8 @@ class Stepper:
         move_anchors(interface.points, interface.interfaces, springs, interface.near, before, outcome.contact)
         after = State(time=start.time + dt, x=outcome.x, v=start.v, a=start.a, contact_a=start.contact_a, internal=outcome.internal, strain=outcome.strain,
                       rotation=outcome.rotation, contact=outcome.contact, static=outcome.static, ground=np.array(ground, float), rims=rims, ties=start.ties.copy())
-        push = interface.load(after.forces, R)
+        push, (straight, led) = outcome.push, outcome.mends
         if self.plastic:
-            straight, led = stage.untwisting(system, after.x, after.internal, after.rotation, R, after.forces, push)
             w, untwists = interface.acceleration(after.forces, R) + turned + straight + led, column.momentum(straight)
             push = push + column.momentum(led)
             if links:

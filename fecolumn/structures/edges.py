@@ -13,7 +13,6 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.tolerances import EDGE
-from fecolumn.mesh.bricks import outline_edges
 from fecolumn.structures.faces import Face, over, triangles_of
 from fecolumn.structures.feet import ball_of, foot_of
 from fecolumn.structures.meetings import Meeting, allowance_of, place_of
@@ -27,7 +26,7 @@ _STRAIGHT = 1e-3
 class Edge:
     """Outline of a face of `lower` below a face of `upper`, copies as of Meeting; points: (k, 3) [m] nodes of it in the drawing of lower.
 
-    zone: rectangle of the upper face in which they are and may come, as of Meeting. avoided: (k, 3) [m] the points in the drawing of upper, where this needs none of its own.
+    zone: rectangle of the upper face in which they are and may come, as of `meetings.zones_of`. avoided: (k, 3) [m] the points in the drawing of upper, where this needs none of its own.
     """
 
     interface: str
@@ -59,12 +58,12 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
     if ball_of(upper.body) and face is foot_of(upper.faces):
         return None
     shift, axes = place_of(case, meeting.master) - place_of(case, meeting.slave), face.axes[:, :2]
-    triangles, sides = triangles_of(face.corners @ axes), _outline(face) @ axes
+    triangles, sides = triangles_of(face.corners @ axes), face.outline @ axes
     size = np.ptp(triangles, axis=(0, 1)).max()
     # as far beyond its outline a face still holds a point
     margin, whole, allowance = EDGE * size, whole_face(other, lower.order), allowance_of(case.interfaces[meeting.interface], face)
     nodes = whole.positions[whole.outlines]
-    points, ends = (nodes + shift) @ axes, (_outline(other) + shift) @ axes
+    points, ends = (nodes + shift) @ axes, (other.outline + shift) @ axes
     apart, on = _distance(points, sides), over(points, triangles, margin)
     inside = on & (apart > margin)
     middles = ends.mean(axis=1)
@@ -79,12 +78,6 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
         return None
     low, high = points[kept].min(axis=0) - allowance, points[kept].max(axis=0) + allowance
     return Edge(meeting.interface, meeting.master, meeting.master_face, meeting.slave, meeting.slave_face, nodes[kept], (low[0], high[0], low[1], high[1]), nodes[kept] + shift)
-
-
-def _outline(face: Face) -> np.ndarray:
-    """Ends (n, 2, 3) [m] of the sides of a face's outlines."""
-    number, place = np.unique(face.cells, return_index=True)
-    return face.corners.reshape(-1, 3)[place][np.searchsorted(number, outline_edges(face.cells))]
 
 
 def _corners(sides: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from fecolumn.mesh.bricks import BrickMesh, outer_faces
+from fecolumn.mesh.bricks import BrickMesh, outer_faces, outline_edges
 
 #: Over the size of a body: faces within it lie in one plane, and faces of two bodies coincide. What rounding of five digits leaves.
 SAME_PLANE = 1e-5
@@ -43,6 +43,12 @@ class Face:
         first = along - self.normal * (along @ self.normal)
         first /= np.linalg.norm(first)
         return np.stack([first, np.cross(self.normal, first), self.normal], axis=1)
+
+    @property
+    def outline(self) -> np.ndarray:
+        """Ends (n, 2, 3) [m] of the sides of the face's outlines."""
+        number, place = np.unique(self.cells, return_index=True)
+        return self.corners.reshape(-1, 3)[place][np.searchsorted(number, outline_edges(self.cells))]
 
 
 def plane_faces(mesh: BrickMesh) -> list[Face]:

@@ -13,7 +13,7 @@ from fecolumn.structures.edges import Edge, edge_patch, edges_of
 from fecolumn.structures.faces import Face
 from fecolumn.structures.feet import ball_of, lifted
 from fecolumn.structures.keys import Plate, Storeys
-from fecolumn.structures.meetings import Meeting, meetings_of, place_of
+from fecolumn.structures.meetings import Meeting, meetings_of, place_of, zones_of
 from fecolumn.structures.patches import Patch, master_patch, slave_patch
 
 
@@ -54,7 +54,9 @@ def layout_of(case, file) -> Layout:
             raise InputError(file, f"interfaces.{meeting.interface}.on", case.interfaces[meeting.interface].on, f'must be the slave: the foot of "{meeting.master[0]}" is not flat')
     patches, contacts, edges = {name: {} for name in case.bodies}, [], edges_of(case, drawings, meetings)
     for body in case.bodies:
-        patches[body] = _patches(case, body, drawings[body], meetings, edges)
+        patches[body] = _touching(case, body, drawings[body], meetings, edges)
+    for body in case.bodies:
+        patches[body] |= _touched(case, body, drawings, patches, meetings, edges)
     for meeting in meetings:
         slave = _surface_name(drawings[meeting.slave[0]].faces, meeting.slave_face, "slave")
         master = meeting.master and _surface_name(drawings[meeting.master[0]].faces, meeting.master_face, "master")
@@ -82,17 +84,14 @@ def _spots(case, drawings, meetings: list[Meeting]) -> dict[str, list]:
     return found
 
 
-def _patches(case, body: str, one: Drawing, meetings: list[Meeting], edges: list[Edge]) -> dict[str, Patch]:
-    """Contact points of a body by the names of its surfaces, all copies together."""
-    slaves, masters = {}, {}
+def _touching(case, body: str, one: Drawing, meetings: list[Meeting], edges: list[Edge]) -> dict[str, Patch]:
+    """Contact points of a body as slave by the names of its surfaces, all copies together."""
+    slaves, found = {}, {}
     for meeting in meetings:
         interface = case.interfaces[meeting.interface]
         if meeting.slave[0] == body:
             interior = case.contact.interior_points if interface.interior_points is None else interface.interior_points
             slaves[meeting.slave_face] = max(interior, slaves.get(meeting.slave_face, 0))
-        if meeting.master and meeting.master[0] == body:
-            masters.setdefault(meeting.master_face, set()).add(meeting.zone)
-    found = {}
     for face, interior in slaves.items():
         drawn, name = one.faces[face], _surface_name(one.faces, face, "slave")
         if name == "foot" and getattr(one.body, "foot_radius_m", None):
@@ -102,11 +101,21 @@ def _patches(case, body: str, one: Drawing, meetings: list[Meeting], edges: list
     for face in sorted({edge.lower_face for edge in edges if edge.lower[0] == body}):
         points = [edge.points for edge in edges if edge.lower[0] == body and edge.lower_face == face]
         found[_surface_name(one.faces, face, "edge")] = edge_patch(one.faces[face], one.order, np.concatenate(points))
+    return found
+
+
+def _touched(case, body: str, drawings: dict[str, Drawing], touching: dict[str, dict[str, Patch]], meetings: list[Meeting], edges: list[Edge]) -> dict[str, Patch]:
+    """Nodes of a body as master by the names of its surfaces, all copies together: those near which points of its slaves may come."""
+    zones, one = {}, drawings[body]
+    for meeting in meetings:
+        if meeting.master and meeting.master[0] == body:
+            faces = drawings[meeting.slave[0]].faces
+            points = touching[meeting.slave[0]][_surface_name(faces, meeting.slave_face, "slave")].positions
+            zones.setdefault(meeting.master_face, set()).update(zones_of(case, meeting, faces[meeting.slave_face], points, one.faces[meeting.master_face]))
     for edge in edges:
         if edge.upper[0] == body:
-            masters.setdefault(edge.upper_face, set()).add(edge.zone)
-    found |= {_surface_name(one.faces, face, "master"): master_patch(one.faces[face], one.order, sorted(zones)) for face, zones in masters.items()}
-    return found
+            zones.setdefault(edge.upper_face, set()).add(edge.zone)
+    return {_surface_name(one.faces, face, "master"): master_patch(one.faces[face], one.order, sorted(each)) for face, each in zones.items()}
 
 
 def _surface_name(faces: list[Face], number: int, role: str) -> str:

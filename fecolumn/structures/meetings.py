@@ -24,8 +24,7 @@ class Meeting:
     """A face of a slave on a face of a master.
 
     interface: name of it. slave, master: body and number of its copy, master None for the ground. slave_face, master_face: places of the faces
-    in the lists of their bodies, master_face -1 of the ground. zone: rectangle (low 1, high 1, low 2, high 2) [m] of the master's face, along
-    its tangents in its drawing, in which the slave stands and may slide.
+    in the lists of their bodies, master_face -1 of the ground.
     """
 
     interface: str
@@ -33,7 +32,6 @@ class Meeting:
     slave_face: int
     master: tuple[str, int] | None
     master_face: int
-    zone: tuple[float, float, float, float]
 
 
 def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
@@ -100,9 +98,18 @@ def allowance_of(interface, face: Face) -> float:
     return min(box[1] - box[0], box[3] - box[2]) / 4 if interface.allowance_m is None else interface.allowance_m
 
 
+def zones_of(case, meeting: Meeting, slave: Face, points: np.ndarray, master: Face) -> list[tuple[float, float, float, float]]:
+    """Rectangles (low 1, high 1, low 2, high 2) [m] of the master's face, along its tangents in its drawing, in which points of the slave stand and may come: around each
+    side of the slave's outlines, along which a rim's points roll, and around each of its contact points (k, 3) [m], as far as it may slide."""
+    allowance, shift = allowance_of(case.interfaces[meeting.interface], slave), place_of(case, meeting.slave) - place_of(case, meeting.master)
+    spans = (np.concatenate([slave.outline, np.stack([points, points], axis=1)]) + shift) @ master.axes[:, :2]
+    low, high = spans.min(axis=1) - allowance, spans.max(axis=1) + allowance
+    return list(zip(low[:, 0], high[:, 0], low[:, 1], high[:, 1]))
+
+
 def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list[tuple[float, float, int]]]:
     """Meetings of two copies; and gap, slave's width [m] and slave's face of those faces that look at one another elsewhere."""
-    found, gaps, interface = [], [], case.interfaces[name]
+    found, gaps = [], []
     place = place_of(case, slave)
     for number, face in enumerate(faces[slave[0]]):
         box = plane_box(face)
@@ -111,7 +118,7 @@ def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list
             if face.normal[2] < -1 + _OPPOSITE:
                 gap = place[2] - face.offset
                 if abs(gap) <= SAME_PLANE * width:
-                    found.append(Meeting(name, slave, number, None, -1, (0.0, 0.0, 0.0, 0.0)))
+                    found.append(Meeting(name, slave, number, None, -1))
                 else:
                     gaps.append((gap, width, number))
             continue
@@ -124,9 +131,7 @@ def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list
             if not _overlap(face, corners, other):
                 continue
             if abs(gap) <= SAME_PLANE * width:
-                allowance = allowance_of(interface, face)
-                low, high = corners.min(axis=(0, 1)) - allowance, corners.max(axis=(0, 1)) + allowance
-                found.append(Meeting(name, slave, number, master, other_number, (low[0], high[0], low[1], high[1])))
+                found.append(Meeting(name, slave, number, master, other_number))
             else:
                 gaps.append((gap, width, number))
     return found, gaps

@@ -9,7 +9,7 @@ from fecolumn.contact.bodies import Bodies
 from fecolumn.contact.interface import INTERFACE
 from fecolumn.contact.joints import facets_of, is_convex, joints_of
 from fecolumn.contact.points import POINT
-from fecolumn.contact.projection import OFF, ON, project_on_body
+from fecolumn.contact.projection import OFF, ON, UNKNOWN, project_on_body
 from fecolumn.structures.model import GROUND, Surface
 from fecolumn.verification.boxes import box, joint, part
 
@@ -42,14 +42,16 @@ def test_a_rim_that_rolls_on_a_drum_stands_on_its_circle_between_the_nodes():
             assert interpreted(project_on_body)(bodies, made.interfaces[1], point, place * np.cos(angle), place * np.sin(angle)) == answer
 
 
-def grid_of(present, goes_on=False):
-    """Facets of unit squares, each two triangles, where `present` (n, m) is true; goes_on: no node is on an outline."""
+def grid_of(present, goes_on=False, known=True):
+    """Facets of unit squares, each two triangles, where `present` (n, m) is true; goes_on: no node is on an outline; known: False: of the nodes inside, too."""
     n, m = np.array(present).shape
     number = np.arange((n + 1) * (m + 1)).reshape(n + 1, m + 1)
     corners = np.array([(i, j, 0.0) for i in range(n + 1) for j in range(m + 1)])
     triangles = [three for i, j in zip(*np.nonzero(present)) for three in ((number[i, j], number[i + 1, j], number[i + 1, j + 1]),
                                                                          (number[i, j], number[i + 1, j + 1], number[i, j + 1]))]
     outlines = np.full(len(corners), not goes_on)
+    if not known:
+        outlines &= np.isin(corners[:, 0], (0, n)) | np.isin(corners[:, 1], (0, m))
     return facets_of(Surface(np.arange(len(corners)), np.zeros(3), np.eye(3), np.ones(len(corners)), outlines, np.array(triangles)), corners, 0)
 
 
@@ -60,6 +62,18 @@ def test_surfaces_without_corners_holes_and_parts_left_out_are_convex():
     assert not is_convex(grid_of([[1, 1], [1, 0]]))
     assert not is_convex(grid_of([[1, 1, 1], [1, 0, 1], [1, 1, 1]]))
     assert not is_convex(grid_of([[1, 1], [1, 1]], goes_on=True))
+    assert is_convex(grid_of([[1, 1, 1], [1, 0, 1], [1, 1, 1]], known=False))
+    assert not is_convex(grid_of([[1, 1, 1], [1, 0, 0], [1, 1, 1]], known=False))
+
+
+def test_points_over_nodes_that_lack_inside_a_surface_are_unknown_and_those_beyond_its_outline_off_it():
+    facets, rng = grid_of([[1, 1, 1], [1, 0, 1], [1, 1, 1]], known=False), np.random.default_rng(7)
+    interface = np.zeros(1, INTERFACE)
+    interface["facet_count"], interface["width"], interface["convex"] = len(facets), 1.0, True
+    bodies, point = Bodies(np.zeros(1), np.zeros((16, 3)), np.zeros((0, 0)), np.zeros((0, 0)), facets), np.zeros(1, POINT)[0]
+    for x, y in rng.uniform(-1, 4, (300, 2)):
+        answer = UNKNOWN if 1 < x < 2 and 1 < y < 2 else ON if 0 < x < 3 and 0 < y < 3 else OFF
+        assert interpreted(project_on_body)(bodies, interface[0], point, x, y) == answer
 
 
 def test_points_around_a_convex_surface_are_on_or_off_it_as_when_all_its_facets_are_looked_at():

@@ -87,3 +87,15 @@ def test_faces_meet_whose_nodes_all_lie_on_edges_of_the_others_elements():
                     deck=dict(kind="slab", length_m=20.0, width_m=4.0, thickness_m=2.5, element_order=1, at_m=[0, 0, 9.6]) | stone),
         interfaces=dict(feet=dict(slave="pier", on="ground"), heads=dict(slave="pier", on="deck")))
     assert len(layout_of(case, "case").contacts) == 4
+
+
+def test_a_face_is_known_to_contact_where_points_of_a_slave_may_come():
+    """Drums with contact points on their rims alone: 50 mm around the rim, not the middle of the head."""
+    drum = dict(kind="cylinder", outer_diameter_m=1.6, height_m=0.5, element_size_m=0.1, copies_m=[[0.0, 0.0, 0.0], [0.0, 0.0, 0.5]])
+    reach, known = {}, {}
+    for points in (0, 60):
+        case = structure(bodies=dict(drum=drum | dict(youngs_modulus_pa=50e9, poissons_ratio=0.2, density_kg_m3=2700.0)), contact=dict(interior_points=points),
+                         interfaces=dict(foot=dict(slave="drum", on="ground"), joint=dict(slave="drum", on="drum", allowance_m=0.05)))
+        head = layout_of(case, "case").patches["drum"]["head, master"]
+        reach[points], known[points] = np.hypot(*head.positions[:, :2].T).min(), len(head.positions)
+    assert reach[0] > 0.8 - 0.05 - 2 * 0.1 and reach[60] < 0.1 and known[0] < known[60] / 2
