@@ -16,6 +16,7 @@ from benchmarks.peers.install import SYSTEM_PYTHON
 from fecolumn.verification import boxes
 
 
+@pytest.mark.slow
 def test_without_siconos_two_small_problems_are_compared_and_it_is_said_how_to_install_it(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(friction, "SYSTEM_PYTHON", "/bin/false")
     monkeypatch.setattr(friction, "problems", lambda: [stack(1).problem("shake", 0.3), drum(8).problem("rest", 0.0)])

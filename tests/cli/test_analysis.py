@@ -92,7 +92,7 @@ def test_folder_of_another_case_is_refused_and_kept(whole, tmp_path, capsys):
     assert (out / "summary.json").read_bytes() == before
 
 
-@pytest.mark.parametrize("signal_, code", [(signal.SIGINT, 130), (signal.SIGTERM, 130), (signal.SIGKILL, -9)])
+@pytest.mark.parametrize("signal_, code", [(signal.SIGINT, 130), pytest.param(signal.SIGTERM, 130, marks=pytest.mark.slow), (signal.SIGKILL, -9)])
 def test_interrupted_and_resumed_equals_uninterrupted(whole, tmp_path, signal_, code):
     case = write_case(tmp_path, extra="[output]\nfields_every_s = 0.05\ncheckpoint_every_s = 0.05\n")
     out = tmp_path / "out"

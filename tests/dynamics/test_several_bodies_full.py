@@ -133,7 +133,7 @@ def test_internal_forces_neither_make_energy_nor_turn_a_body_that_spins_in_the_a
     assert np.linalg.norm(angular_momentum(run.state) - start) < 1e-4 * np.linalg.norm(start)
 
 
-@pytest.mark.parametrize("columns, order, steps", [(2, [2, 0, 1], 200), (4, [3, 1, 4, 0, 2], 120)])
+@pytest.mark.parametrize("columns, order, steps", [(2, [2, 0, 1], 200), pytest.param(4, [3, 1, 4, 0, 2], 120, marks=pytest.mark.slow)])
 def test_full_order_motion_does_not_depend_on_the_order_of_bodies_and_contacts(columns, order, steps):
     ground = pulse(4.0, 1.0, steps)
     first, other = (frame(columns, numbers).full().advance(ground)[0] for numbers in (None, order))

@@ -41,7 +41,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name == "order 2" else name for name in CASES])
 def test_stands_still_and_rocks_without_creating_energy(name, tmp_path):
     system = build_system(CASES[name](tmp_path), MPI.COMM_SELF)
     state = start = standing(system)

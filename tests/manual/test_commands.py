@@ -66,8 +66,8 @@ def test_every_fenced_block_has_a_language_that_is_tested():
         assert not any(fences[1::2]), page
 
 
-# the examples are seven analyses and two studies: a minute and a half
-@pytest.mark.parametrize("page", [pytest.param(page, marks=pytest.mark.slow) if page == "examples" else page for page in RUNNING])
+# the examples are seven analyses and two studies, a minute and a half; the first steps are a minute, and most of them are the README's, too
+@pytest.mark.parametrize("page", [pytest.param(page, marks=pytest.mark.slow) if page in ("examples", "quick-start") else page for page in RUNNING])
 def test_a_page_runs_from_top_to_bottom_at_small_size(page, tmp_path, monkeypatch):
     walk(page, tmp_path, monkeypatch, small=True)
 

@@ -37,6 +37,7 @@ def test_target_of_a_record_is_the_record():
     assert all(row.median == pytest.approx(row.target) and row.within for row in agreement([motion], target))
 
 
+@pytest.mark.slow
 def test_fitted_ensemble_has_the_record_in_its_median():
     motion, components = components_of_record(record())
     target = target_of_record(motion)

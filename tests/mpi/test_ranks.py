@@ -47,7 +47,7 @@ def _run(n, case, out):
         return json.loads((out / "summary.json").read_text()), history["u_top"][:], history["active_nodes"][:]
 
 
-@pytest.mark.parametrize("kinematics", ["corotated", "total_lagrangian"])
+@pytest.mark.parametrize("kinematics", ["corotated", pytest.param("total_lagrangian", marks=pytest.mark.slow)])
 def test_two_ranks_give_the_history_of_one(tmp_path, kinematics):
     time = np.arange(0, 0.5, 0.0025)
     rows = [f"{t:.4f},{0.4 * np.sin(25 * t):.6f},{0.3 * np.sin(33 * t):.6f}\n" for t in time]

@@ -28,7 +28,7 @@ def test_free_rocking_is_that_of_the_full_engine():
     assert created.sum() < 1e-7 and created.max() < 1e-9
 
 
-@pytest.mark.parametrize("alpha", [0.0, -0.1])
+@pytest.mark.parametrize("alpha", [0.0, pytest.param(-0.1, marks=pytest.mark.slow)])
 def test_shaken_column_slides_rocks_and_wobbles_as_in_the_full_engine(alpha):
     """Eight impacts and a slide in 0.2 s: top within 1e-3 of its peak; contact takes energy only."""
     system = system_of(integration={"dt_s": 1e-3, "alpha_hht": alpha}, base={"length_m": 0.4, "width_m": 0.4})
@@ -46,7 +46,7 @@ def test_shaken_column_slides_rocks_and_wobbles_as_in_the_full_engine(alpha):
     assert created.sum() < 1e-6 and created.max() < 3e-7
 
 
-@pytest.mark.parametrize("dt, alpha", [(0.02, 0.0), (0.02, -0.333), (1e-3, 0.0), (1e-3, -0.2), (1e-4, -0.05)])
+@pytest.mark.parametrize("dt, alpha", [(0.02, 0.0), pytest.param(0.02, -0.333, marks=pytest.mark.slow), (1e-3, 0.0), (1e-3, -0.2), (1e-4, -0.05)])
 def test_standing_column_neither_drifts_nor_gains_energy(dt, alpha):
     engine = reduced(system_of(integration={"dt_s": dt, "alpha_hht": alpha}))
     before = engine.motion.frames["center"].copy()
