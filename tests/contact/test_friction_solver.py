@@ -46,7 +46,7 @@ def test_interior_point_leads_into_the_cone_from_nothing():
     W, q = foot(60, 3)
     R, U = np.zeros_like(q), np.zeros_like(q)
     mu = np.full(len(q), 0.3)
-    forces, _ = approach(*in_cones(W, q, mu), mu, R, U, 40, np.empty(0))
+    forces, _ = approach(*in_cones(W, q, mu), mu, R, U, 30, np.empty(0))
     exact = solve_contact(W, q, 0.3, np.zeros_like(q), tolerance=1e-14).forces
     assert np.abs(forces - exact).max() < 1e-3 * np.abs(exact).max()
 
