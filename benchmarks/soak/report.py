@@ -18,7 +18,8 @@ from fecolumn.study.store import DONE, FAILED, read_study
 
 _WORST = 10
 _MEASURES = {"energy closure [-]": "energy_closure_rel", "share of cut steps [-]": "cut_share", "wall time [s]": "wall_s"}
-_EDGES = {"energy_closure_rel": (0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, np.inf),
+_EDGES = {"penetration_max_m": (0, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, np.inf),
+          "energy_closure_rel": (0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, np.inf),
           "cut_share": (0, 1e-12, 1e-4, 1e-3, 1e-2, 1e-1, np.inf)}
 # Analyses of a process before which its memory still takes up models and compiled code
 _WARM = 50

@@ -257,7 +257,7 @@ def stiffness_together(W, i):
 def iterate(W, q, friction, start, tolerance, near, sweeps):
     """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and others.
 
-    near: whether `start` is a good guess; else only where it presses counts.
+    near: whether `start` is a good guess, from which Newton is tried first; else where it presses counts first.
     """
     n, stiffest, give = len(q), np.inf, 0.0
     rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
@@ -269,10 +269,13 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     if n == 0:
         return start.copy(), 0.0, 0, 0
     best, least, iterations, others = start, np.inf, 0, 0
-    if near:
-        best, least, iterations = _newtons(W, q, friction, start, tolerance, rho_all, rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
-    if least > tolerance:
-        forces, residual, made = _newtons(W, q, friction, frictionless(W, q, start), tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
+    for way in range(2):
+        if least <= tolerance:
+            break
+        if near == (way == 0):
+            forces, residual, made = _newtons(W, q, friction, start, tolerance, rho_all, rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        else:
+            forces, residual, made = _newtons(W, q, friction, frictionless(W, q, start), tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual

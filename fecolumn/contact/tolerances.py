@@ -43,8 +43,9 @@ HELD_GIVE, HELD_STEPS, HELD_STALLED = 1e-4, 200, 60
 #: The same with slips frozen from solution to solution: points at most, of more a shorter step costs less; solutions, of which one on 18 points needed 70; and iterations
 #: of the interior point for each, some 25 but where rounding rules.
 FROZEN_POINTS, FROZEN_TURNS, FROZEN_INSIDE = 40, 200, 60
-#: Share of the way to the boundary of the cones in an interior iteration, that below which it gets no farther, and the residual, over the first one, that rounding leaves.
-INSIDE_WAY, INSIDE_JAMMED, INSIDE_END = 0.9, 1e-4, 1e-12
+#: Share of the way to the boundary of the cones in an interior iteration, that below which it gets no farther, and gap and residual, over the first ones, at which it is at
+#: its end: a point at the brink of slip has force and slip of the size of the gap's root, 1e-10 of the first.
+INSIDE_WAY, INSIDE_JAMMED, INSIDE_END = 0.99, 1e-4, 1e-20
 #: Least share of the middle of the cones that an interior iteration aims at, and the length that rounds the kink of |s_t|, over the mean length that is left to
 #: go: a hundredth hardly moves the slip of any point that slides.
 INSIDE_CENTRED, INSIDE_SMOOTH = 1e-4, 0.01
@@ -96,6 +97,9 @@ ROUND_NODES, ROUND = 12, 1e-6
 #: Inertia of the iteration to equilibrium over the rate of falling, squared: it only holds what contact and friction leave free. The contact's
 #: compliance leaves out that a tilt moves the weight; the iteration that mends this contracts by the inverse.
 FIRMNESS = 10.0
+#: Times that the inertia is made ten times as large where the iteration diverges. About the vertical it is a slender column's smallest, and horizontal forces on a wide
+#: flange, which the compliance keeps where they are, turn it further.
+FIRMER_TIMES = 2
 #: The same inertia over the square of the fastest frequency of the links: these answer the motion of an iteration at once, and it must not answer them as strongly.
 LINKS_FIRM = 4.0
 #: Displacement of an iteration, over the column's height, below which the column is at rest: ten thousand times the rounding of a position.
