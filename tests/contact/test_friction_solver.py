@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fecolumn.contact import coulomb
 from fecolumn.contact.friction import solve_contact
 from fecolumn.contact.interior_point import approach, in_cones
 
@@ -49,6 +50,16 @@ def test_interior_point_leads_into_the_cone_from_nothing():
     forces, _ = approach(*in_cones(W, q, mu), mu, R, U, 30, np.empty(0))
     exact = solve_contact(W, q, 0.3, np.zeros_like(q), tolerance=1e-14).forces
     assert np.abs(forces - exact).max() < 1e-3 * np.abs(exact).max()
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.3])
+def test_interior_point_goes_on_where_points_are_at_the_brink_of_slip(friction):
+    """Force and slip of such a point are both of the size of the gap's root: a method that ends at a gap of 1e-12 leaves 1e-8 of the slip."""
+    W, q = foot(24, 1, gaps=1e-10, slip=1e-7 if friction == 0.1 else 4e-7)
+    mu = np.full(len(q), friction)
+    forces, _ = approach(*in_cones(W, q, mu), mu, np.zeros_like(q), np.zeros_like(q), 60, np.empty(0))
+    stiffness = 3 / np.diag(W).reshape(-1, 3).sum(axis=1)
+    assert coulomb.violation(coulomb.slips_and_gaps(W, q, forces), forces, mu, stiffness) < 1e-9 * np.abs(q).max()
 
 
 def test_points_on_the_boundary_of_the_cone_end_the_interior_point_in_peace():
