@@ -20,6 +20,7 @@ NAMES = ("specimen", "engine", "modes", "law", "penalty", "friction", "restituti
          "peak", "time_scale", "rotation", "begin", "delay", "vertical", "resample", "start", "tilt", "direction", "speed", "spin", "pad", "pad_shear",
          "pad_damping", "cap")
 _FAMILIES = {"none": 2, "lick": 3, "records": 2, "near-fault": 2, "three components": 1, "pulses": 2}
+_LAWS = {"augmented_lagrange": 4, "penalty": 1}
 _COARSEST, _FINEST = 0.03, 2e-4  # steps [s]
 _FEWEST, _MOST = 10, 80  # steps of an analysis: what fails does so where contacts come and go, of which each has many
 _MODES = (1, 3, 10, 30, 100)
@@ -86,7 +87,7 @@ def _integration(draw: Draw, specimen: Specimen) -> dict:
 
 def _contact(draw: Draw, specimen: Specimen) -> dict:
     table = {"friction_coefficient": draw.log("friction", 0.03, 2.0)}
-    if draw.one_of("law", {"augmented_lagrange": 4, "penalty": 1}) == "penalty":
+    if draw.one_of("law", _LAWS) == "penalty":
         table |= {"law": "penalty", "penalty_factor": draw.log("penalty", 1, 1e4)}
     if specimen.base != "pad":
         table["restitution"] = draw.rarely("restitution", 0.35, lambda one: one.even("restitution", 0, 1))
@@ -139,6 +140,12 @@ def _motion(draw: Draw, specimen: Specimen, family: str, source: str, dt: float)
     if coarser := draw.rarely("resample", 0.15, lambda one: 2 + one.place("resample", 3)):
         table["resample_s"] = coarser * dt
     return table
+
+
+def is_hard(number: int, seed: int, columns: list[Specimen]) -> bool:
+    """Whether the points of an analysis are not meant to sink in: neither a pad nor a penalty."""
+    draw = _draws(number // BLOCK, seed)[number % BLOCK]
+    return columns[draw.place("specimen", len(columns))].base != "pad" and draw.one_of("law", _LAWS) != "penalty"
 
 
 def _simple_ratio(ratio: float) -> float:

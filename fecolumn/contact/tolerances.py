@@ -32,7 +32,7 @@ ITERATIONS = 25
 NEWTON_STEPS, NEWTON_STALLED = 25, 6
 #: The same from frictionless forces, from where Newton finds its way late rather than never.
 FAR_STEPS, FAR_STALLED = 60, 15
-#: Points above which an interior point helps; its iterations before Newton's first try, between two tries, and at most.
+#: Points above which those that carry are solved for alone; iterations of an interior point before Newton's first try, between two tries, and at most.
 FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 8, 4, 60
 #: Compliance against a change of force in a Newton step from inside, over the softest point's own: forces that W leaves open stay, others converge by
 #: this over their own compliance in a step.
