@@ -288,9 +288,9 @@ def cut_text(file, end_s: float, motion_s: float) -> str:
 
 
 def energy_closure(rows: dict) -> float:
-    """Largest closure error relative to the largest mechanical energy that moved [-].
+    """Largest closure error relative to the largest energy that moved, or is held [-].
 
-    Reference is the largest of kinetic energy, swing of the gravity energy, and work of the base motion.
+    Reference is the largest of kinetic energy, swing of the gravity energy, work of the base motion, and strain energy: that which a standing structure holds where nothing moves.
     """
-    moved = max(rows["energy/kinetic"].max(), np.ptp(rows["energy/gravity"]), np.abs(rows["energy/base_work"]).max())
+    moved = max(rows["energy/kinetic"].max(), np.ptp(rows["energy/gravity"]), np.abs(rows["energy/base_work"]).max(), np.max(rows.get("energy/strain", 0.0)))
     return float(np.abs(rows["energy/closure"]).max() / moved) if moved > 0 else 0.0

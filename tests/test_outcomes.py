@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from fecolumn import simulation
+from fecolumn.analysis import energy_closure
 from fecolumn.case import case_from_tables, read_case, read_toml
 from fecolumn.cli import main
 from fecolumn.schema import InputError, merge
@@ -165,3 +166,10 @@ def test_strong_motion_overturns_in_both_engines_at_the_same_time(tmp_path):
     assert reduced["tilt_max_rad"] == pytest.approx(full["tilt_max_rad"], rel=0.01)
     assert (reduced["critical_tilt_rad"], reduced["u_critical_m"], reduced["energy_to_overturn_j"]) == pytest.approx(
         (full["critical_tilt_rad"], full["u_critical_m"], full["energy_to_overturn_j"]), rel=1e-9)
+
+
+def test_energy_closure_of_what_does_not_move_is_relative_to_the_energy_that_it_holds():
+    still, strained = np.zeros(3), np.full(3, 1e-4)
+    rows = {"energy/kinetic": still, "energy/gravity": still - 2e-4, "energy/base_work": still, "energy/strain": strained, "energy/closure": np.array([0.0, 1e-20, -2e-20])}
+    assert energy_closure(rows) == pytest.approx(2e-16)
+    assert energy_closure(rows | {"energy/kinetic": still + 2.0}) == pytest.approx(1e-20)

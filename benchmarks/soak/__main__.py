@@ -5,7 +5,7 @@
     python -m benchmarks.soak -o results/soak --report                  # what has come of it so far
     python -m benchmarks.soak -o results/soak --only 1234               # one of them alone, into results/soak/only-1234
 
-An analysis takes a second or so: 10^5 take a day and a night on one core. Models of the specimens are kept in FECOLUMN_CACHE, or ~/.cache/fecolumn.
+Analyses are short, a tenth of a second each: 10^5 take about three hours of processor time, and the models of the first hundreds some minutes. Models of the specimens are kept in FECOLUMN_CACHE, or ~/.cache/fecolumn.
 """
 
 from __future__ import annotations

@@ -40,6 +40,12 @@ def write_motions(folder: Path) -> dict[str, list[str]]:
 
 
 @functools.cache
+def sampling(source: str) -> float:
+    """Time step of a source [s]."""
+    return read_motion(Motion(source), "benchmarks.soak").dt
+
+
+@functools.cache
 def peak(source: str) -> float:
     """Largest horizontal acceleration of a source [m/s2]."""
     return float(np.hypot(*read_motion(Motion(source), "benchmarks.soak").acceleration[:, :2].T).max())

@@ -11,14 +11,16 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.soak.cases import case_of
+from benchmarks.soak.cases import case_of, is_hard
 from benchmarks.soak.drive import block_folder
+from benchmarks.soak.specimens import specimens as all_specimens
 from benchmarks.soak.watch import NAME
 from fecolumn.study.store import DONE, FAILED, read_study
 
 _WORST = 10
 _MEASURES = {"energy closure [-]": "energy_closure_rel", "share of cut steps [-]": "cut_share", "wall time [s]": "wall_s"}
-_EDGES = {"energy_closure_rel": (0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, np.inf),
+_EDGES = {"penetration_max_m": (0, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, np.inf),
+          "energy_closure_rel": (0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, np.inf),
           "cut_share": (0, 1e-12, 1e-4, 1e-3, 1e-2, 1e-1, np.inf)}
 # Analyses of a process before which its memory still takes up models and compiled code
 _WARM = 50
@@ -26,7 +28,7 @@ _WARM = 50
 
 def report(folder: Path, seed: int, specimens: int) -> int:
     """Print it, and write the cases of the worst and of the failed into `worst` and `failed`; 0 where none failed or was lost."""
-    rows, planned = rows_of(folder)
+    (rows, planned), columns = rows_of(folder), all_specimens(specimens)
     states = collections.Counter(row["state"] for row in rows)
     done, failed = ([row for row in rows if row["state"] == state] for state in (DONE, FAILED))
     print(f"{planned} planned, {len(rows)} in ledgers: {', '.join(f'{count} {state}' for state, count in states.items())}; {planned - len(rows)} lost")
@@ -38,7 +40,8 @@ def report(folder: Path, seed: int, specimens: int) -> int:
     cut = sum(row["summary"]["cuts"] for row in done)
     print(f"{steps} steps, {cut} cuts ({cut / max(steps, 1):.2e}) in {sum(row['summary']['cuts'] > 0 for row in done)} analyses")
     for key, edges in _EDGES.items():
-        print(f"\n{key}\n" + histogram([row["summary"][key] for row in done], edges))
+        counted = done if key != "penetration_max_m" else [row for row in done if is_hard(row["axes"]["number"], seed, columns)]
+        print(f"\n{key}\n" + histogram([row["summary"][key] for row in counted], edges))
     _print_growth(folder, done)
     reasons = collections.defaultdict(list)
     for row in failed:

@@ -61,7 +61,7 @@ def _specimen(draw: Draw) -> Specimen:
               "material": {"youngs_modulus_pa": draw.log("modulus", 1e9, 2.1e11), "poissons_ratio": draw.even("poisson", 0, 0.45), "density_kg_m3": density},
               "base": {"kind": draw.one_of("base", {"plate": 2, "unbounded": 1, "pad": 1}), "youngs_modulus_pa": draw.log("base_modulus", 1e9, 2.1e11)}}
     tables["mesh"] = _mesh(column)
-    tables["contact"] = {"interior_points": draw.one_of("points", {16: 3, 64: 1})}
+    tables["contact"] = {"interior_points": draw.one_of("points", {0: 4, 16: 3, 64: 1})}
     width, whole = min(side, other), height
     if times := draw.rarely("cap", 0.3, lambda one: one.even("cap", 1.05, 2.0)):
         tables["cap"] = {"length_m": _short(side * times), "width_m": _short(side * times), "thickness_m": _short(0.1 * side)}

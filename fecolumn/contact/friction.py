@@ -8,8 +8,10 @@ import numpy as np
 
 from fecolumn._compiled import compiled, njit
 from fecolumn.contact import tolerances
-from fecolumn.contact.arrays import flat, marked, put, put_points
+from fecolumn.contact.arrays import marked
+from fecolumn.contact.coulomb import in_cone, law_error, slips_and_gaps, violation
 from fecolumn.contact.interior_point import approach, in_cones
+from fecolumn.contact.newton import newton_steps, solve_in_place, stiffness_together
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,62 +22,6 @@ class ContactSolution:
     residual: float
     iterations: int
     sweeps: int
-
-
-@njit
-def slips_and_gaps(W, q, forces):
-    """W r + q as (n, 3)."""
-    n, result = len(q), np.empty((len(q), 3))
-    if n > 8:
-        put_points(W @ flat(forces), result)
-        for i in range(n):
-            for a in range(3):
-                result[i, a] += q[i, a]
-        return result
-    # so small, a call of BLAS costs more than the product
-    for i in range(n):
-        for a in range(3):
-            result[i, a] = q[i, a]
-            line = W[3 * i + a]
-            for j in range(n):
-                result[i, a] += line[3 * j] * forces[j, 0] + line[3 * j + 1] * forces[j, 1] + line[3 * j + 2] * forces[j, 2]
-    return result
-
-
-@njit
-def in_cone(x, y, normal, friction):
-    """Coulomb's projection of a trial force: its normal part not below 0, its tangential part not above friction times that."""
-    normal = max(0.0, normal)
-    length = np.sqrt(x * x + y * y)
-    if length > friction * normal:
-        share = friction * normal / length
-        return x * share, y * share, normal
-    return x, y, normal
-
-
-@njit
-def law_error(r0, r1, r2, s0, s1, s2, stiffness, friction):
-    """Violation of the contact laws by a force r and a slip and gap s [m]: distance of r from the projection of r - stiffness s, over stiffness.
-
-    Zero exactly when gap >= 0, r_n >= 0, r_n gap = 0, |r_t| <= friction r_n and slip is opposed by r_t.
-    """
-    x, y, normal = in_cone(r0 - stiffness * s0, r1 - stiffness * s1, r2 - stiffness * s2, friction)
-    return np.sqrt((r0 - x) ** 2 + (r1 - y) ** 2 + (r2 - normal) ** 2) / stiffness
-
-
-@njit
-def natural_residual(W, q, forces, friction, rho):
-    """Largest violation of the contact laws [m], see `law_error`; rho: (n,) stiffness by which it is measured [N/m]."""
-    return _violation(slips_and_gaps(W, q, forces), forces, friction, rho)
-
-
-@njit
-def _violation(relative, forces, friction, rho):
-    """As `natural_residual`, of known slips and gaps (n, 3)."""
-    worst = 0.0
-    for i in range(len(forces)):
-        worst = max(worst, law_error(forces[i, 0], forces[i, 1], forces[i, 2], relative[i, 0], relative[i, 1], relative[i, 2], rho[i], friction[i]))
-    return worst
 
 
 @njit
@@ -135,155 +81,128 @@ def frictionless(W, q, start):
 
 
 @njit
-def newton_step(W, q, forces, relative, friction, rho, give):
-    """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular.
-
-    relative: (n, 3) slips and gaps under the forces.
-
-    give: compliance [m/N] of each point against a change of its force, in this step alone: 0, or little where W leaves open which of many points
-    carry. The laws are not softened by it: where the forces change no more, it plays no part.
-
-    With d the direction of the trial force and e across it, a slipping point has r_t = mu r_n d + y e. Linearised in r_t, r_n and the
-    slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c = mu r_n / |trial|: two unknowns, three for a sticking point.
-    """
-    n = len(q)
-    trial, updated = np.empty((n, 3)), np.zeros((n, 3))
-    for i in range(n):
-        for a in range(3):
-            trial[i, a] = forces[i, a] - rho[i] * relative[i, a]
-    # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or gap along test[u]
-    point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
-    stiffening, count = np.zeros(3 * n), 0
-    for i in range(n):
-        if not trial[i, 2] > 0:
-            continue
-        mu = friction[i]
-        if mu == 0.0:
-            point[count], basis[count, 2], test[count, 2] = i, 1.0, 1.0
-            count += 1
-            continue
-        length = np.hypot(trial[i, 0], trial[i, 1])
-        if length <= mu * trial[i, 2]:
-            for a in range(3):
-                point[count] = i
-                basis[count, a] = test[count, a] = 1.0
-                count += 1
-            continue
-        x, y = trial[i, 0] / length, trial[i, 1] / length
-        share = min(mu * max(forces[i, 2], 0.0) / length, 1.0)
-        point[count] = point[count + 1] = i
-        basis[count, 0], basis[count, 1], basis[count, 2] = mu * x, mu * y, 1.0
-        test[count, 2] = 1.0
-        basis[count + 1, 0], basis[count + 1, 1] = -y, x
-        # of the size of the others' equations
-        test[count + 1, 0], test[count + 1, 1] = -share * y, share * x
-        stiffening[count + 1] = (1 - share) / rho[i]
-        count += 2
-    if count == 0:
-        return updated, True
-    line, matrix, right = np.empty(3 * n), np.empty((count, count)), np.empty(count)
-    for u in range(count):
-        row, x, y, z = 3 * point[u], test[u, 0], test[u, 1], test[u, 2]
-        right[u] = 0.0
-        for a in range(3):
-            right[u] -= test[u, a] * (q[point[u], a] - give * forces[point[u], a])
-        first, second, third = W[row], W[row + 1], W[row + 2]
-        for j in range(3 * n):
-            line[j] = x * first[j] + y * second[j] + z * third[j]
-        for v in range(count):
-            column = 3 * point[v]
-            matrix[u, v] = basis[v, 0] * line[column] + basis[v, 1] * line[column + 1] + basis[v, 2] * line[column + 2]
-        # the unknowns of a point are beside each other
-        for v in range(max(u - 2, 0), min(u + 3, count)):
-            if point[v] == point[u]:
-                matrix[u, v] += give * (x * basis[v, 0] + y * basis[v, 1] + z * basis[v, 2])
-        matrix[u, u] += stiffening[u]
-    if not solve_in_place(matrix, right):
-        return updated, False
-    for u in range(count):
-        for a in range(3):
-            updated[point[u], a] += right[u] * basis[u, a]
-    return updated, True
-
-
-@njit
-def solve_in_place(matrix, right):
-    """Solve by Gaussian elimination with row pivoting, LAPACK where it pays; overwrites both, False where singular."""
-    n = len(right)
-    if n > 40:
-        try:
-            put(np.linalg.solve(matrix, right), right)
-        except Exception:
-            return False
-        return True
-    for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(matrix[i, k]) > abs(matrix[pivot, k]):
-                pivot = i
-        if matrix[pivot, k] == 0.0:
-            return False
-        if pivot != k:
-            for j in range(k, n):
-                matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
-            right[k], right[pivot] = right[pivot], right[k]
-        inverse = 1 / matrix[k, k]
-        for i in range(k + 1, n):
-            factor = matrix[i, k] * inverse
-            if factor != 0.0:
-                for j in range(k + 1, n):
-                    matrix[i, j] -= factor * matrix[k, j]
-                right[i] -= factor * right[k]
-    for i in range(n - 1, -1, -1):
-        value = right[i]
-        for j in range(i + 1, n):
-            value -= matrix[i, j] * right[j]
-        right[i] = value / matrix[i, i]
-    return True
-
-
-@njit(fastmath={"reassoc", "contract"})
-def stiffness_together(W, i):
-    """Stiffness [N/m] of point i when all points move: it is less than alone, with which each would seem to slip to and fro."""
-    total = 0.0
-    for a in range(3):
-        row = W[3 * i + a]
-        for j in range(len(row)):
-            total += abs(row[j])
-    return 3 / total
-
-
-@njit
 def iterate(W, q, friction, start, tolerance, near, sweeps):
     """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and others.
 
-    near: whether `start` is a good guess; else only where it presses counts.
+    near: whether `start` is a good guess, from which Newton is tried first.
     """
-    n, stiffest, give = len(q), np.inf, 0.0
-    rho, rho_t, rho_all = np.empty(n), np.empty(n), np.empty(n)
-    for i in range(n):
-        xx, yy, zz = W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1], W[3 * i + 2, 3 * i + 2]
-        rho[i], rho_t[i] = 3 / (xx + yy + zz), 1 / np.hypot(xx, yy)
-        rho_all[i] = stiffness_together(W, i)
-        stiffest, give = min(stiffest, rho[i]), max(give, tolerances.GIVE / rho[i])
+    n, best, least, iterations, others = len(q), start.copy(), np.inf, 0, 0
     if n == 0:
-        return start.copy(), 0.0, 0, 0
-    best, least, iterations, others = start, np.inf, 0, 0
+        return best, 0.0, 0, 0
+    rho, rho_all = _stiffnesses(W)
     if near:
-        best, least, iterations = _newtons(W, q, friction, start, tolerance, rho_all, rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        best, least, iterations = newton_steps(W, q, friction, start, tolerance, rho_all, rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+    if least <= tolerance:
+        return best, least, iterations, others
+    # few of many points carry: those that do without friction, and those that sink where these do
+    forces, taken, grown = frictionless(W, q, start), np.empty(n, np.bool_), True
+    for i in range(n):
+        taken[i] = n <= tolerances.FEW_POINTS or forces[i, 2] > 0
+    while grown and least > tolerance:
+        made, more = _find_some(W, q, friction, forces, start, marked(taken), tolerance, sweeps)
+        iterations += made
+        others += more
+        relative = slips_and_gaps(W, q, forces)
+        residual, grown = violation(relative, forces, friction, rho), False
+        if residual < least:
+            best, least = forces.copy(), residual
+        for i in range(n):
+            if not taken[i] and law_error(0.0, 0.0, 0.0, relative[i, 0], relative[i, 1], relative[i, 2], rho[i], friction[i]) > tolerance:
+                taken[i] = grown = True
+    if least > tolerance and n > tolerances.FEW_POINTS:
+        forces, residual, made, more = _one_by_one(W, q, friction, rho, tolerance, sweeps)
+        iterations += made
+        others += more
+        if residual < least:
+            best, least = forces, residual
+    return best, least, iterations, others
+
+
+@njit
+def _one_by_one(W, q, friction, rho, tolerance, sweeps):
+    """As `iterate`, from no forces at all: the point that obeys the laws least is taken in, one after the other; one that then carries nothing is let go, but
+    not again and again. Each problem is near to the last, and its solution a good guess."""
+    n, least, iterations, others = len(q), np.inf, 0, 0
+    forces, best, taken, gone = np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n, np.bool_), np.zeros(n, np.int64)
+    for _ in range(tolerances.ONE_BY_ONE):
+        relative, residual, farthest, most = slips_and_gaps(W, q, forces), 0.0, -1, tolerance
+        for i in range(n):
+            error = law_error(forces[i, 0], forces[i, 1], forces[i, 2], relative[i, 0], relative[i, 1], relative[i, 2], rho[i], friction[i])
+            residual = max(residual, error)
+            if not taken[i] and error > most:
+                farthest, most = i, error
+        if residual < least:
+            best, least = forces.copy(), residual
+        if least <= tolerance or farthest < 0:
+            break
+        taken[farthest] = True
+        made, more = _find_some(W, q, friction, forces, forces, marked(taken), tolerance, sweeps)
+        iterations += made
+        others += more
+        for i in range(n):
+            if taken[i] and forces[i, 2] <= 0 and gone[i] < tolerances.LET_GO:
+                taken[i] = False
+                gone[i] += 1
+    return best, least, iterations, others
+
+
+@njit
+def _stiffnesses(W):
+    """Stiffness (n,) [N/m] of each point alone, and of each when all move."""
+    n = len(W) // 3
+    alone, together = np.empty(n), np.empty(n)
+    for i in range(n):
+        alone[i] = 3 / (W[3 * i, 3 * i] + W[3 * i + 1, 3 * i + 1] + W[3 * i + 2, 3 * i + 2])
+        together[i] = stiffness_together(W, i)
+    return alone, together
+
+
+@njit
+def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps):
+    """Put forces that obey the laws on the listed points (k,), the others open, in place of `forces` (n, 3): iterations of Newton and others."""
+    k = len(listed)
+    inner, slack, mu, guess, first = np.empty((3 * k, 3 * k)), np.empty((k, 3)), np.empty(k), np.empty((k, 3)), np.empty((k, 3))
+    for u in range(k):
+        i = listed[u]
+        mu[u] = friction[i]
+        for a in range(3):
+            slack[u, a], guess[u, a], first[u, a] = q[i, a], forces[i, a], start[i, a]
+            for v in range(k):
+                for b in range(3):
+                    inner[3 * u + a, 3 * v + b] = W[3 * i + a, 3 * listed[v] + b]
+    found, _, iterations, others = _by_all_ways(inner, slack, mu, guess, first, tolerance, sweeps)
+    forces[:] = 0.0
+    for u in range(k):
+        for a in range(3):
+            forces[listed[u], a] = found[u, a]
+    return iterations, others
+
+
+@njit
+def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps):
+    """Forces (n, 3) by one way after the other, residual, Newton iterations and others; guess, start: (n, 3) from which Newton is tried."""
+    n, stiffest, give = len(q), np.inf, 0.0
+    if n == 0:
+        return guess, 0.0, 0, 0
+    (rho, rho_all), rho_t = _stiffnesses(W), np.empty(n)
+    for i in range(n):
+        rho_t[i] = 1 / np.hypot(W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1])
+        stiffest, give = min(stiffest, rho[i]), max(give, tolerances.GIVE / rho[i])
+    others = 0
+    best, least, iterations = newton_steps(W, q, friction, guess, tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
     if least > tolerance:
-        forces, residual, made = _newtons(W, q, friction, frictionless(W, q, start), tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
+        forces, residual, made = newton_steps(W, q, friction, start, tolerance, rho_all, rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
-    if least > tolerance and n > tolerances.FEW_POINTS:
+    if least > tolerance:
         A, Q = in_cones(W, q, friction)
         R, U, inside, most = np.zeros((n, 3)), np.zeros((n, 3)), 0, tolerances.INSIDE_FIRST
         while inside < tolerances.INSIDE_MOST:
             forces, made = approach(A, Q, friction, R, U, most, np.empty(0))
             inside += made
             # from inside Newton needs a step or two when the active set is right, and costs a tenth
-            forces, residual, newtons = _newtons(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
+            forces, residual, newtons = newton_steps(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
             iterations += newtons
             if residual < least:
                 best, least = forces, residual
@@ -295,7 +214,7 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     while least > tolerance and count <= sweeps:
         forces = best.copy()
         others += gauss_seidel(W, q, forces, friction, rho_t, count, tolerance * stiffest)
-        forces, residual, made = _newtons(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        forces, residual, made = newton_steps(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
@@ -303,11 +222,11 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     if least > tolerance:
         # many small steps, each held by a compliance against change: they end where the active sets of all other ways cycle
         held = give * tolerances.HELD_GIVE / tolerances.GIVE
-        forces, residual, made = _newtons(W, q, friction, best, tolerance, rho, rho, held, tolerances.HELD_STEPS, tolerances.HELD_STALLED)
+        forces, residual, made = newton_steps(W, q, friction, best, tolerance, rho, rho, held, tolerances.HELD_STEPS, tolerances.HELD_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
-    if least > tolerance and tolerances.FEW_POINTS < n <= tolerances.FROZEN_POINTS:
+    if least > tolerance and n <= tolerances.FROZEN_POINTS:
         forces, residual, made, inside = _with_frozen_slips(W, q, friction, tolerance, rho, give)
         iterations += made
         others += inside
@@ -330,7 +249,7 @@ def _with_frozen_slips(W, q, friction, tolerance, rho, give):
         relative = slips_and_gaps(W, q, forces)
         for i in range(n):
             slips[i] = np.hypot(relative[i, 0], relative[i, 1])
-        forces, residual, made = _newtons(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
+        forces, residual, made = newton_steps(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
         iterations += made
         others += inside
         if residual < least:
@@ -338,26 +257,6 @@ def _with_frozen_slips(W, q, friction, tolerance, rho, give):
         if least <= tolerance:
             break
     return best, least, iterations, others
-
-
-@njit
-def _newtons(W, q, friction, start, tolerance, rho, rho_alone, give, most, patience):
-    """Newton steps until the tolerance is met, or the residual has not fallen for more than `patience`: best forces, residual, steps made."""
-    forces, least, stalled, made = start, np.inf, 0, 0
-    best = start
-    while True:
-        relative = slips_and_gaps(W, q, forces)
-        residual = _violation(relative, forces, friction, rho_alone)
-        stalled += 1
-        if residual < least:
-            best, least, stalled = forces, residual, 0
-        if residual <= tolerance or stalled > patience or made == most:
-            break
-        forces, regular = newton_step(W, q, forces, relative, friction, rho, give)
-        if not regular:
-            break
-        made += 1
-    return best.copy(), least, made
 
 
 def solve_contact(W, q, mu, start, tolerance: float = 1e-12, sweeps: int = tolerances.SWEEPS_MOST) -> ContactSolution:
@@ -370,8 +269,9 @@ def solve_contact(W, q, mu, start, tolerance: float = 1e-12, sweeps: int = toler
         start: (n, 3) [N] first guess.
         tolerance: residual at convergence [m].
 
-    Semismooth Newton, stick and slip judged by the stiffness of all points together; where its active set cycles, the frictionless
-    forces, an interior point and, should they fail, Gauss-Seidel sweeps give it a better start. The residual returned
+    Semismooth Newton, stick and slip judged by the stiffness of all points together. Where its active set cycles, the points that press without
+    friction, and those that sink where these carry, are a smaller problem: Newton from there, an interior point and, should they fail, Gauss-Seidel
+    sweeps and slower ways; at last the points are taken in one by one. The residual returned
     is the true one: the caller decides what to do with a solution that has not converged.
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))

@@ -16,7 +16,8 @@ from fecolumn.contact.arrays import put, put_points
 from fecolumn.contact.projection import ON, UNKNOWN, project
 from fecolumn.contact.compliance import assemble, even_out
 from fecolumn.contact.displacement import static_displacement
-from fecolumn.contact.friction import iterate, law_error, slips_and_gaps
+from fecolumn.contact.coulomb import law_error, slips_and_gaps
+from fecolumn.contact.friction import iterate
 from fecolumn.contact.pad import indent
 from fecolumn.contact.stick import find_stick, solve_sticking
 from fecolumn.contact.tolerances import CLOSE, EXACT, NEAR, PENETRATION, SHARE, SHARP, SOLVED, SWEEPS_MOST, USABLE

@@ -14,7 +14,8 @@ import numpy as np
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
 from fecolumn.contact.compliance import assemble
-from fecolumn.contact.friction import law_error, solve_in_place, stiffness_together
+from fecolumn.contact.coulomb import law_error
+from fecolumn.contact.newton import solve_in_place, stiffness_together
 from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.tolerances import PAD_TURN, STICK_TURN, STICK_WAY
 
@@ -91,7 +92,7 @@ def find_stick(stick, bodies, base, points, springs, dynamic, rigid, rims, poses
 
 @njit
 def solve_sticking(stick, points, slack, active, after, tolerance, usable):
-    """Contact forces by semismooth Newton on the slips of the points that do not stick; as `friction.newton_step`.
+    """Contact forces by semismooth Newton on the slips of the points that do not stick; as `newton.newton_step`.
 
     Args:
         slack: (n, 3) slips and gaps [m] under the forces of `after`, which are replaced where the residual is `usable`. active: (n,) mask; the

@@ -32,7 +32,7 @@ ITERATIONS = 25
 NEWTON_STEPS, NEWTON_STALLED = 25, 6
 #: The same from frictionless forces, from where Newton finds its way late rather than never.
 FAR_STEPS, FAR_STALLED = 60, 15
-#: Points above which an interior point helps; its iterations before Newton's first try, between two tries, and at most.
+#: Points above which those that carry are solved for alone; iterations of an interior point before Newton's first try, between two tries, and at most.
 FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 8, 4, 60
 #: Compliance against a change of force in a Newton step from inside, over the softest point's own: forces that W leaves open stay, others converge by
 #: this over their own compliance in a step.
@@ -43,8 +43,11 @@ HELD_GIVE, HELD_STEPS, HELD_STALLED = 1e-4, 200, 60
 #: The same with slips frozen from solution to solution: points at most, of more a shorter step costs less; solutions, of which one on 18 points needed 70; and iterations
 #: of the interior point for each, some 25 but where rounding rules.
 FROZEN_POINTS, FROZEN_TURNS, FROZEN_INSIDE = 40, 200, 60
-#: Share of the way to the boundary of the cones in an interior iteration, that below which it gets no farther, and the residual, over the first one, that rounding leaves.
-INSIDE_WAY, INSIDE_JAMMED, INSIDE_END = 0.9, 1e-4, 1e-12
+#: Points taken in one by one at most, and times that each is let go again: eight problems of the soak which no other way had solved needed 7 to 46.
+ONE_BY_ONE, LET_GO = 60, 2
+#: Share of the way to the boundary of the cones in an interior iteration, that below which it gets no farther, and gap and residual, over the first ones, at which it is at
+#: its end: a point at the brink of slip has force and slip of the size of the gap's root, 1e-10 of the first.
+INSIDE_WAY, INSIDE_JAMMED, INSIDE_END = 0.9, 1e-4, 1e-20
 #: Least share of the middle of the cones that an interior iteration aims at, and the length that rounds the kink of |s_t|, over the mean length that is left to
 #: go: a hundredth hardly moves the slip of any point that slides.
 INSIDE_CENTRED, INSIDE_SMOOTH = 1e-4, 0.01
@@ -96,6 +99,9 @@ ROUND_NODES, ROUND = 12, 1e-6
 #: Inertia of the iteration to equilibrium over the rate of falling, squared: it only holds what contact and friction leave free. The contact's
 #: compliance leaves out that a tilt moves the weight; the iteration that mends this contracts by the inverse.
 FIRMNESS = 10.0
+#: Times that the inertia is made ten times as large where the iteration diverges. About the vertical it is a slender column's smallest, and horizontal forces on a wide
+#: flange, which the compliance keeps where they are, turn it further.
+FIRMER_TIMES = 2
 #: The same inertia over the square of the fastest frequency of the links: these answer the motion of an iteration at once, and it must not answer them as strongly.
 LINKS_FIRM = 4.0
 #: Displacement of an iteration, over the column's height, below which the column is at rest: ten thousand times the rounding of a position.

@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn._compiled import interpreted
 from fecolumn.contact.problem import FAR_BASE, OK
-from fecolumn.contact.tolerances import LINKS_FIRM
+from fecolumn.contact.tolerances import FIRMER_TIMES, LINKS_FIRM
 from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
 from fecolumn.dynamics.links import end_links, fastest
 from fecolumn.reduced import motion as motions
@@ -20,11 +20,8 @@ def standing(engine) -> motions.Motion:
     Raises:
         NoEquilibrium: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
-    structure, work, centers = engine.structure, engine.work, engine.eye.center
-    bodies, start, end = structure.bodies.body, engine.motion_at_rest(), engine.motion_at_rest()
-    start.frames["center"] = centers
-    start.contact["anchor"] = engine.places(centers, start.rotation)[:, :2]
-    start.ties["length"] = engine.link_lengths(centers, start.rotation)
+    structure, centers = engine.structure, engine.eye.center
+    bodies = structure.bodies.body
     weight = bodies["mass"].sum() * np.linalg.norm(structure.gravity)
     # of a dome the place of contact moves by its radius times the tilt, as far as the centre of mass at that height would
     levers = [max(np.abs(structure.bodies.arms[body["first"]:body["first"] + body["count"], 2]).max(),
@@ -33,8 +30,26 @@ def standing(engine) -> motions.Motion:
     # links answer the motion of a step at once: the motion must not answer them as strongly
     held = [(body["mass"], body["inertia"], center, np.eye(3)) for body, center in zip(bodies, centers)]
     firmness = max(firmness, LINKS_FIRM * fastest(structure.links, structure.links["stiffness"], held)[0])
-    resting = resting_scheme(structure, engine.points, firmness)
+    for time in range(FIRMER_TIMES):
+        try:
+            return _settled(engine, 10.0**time * firmness)
+        except _Diverged:
+            continue
+    return _settled(engine, 10.0**FIRMER_TIMES * firmness)
 
+
+class _Diverged(NoEquilibrium):
+    """A proximal step has no answer."""
+
+
+def _settled(engine, firmness: float) -> motions.Motion:
+    """`standing` by proximal steps of a `firmness` [1/s2]."""
+    structure, work, centers = engine.structure, engine.work, engine.eye.center
+    bodies, start, end = structure.bodies.body, engine.motion_at_rest(), engine.motion_at_rest()
+    start.frames["center"] = centers
+    start.contact["anchor"] = engine.places(centers, start.rotation)[:, :2]
+    start.ties["length"] = engine.link_lengths(centers, start.rotation)
+    resting = resting_scheme(structure, engine.points, firmness)
     # of the turns, which move the bodies by so much wherever they stand
     reach = max(np.ptp(centers[:, :2], axis=0).max(), np.abs(centers[:, 2]).max())
 
@@ -42,7 +57,7 @@ def standing(engine) -> motions.Motion:
         while (answer := engine.settle(resting, start, end)) == FAR_BASE:
             engine.extend_base(end)
         if answer != OK:
-            raise NoEquilibrium("gravity equilibrium: contact does not converge")
+            raise _Diverged("gravity equilibrium: contact does not converge")
         moved = max(np.abs(end.frames["center"] - start.frames["center"]).max(), np.abs(work.action.turn).max() * reach,
                     np.abs(work.elastic.point[1] - work.elastic.point[0]).max())
         end.contact["anchor"] = work.before["anchor"]

@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fecolumn.contact.friction import solve_contact
+from fecolumn.contact import coulomb
+from fecolumn.contact.friction import iterate, solve_contact
 from fecolumn.contact.interior_point import approach, in_cones
 
 
@@ -51,6 +52,16 @@ def test_interior_point_leads_into_the_cone_from_nothing():
     assert np.abs(forces - exact).max() < 1e-3 * np.abs(exact).max()
 
 
+@pytest.mark.parametrize("friction", [0.1, 0.3])
+def test_interior_point_goes_on_where_points_are_at_the_brink_of_slip(friction):
+    """Force and slip of such a point are both of the size of the gap's root: a method that ends at a gap of 1e-12 leaves 1e-8 of the slip."""
+    W, q = foot(24, 1, gaps=1e-10, slip=1e-7 if friction == 0.1 else 4e-7)
+    mu = np.full(len(q), friction)
+    forces, _ = approach(*in_cones(W, q, mu), mu, np.zeros_like(q), np.zeros_like(q), 60, np.empty(0))
+    stiffness = 3 / np.diag(W).reshape(-1, 3).sum(axis=1)
+    assert coulomb.violation(coulomb.slips_and_gaps(W, q, forces), forces, mu, stiffness) < 1e-9 * np.abs(q).max()
+
+
 def test_points_on_the_boundary_of_the_cone_end_the_interior_point_in_peace():
     """R and U that rounding has put on the cones: no division by zero, the forces stay finite."""
     W, q = foot(8, 1)
@@ -72,11 +83,32 @@ def test_stiff_bodies_in_many_contacts_whose_forces_hardly_differ_in_what_they_d
     assert (pull <= case["friction"] * normal * (1 + 1e-9) + 1e-9).all()
 
 
-def test_an_impact_of_elastic_columns_in_many_contacts_is_solved():
-    """Of a frame of four elastic columns with 24 points around each face; with the slip of its last iterate the interior point creeps at a thousandth of the velocity."""
-    case = np.load(Path(__file__).with_name("impact_in_eighty_four_contacts.npz"))
+def unpacked(contacts):
+    """Compliance, velocities and friction of a recorded impact of which the lower triangle is kept."""
+    case = np.load(Path(__file__).with_name(f"impact_in_{contacts}_contacts.npz"))
     q = case["q"]
     W = np.zeros((q.size, q.size))
     W[np.tril_indices(q.size)] = case["W"]
-    W += np.tril(W, -1).T
-    assert solve_contact(W, q, case["friction"], np.zeros_like(q), 1e-12).residual <= 1e-12
+    return W + np.tril(W, -1).T, q, case["friction"]
+
+
+def test_an_impact_of_elastic_columns_in_many_contacts_is_solved():
+    """Of a frame of four elastic columns with 24 points around each face; with the slip of its last iterate the interior point creeps at a thousandth of the velocity."""
+    W, q, friction = unpacked("eighty_four")
+    assert solve_contact(W, q, friction, np.zeros_like(q), 1e-12).residual <= 1e-12
+
+
+def test_an_impact_under_high_friction_is_solved_point_by_point():
+    """Of a tube on a flange that is set spinning at mu = 1.6: two of ten points carry, and with all ten at once no way finds which."""
+    W, q, friction = unpacked("ten")
+    found = solve_contact(W, q, friction, np.zeros_like(q), 1e-10 * np.abs(q).max())
+    assert found.residual <= 1e-10 * np.abs(q).max() and (found.forces[:, 2] > 0).sum() == 2
+
+
+def test_of_many_points_those_that_carry_are_a_problem_of_their_own():
+    """Points that stay open change nothing but for the rounding of what the others do."""
+    W, q = foot(60, 4, slip=1e-6)
+    q[20:, 2] = 1e-3
+    alone = solve_contact(W[:60, :60], q[:20], 0.3, np.zeros((20, 3)), tolerance=1e-14)
+    every = iterate(W, q, np.full(60, 0.3), np.zeros_like(q), 1e-14, False, 800)
+    assert every[1] <= 1e-14 and every[0][:20] == pytest.approx(alone.forces, abs=1e-7 * np.abs(alone.forces).max()) and not every[0][20:].any()

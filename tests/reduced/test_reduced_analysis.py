@@ -169,3 +169,14 @@ def test_summary_that_is_none_is_told_and_the_analysis_made_again(interrupted, t
     with pytest.warns(UserWarning, match="summary.json is damaged: .*; the analysis is made again"):
         summary = simulation.run(case, tmp_path / "a", quiet=True)
     assert summary["u_max_m"] == whole["u_max_m"]
+
+
+def test_a_slender_block_on_a_wide_thin_flange_stands(tmp_path):
+    # the flange sags and pushes outward; these forces once turned the block further in each iteration to equilibrium than its small inertia about the vertical held
+    case = case_from_tables(dict(column=dict(shape="block", length_m=0.095, width_m=0.095, height_m=1.07, fine_height_m=0.0095),
+                                 flange=dict(outer_diameter_m=0.195, thickness_m=0.0076), cap=False, base=dict(kind="unbounded", youngs_modulus_pa=24.5e9),
+                                 material=dict(youngs_modulus_pa=5.57e9, density_kg_m3=2580.0), mesh=dict(fine_size_m=0.0158, coarse_size_m=0.0317, base_size_m=0.19),
+                                 contact=dict(friction_coefficient=1.6, interior_points=0),
+                                 integration=dict(engine="reduced", n_modes=10, dt_s=4e-4, duration_s=0.02)), "flange")
+    summary = simulation.run(case, tmp_path / "flange", quiet=True)
+    assert summary["outcome"] == "at rest" and summary["tilt_max_rad"] < 1e-9

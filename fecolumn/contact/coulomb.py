@@ -1,0 +1,58 @@
+"""The laws of contact, Signorini's and Coulomb's: what they ask of forces, slips and gaps, and how far forces are from them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn._compiled import njit
+from fecolumn.contact.arrays import flat, put_points
+
+
+@njit
+def slips_and_gaps(W, q, forces):
+    """W r + q as (n, 3)."""
+    n, result = len(q), np.empty((len(q), 3))
+    if n > 8:
+        put_points(W @ flat(forces), result)
+        for i in range(n):
+            for a in range(3):
+                result[i, a] += q[i, a]
+        return result
+    # so small, a call of BLAS costs more than the product
+    for i in range(n):
+        for a in range(3):
+            result[i, a] = q[i, a]
+            line = W[3 * i + a]
+            for j in range(n):
+                result[i, a] += line[3 * j] * forces[j, 0] + line[3 * j + 1] * forces[j, 1] + line[3 * j + 2] * forces[j, 2]
+    return result
+
+
+@njit
+def in_cone(x, y, normal, friction):
+    """Coulomb's projection of a trial force: its normal part not below 0, its tangential part not above friction times that."""
+    normal = max(0.0, normal)
+    length = np.sqrt(x * x + y * y)
+    if length > friction * normal:
+        share = friction * normal / length
+        return x * share, y * share, normal
+    return x, y, normal
+
+
+@njit
+def law_error(r0, r1, r2, s0, s1, s2, stiffness, friction):
+    """Violation of the contact laws by a force r and a slip and gap s [m]: distance of r from the projection of r - stiffness s, over stiffness.
+
+    Zero exactly when gap >= 0, r_n >= 0, r_n gap = 0, |r_t| <= friction r_n and slip is opposed by r_t.
+    """
+    x, y, normal = in_cone(r0 - stiffness * s0, r1 - stiffness * s1, r2 - stiffness * s2, friction)
+    return np.sqrt((r0 - x) ** 2 + (r1 - y) ** 2 + (r2 - normal) ** 2) / stiffness
+
+
+@njit
+def violation(relative, forces, friction, rho):
+    """Largest violation of the contact laws [m], see `law_error`, by forces (n, 3) under slips and gaps (n, 3); rho: (n,) stiffness by which it is measured [N/m]."""
+    worst = 0.0
+    for i in range(len(forces)):
+        worst = max(worst, law_error(forces[i, 0], forces[i, 1], forces[i, 2], relative[i, 0], relative[i, 1], relative[i, 2], rho[i], friction[i]))
+    return worst
