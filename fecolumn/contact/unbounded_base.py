@@ -22,7 +22,7 @@ class UnboundedBase:
         frequency: lowest of the layer [Hz].
     """
 
-    body, dofs, made_s = None, 0, 0.0
+    body, dofs, made_s, made_cpu_s = None, 0, 0.0, 0.0
 
     def __init__(self, size: float, response: np.ndarray, reference: np.ndarray, frequency: float):
         self.response, self.frequency = response, frequency

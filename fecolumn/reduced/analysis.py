@@ -140,7 +140,7 @@ class ReducedAnalysis(Analysis):
         Raises:
             StepFailed: as `Engine.advance`. Any other error, of a full disk for example, once a checkpoint is written if the disk still takes it.
         """
-        engine, steps, began, made_s = self.engine, range(self.step + 1, self.step + count + 1), time.perf_counter(), self.base.made_s
+        engine, steps, began, made_s, made_cpu_s = self.engine, range(self.step + 1, self.step + count + 1), time.perf_counter(), self.base.made_s, self.base.made_cpu_s
         grounds, steepest = np.array([self.ground(k) for k in steps]), np.array([self.steepest(k) for k in steps])
         failure, over = None, False
         try:
@@ -151,6 +151,7 @@ class ReducedAnalysis(Analysis):
         self.step += len(engine.made)
         made_s = self.base.made_s - made_s
         self.began += made_s
+        self.cpu_began += self.base.made_cpu_s - made_cpu_s
         self.stepping_s += time.perf_counter() - began - made_s
         if failure is None:
             return over

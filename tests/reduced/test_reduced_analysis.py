@@ -109,6 +109,22 @@ def test_what_is_made_once_is_no_cost_of_the_analysis_that_makes_it(tmp_path, mo
     assert summary["wall_s"] < time.perf_counter() - began - slow and summary["s_per_step"] * summary["steps"] < summary["wall_s"]
 
 
+def test_a_base_that_is_extended_is_no_cost_of_the_analysis_that_needs_it(tmp_path, monkeypatch):
+    real, slow = cache_of_models.KnownBase._extend, 1.5
+
+    def extend(base, reach):
+        began = time.process_time()
+        while time.process_time() < began + slow:
+            pass
+        real(base, reach)
+
+    monkeypatch.setattr(cache_of_models.KnownBase, "_extend", extend)
+    sections = dict(contact={"friction_coefficient": 0.02}, initial={"tilt_rad": 0.0, "velocity_m_s": [0.3, 0.0, 0.0]}, integration={"duration_s": 0.05, "dt_s": 2e-3},
+                    base={"slide_allowance_m": 0.0, "length_m": 0.131, "width_m": 0.131})
+    summary = simulation.run(case_of(**sections), tmp_path, quiet=True)
+    assert summary["residual_slide_m"] > 0.01 and max(summary["cpu_s"], summary["wall_s"]) < slow
+
+
 def test_a_thrown_column_with_damping_restitution_and_rolling_resistance_moves_the_same_in_both_engines(tmp_path):
     """Keys reach the engines: 20 ms from a tilt with a spin that makes it wobble, and a push that makes it slip."""
     sections = dict(initial={"tilt_rad": 0.03, "velocity_m_s": [0.02, 0.0, 0.0], "spin_rad_s": [0.5, 0.0, 0.1]}, material={"damping_ratio": 0.05},
