@@ -95,9 +95,11 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     if least <= tolerance:
         return best, least, iterations, others
     # few of many points carry: those that do without friction, and those that sink where these do
-    forces, taken, grown = frictionless(W, q, start), np.empty(n, np.bool_), True
+    forces, taken, grown, pressed = frictionless(W, q, start), np.empty(n, np.bool_), True, 0
     for i in range(n):
-        taken[i] = n <= tolerances.FEW_POINTS or forces[i, 2] > 0
+        pressed += forces[i, 2] > 0
+    for i in range(n):
+        taken[i] = n <= tolerances.FEW_POINTS or 2 * pressed > n or forces[i, 2] > 0
     while grown and least > tolerance:
         made, more = _find_some(W, q, friction, forces, start, marked(taken), tolerance, sweeps)
         iterations += made
