@@ -101,7 +101,7 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     for i in range(n):
         taken[i] = n <= tolerances.FEW_POINTS or 2 * pressed > n or forces[i, 2] > 0
     while grown and least > tolerance:
-        made, more = _find_some(W, q, friction, forces, start, marked(taken), tolerance, sweeps)
+        made, more = _find_some(W, q, friction, forces, start, marked(taken), tolerance, sweeps, tolerances.FROZEN_TURNS)
         iterations += made
         others += more
         relative = slips_and_gaps(W, q, forces)
@@ -138,7 +138,7 @@ def _one_by_one(W, q, friction, rho, tolerance, sweeps):
         if least <= tolerance or farthest < 0:
             break
         taken[farthest] = True
-        made, more = _find_some(W, q, friction, forces, forces, marked(taken), tolerance, sweeps)
+        made, more = _find_some(W, q, friction, forces, forces, marked(taken), tolerance, sweeps, 0)
         iterations += made
         others += more
         for i in range(n):
@@ -160,7 +160,7 @@ def _stiffnesses(W):
 
 
 @njit
-def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps):
+def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps, turns):
     """Put forces that obey the laws on the listed points (k,), the others open, in place of `forces` (n, 3): iterations of Newton and others."""
     k = len(listed)
     inner, slack, mu, guess, first = np.empty((3 * k, 3 * k)), np.empty((k, 3)), np.empty(k), np.empty((k, 3)), np.empty((k, 3))
@@ -172,7 +172,7 @@ def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps):
             for v in range(k):
                 for b in range(3):
                     inner[3 * u + a, 3 * v + b] = W[3 * i + a, 3 * listed[v] + b]
-    found, _, iterations, others = _by_all_ways(inner, slack, mu, guess, first, tolerance, sweeps)
+    found, _, iterations, others = _by_all_ways(inner, slack, mu, guess, first, tolerance, sweeps, turns)
     forces[:] = 0.0
     for u in range(k):
         for a in range(3):
@@ -181,8 +181,8 @@ def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps):
 
 
 @njit
-def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps):
-    """Forces (n, 3) by one way after the other, residual, Newton iterations and others; guess, start: (n, 3) from which Newton is tried."""
+def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
+    """Forces (n, 3) by one way after the other, residual, Newton iterations and others; guess, start: (n, 3) from which Newton is tried; turns: of `_with_frozen_slips`, 0 to leave it."""
     n, stiffest, give = len(q), np.inf, 0.0
     if n == 0:
         return guess, 0.0, 0, 0
@@ -228,8 +228,8 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps):
         iterations += made
         if residual < least:
             best, least = forces, residual
-    if least > tolerance and n <= tolerances.FROZEN_POINTS:
-        forces, residual, made, inside = _with_frozen_slips(W, q, friction, tolerance, rho, give)
+    if least > tolerance and turns > 0 and n <= tolerances.FROZEN_POINTS:
+        forces, residual, made, inside = _with_frozen_slips(W, q, friction, tolerance, rho, give, turns)
         iterations += made
         others += inside
         if residual < least:
@@ -238,15 +238,15 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps):
 
 
 @njit
-def _with_frozen_slips(W, q, friction, tolerance, rho, give):
+def _with_frozen_slips(W, q, friction, tolerance, rho, give, turns):
     """Forces by a fixed point on the sizes of the slips (Acary, Cadoux, Lemarechal and Malick 2011, ZAMM 91): best forces, residual, steps of Newton, iterations inside.
 
-    With these sizes frozen the problem is convex, and an interior point solves it to its end; Newton tries from each solution.
+    With these sizes frozen the problem is convex, and an interior point solves it to its end; Newton tries from each solution, `turns` times at most.
     """
     n, slips, least, iterations, others = len(q), np.zeros(len(q)), np.inf, 0, 0
     A, Q = in_cones(W, q, friction)
     best = np.zeros((n, 3))
-    for _ in range(tolerances.FROZEN_TURNS):
+    for _ in range(turns):
         forces, inside = approach(A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips)
         relative = slips_and_gaps(W, q, forces)
         for i in range(n):

@@ -43,7 +43,7 @@ HELD_GIVE, HELD_STEPS, HELD_STALLED = 1e-4, 200, 60
 #: The same with slips frozen from solution to solution: points at most, of more a shorter step costs less; solutions, of which one on 18 points needed 70; and iterations
 #: of the interior point for each, some 25 but where rounding rules.
 FROZEN_POINTS, FROZEN_TURNS, FROZEN_INSIDE = 40, 200, 60
-#: Points taken in one by one at most, and times that each is let go again: eight problems of the soak which no other way had solved needed 7 to 46.
+#: Points taken in one by one at most, and times that each is let go again: problems of the soak which no other way had solved needed 7 to 46.
 ONE_BY_ONE, LET_GO = 60, 2
 #: Share of the way to the boundary of the cones in an interior iteration, that below which it gets no farther, and gap and residual, over the first ones, at which it is at
 #: its end: a point at the brink of slip has force and slip of the size of the gap's root, 1e-10 of the first.
