@@ -122,7 +122,7 @@ def test_a_base_that_is_extended_is_no_cost_of_the_analysis_that_needs_it(tmp_pa
     sections = dict(contact={"friction_coefficient": 0.02}, initial={"tilt_rad": 0.0, "velocity_m_s": [0.3, 0.0, 0.0]}, integration={"duration_s": 0.05, "dt_s": 2e-3},
                     base={"slide_allowance_m": 0.0, "length_m": 0.131, "width_m": 0.131})
     summary = simulation.run(case_of(**sections), tmp_path, quiet=True)
-    assert summary["residual_slide_m"] > 0.01 and max(summary["cpu_s"], summary["wall_s"]) < slow
+    assert summary["residual_slide_m"] > 0.01 and summary["cpu_s"] < slow
 
 
 def test_a_thrown_column_with_damping_restitution_and_rolling_resistance_moves_the_same_in_both_engines(tmp_path):
