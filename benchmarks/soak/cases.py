@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 
 from benchmarks.soak.hypercube import Draw, hypercube
-from benchmarks.soak.motions import peak, sampling, write_motions
+from benchmarks.soak.motions import sampling_and_peak, write_motions
 from benchmarks.soak.specimens import Specimen, specimens
 from fecolumn.case import GRAVITY, Case, case_from_tables
 from fecolumn.study.plan import Analysis, Plan
@@ -129,8 +129,9 @@ def _pad(draw: Draw, specimen: Specimen, integration: dict) -> dict:
 
 def _motion(draw: Draw, specimen: Specimen, family: str, source: str, dt: float) -> dict:
     """A motion whose peak is half to six times what uplifts a rigid block, from a share of its energy on."""
-    table = {"source": source, "scale": draw.log("peak", 0.5, 6) * math.tan(specimen.slenderness_rad) * GRAVITY / peak(source),
-             "time_scale": _simple_ratio(draw.log("time_scale", 0.3, 3) * sampling(source) / dt) * dt / sampling(source), "rotation_deg": draw.even("rotation", 0, 360)}
+    sampling, peak = sampling_and_peak(source)
+    table = {"source": source, "scale": draw.log("peak", 0.5, 6) * math.tan(specimen.slenderness_rad) * GRAVITY / peak,
+             "time_scale": _simple_ratio(draw.log("time_scale", 0.3, 3) * sampling / dt) * dt / sampling, "rotation_deg": draw.even("rotation", 0, 360)}
     if family != "pulses":
         table["strong_part"] = [draw.even("begin", 0.01, 0.5), 1.0]
     if delay := draw.rarely("delay", 0.05, lambda one: one.even("delay", 0, 0.02)):

@@ -40,15 +40,10 @@ def write_motions(folder: Path) -> dict[str, list[str]]:
 
 
 @functools.cache
-def sampling(source: str) -> float:
-    """Time step of a source [s]."""
-    return read_motion(Motion(source), "benchmarks.soak").dt
-
-
-@functools.cache
-def peak(source: str) -> float:
-    """Largest horizontal acceleration of a source [m/s2]."""
-    return float(np.hypot(*read_motion(Motion(source), "benchmarks.soak").acceleration[:, :2].T).max())
+def sampling_and_peak(source: str) -> tuple[float, float]:
+    """Time step [s] and largest horizontal acceleration [m/s2] of a source."""
+    motion = read_motion(Motion(source), "benchmarks.soak")
+    return motion.dt, float(np.hypot(*motion.acceleration[:, :2].T).max())
 
 
 def _file(folder: Path, name: str) -> Path:
