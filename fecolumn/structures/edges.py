@@ -13,7 +13,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.tolerances import EDGE
-from fecolumn.structures.faces import Face, over, triangles_of
+from fecolumn.structures.faces import Face, apart, over, triangles_of
 from fecolumn.structures.feet import ball_of, foot_of
 from fecolumn.structures.meetings import Meeting, allowance_of, place_of
 from fecolumn.structures.patches import Patch, node_patch, whole_face
@@ -26,7 +26,7 @@ _STRAIGHT = 1e-3
 class Edge:
     """Outline of a face of `lower` below a face of `upper`, copies as of Meeting; points: (k, 3) [m] nodes of it in the drawing of lower.
 
-    zone: rectangle of the upper face in which they are and may come, as of `meetings.zones_of`. avoided: (k, 3) [m] the points in the drawing of upper, where this needs none of its own.
+    zones: of the upper face in which they are and may come, as of `meetings.zones_of`. avoided: (k, 3) [m] the points in the drawing of upper, where this needs none of its own.
     """
 
     interface: str
@@ -35,7 +35,7 @@ class Edge:
     upper: tuple[str, int]
     upper_face: int
     points: np.ndarray
-    zone: tuple[float, float, float, float]
+    zones: list[tuple[float, ...]]
     avoided: np.ndarray
 
 
@@ -76,8 +76,8 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
     kept &= cKDTree(_corners(sides)).query(points)[0] > margin
     if not kept.any():
         return None
-    low, high = points[kept].min(axis=0) - allowance, points[kept].max(axis=0) + allowance
-    return Edge(meeting.interface, meeting.master, meeting.master_face, meeting.slave, meeting.slave_face, nodes[kept], (low[0], high[0], low[1], high[1]), nodes[kept] + shift)
+    zones = [(*place, *place, allowance) for place in points[kept].tolist()]
+    return Edge(meeting.interface, meeting.master, meeting.master_face, meeting.slave, meeting.slave_face, nodes[kept], zones, nodes[kept] + shift)
 
 
 def _corners(sides: np.ndarray) -> np.ndarray:
@@ -91,7 +91,4 @@ def _corners(sides: np.ndarray) -> np.ndarray:
 
 def _distance(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
     """Distance (n,) [m] of points (n, 2) from the nearest of sides (m, 2, 2)."""
-    start, along = sides[:, 0], sides[:, 1] - sides[:, 0]
-    offset = points[:, None] - start
-    share = np.clip(np.einsum("nmi,mi->nm", offset, along) / np.einsum("mi,mi->m", along, along), 0.0, 1.0)
-    return np.linalg.norm(offset - share[..., None] * along, axis=2).min(axis=1)
+    return apart(points[:, None], sides).min(axis=1)

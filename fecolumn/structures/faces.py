@@ -104,6 +104,29 @@ def over(points: np.ndarray, triangles: np.ndarray, tolerance: float) -> np.ndar
     return inside
 
 
+def apart(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
+    """Distances (...) [m] of points (..., 2) from the sides (..., 2, 2) between two ends each, which broadcast."""
+    start, along = sides[..., 0, :], sides[..., 1, :] - sides[..., 0, :]
+    offset, square = points - start, (along**2).sum(axis=-1)
+    share = np.clip((offset * along).sum(axis=-1) / np.where(square > 0, square, 1.0), 0.0, 1.0)
+    return np.linalg.norm(offset - share[..., None] * along, axis=-1)
+
+
+def apart_from_side(triangles: np.ndarray, side: np.ndarray) -> np.ndarray:
+    """Distances (t,) [m] of triangles (t, 3, 2) from the side (2, 2) between two ends, 0 of those that it meets."""
+    around = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2)
+    found = np.minimum(apart(triangles, side).min(axis=1), apart(side[:, None, None], around).min(axis=(0, 2)))
+
+    def left(ends, point):  # of the way between two ends
+        way, offset = ends[..., 1, :] - ends[..., 0, :], point - ends[..., 0, :]
+        return way[..., 0] * offset[..., 1] - way[..., 1] * offset[..., 0]
+
+    first, last = left(around, side[0]), left(around, side[1])
+    crossed = (first * last < 0) & (left(side, around[:, :, 0]) * left(side, around[:, :, 1]) < 0)
+    found[(first >= 0).all(axis=1) | (first <= 0).all(axis=1) | crossed.any(axis=1)] = 0.0
+    return found
+
+
 def triangles_of(quads: np.ndarray) -> np.ndarray:
     """Triangles (t, 3, 2) of faces (n, 4 or 3, 2)."""
     return quads if quads.shape[1] == 3 else np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

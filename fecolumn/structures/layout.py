@@ -114,7 +114,7 @@ def _touched(case, body: str, drawings: dict[str, Drawing], touching: dict[str, 
             zones.setdefault(meeting.master_face, set()).update(zones_of(case, meeting, faces[meeting.slave_face], points, one.faces[meeting.master_face]))
     for edge in edges:
         if edge.upper[0] == body:
-            zones.setdefault(edge.upper_face, set()).add(edge.zone)
+            zones.setdefault(edge.upper_face, set()).update(edge.zones)
     return {_surface_name(one.faces, face, "master"): master_patch(one.faces[face], one.order, sorted(each)) for face, each in zones.items()}
 
 

@@ -98,13 +98,12 @@ def allowance_of(interface, face: Face) -> float:
     return min(box[1] - box[0], box[3] - box[2]) / 4 if interface.allowance_m is None else interface.allowance_m
 
 
-def zones_of(case, meeting: Meeting, slave: Face, points: np.ndarray, master: Face) -> list[tuple[float, float, float, float]]:
-    """Rectangles (low 1, high 1, low 2, high 2) [m] of the master's face, along its tangents in its drawing, in which points of the slave stand and may come: around each
-    side of the slave's outlines, along which a rim's points roll, and around each of its contact points (k, 3) [m], as far as it may slide."""
+def zones_of(case, meeting: Meeting, slave: Face, points: np.ndarray, master: Face) -> list[tuple[float, ...]]:
+    """Zones (start 1, start 2, end 1, end 2, way) [m] of the master's face, along its tangents in its drawing, in which points of the slave stand and may come: as far
+    as it may slide around each side of its outlines, along which a rim's points roll, and around each of its contact points (k, 3) [m]."""
     allowance, shift = allowance_of(case.interfaces[meeting.interface], slave), place_of(case, meeting.slave) - place_of(case, meeting.master)
     spans = (np.concatenate([slave.outline, np.stack([points, points], axis=1)]) + shift) @ master.axes[:, :2]
-    low, high = spans.min(axis=1) - allowance, spans.max(axis=1) + allowance
-    return list(zip(low[:, 0], high[:, 0], low[:, 1], high[:, 1]))
+    return [(*start, *end, allowance) for start, end in spans.tolist()]
 
 
 def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list[tuple[float, float, int]]]:

@@ -11,7 +11,7 @@ from fecolumn.contact.footprint import footprint
 from fecolumn.contact.tolerances import EDGE
 from fecolumn.mesh.bricks import outline_edges
 from fecolumn.mesh.surface import face_points, nodal_areas
-from fecolumn.structures.faces import Face
+from fecolumn.structures.faces import Face, apart_from_side
 from fecolumn.structures.model import Surface
 
 # Over the size of a face: nodes within it are one
@@ -59,14 +59,16 @@ def node_patch(whole: Patch, nodes: np.ndarray) -> Patch:
 
 
 def master_patch(face: Face, order: int, zones) -> Patch:
-    """Nodes of a master's face in and around `zones`, rectangles (low 1, high 1, low 2, high 2) [m] along its tangents in the drawing."""
+    """Nodes of a master's face in and around `zones` as of `meetings.zones_of`, along its tangents in the drawing."""
     whole = whole_face(face, order)
     plane = whole.positions @ whole.axes[:, :2]
     corners = plane[whole.triangles]
     low, high = corners.min(axis=1), corners.max(axis=1)
     wanted, edge = np.zeros(len(whole.triangles), bool), 1e-3 * (high - low).max()  # elements that only meet a zone's edge lie outside
-    for a, b, c, d in zones:
-        wanted |= (high[:, 0] > a + edge) & (low[:, 0] < b - edge) & (high[:, 1] > c + edge) & (low[:, 1] < d - edge)
+    for *ends, way in zones:
+        side, way = np.reshape(ends, (2, 2)), max(way - edge, edge)
+        near = np.flatnonzero(~wanted & (high > side.min(axis=0) - way).all(axis=1) & (low < side.max(axis=0) + way).all(axis=1))
+        wanted[near] = apart_from_side(corners[near], side) < way
     kept, triangles = np.unique(whole.triangles[wanted], return_inverse=True)
     return Patch(face.part, whole.positions[kept], whole.origin, whole.axes, whole.areas[kept], whole.outlines[kept], triangles.reshape(-1, 3))
 

@@ -2,12 +2,15 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 from small_structures import BLOCK, STONE, block, frame, structure
 
 from fecolumn.contact.rim import Rim
 from fecolumn.fem.modes import elastic_modes
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
 from fecolumn.structures.bodies import drawing
+from fecolumn.structures.faces import apart_from_side
+from fecolumn.structures.patches import master_patch, plane_box
 from fecolumn.structures.reduction import body_of
 from fecolumn.structures.structure import structure_model
 
@@ -124,17 +127,39 @@ def test_slab_has_contact_points_only_around_its_columns():
     assert np.all(np.abs(np.abs(model.arms[surface.nodes][:, :2]) - [1.0, 0.8]).max(axis=1) < 0.1 + 0.05 + 1e-9)
     a, b, c = (plane[surface.triangles[:, k], :2] for k in range(3))
     areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
-    assert areas.min() > 0 and areas.sum() == pytest.approx(4 * 0.3**2, rel=1e-9)
+    # of elements at the corners of that, one of two triangles may lie farther away
+    assert areas.min() > 0 and areas.sum() == pytest.approx(4 * 0.3**2 - 8 * 0.05**2 / 2, rel=1e-9)
+
+
+def test_distances_of_triangles_from_a_side_are_those_of_their_points():
+    rng = np.random.default_rng(1)
+    triangles, shares = rng.uniform(-1, 1, (40, 3, 2)), np.array([(a, b, 1 - a - b) for a in np.linspace(0, 1, 80) for b in np.linspace(0, 1 - a, 80)])
+    for side in ([[-0.9, -1.2], [1.1, 0.4]], [[0.2, 0.1], [0.2, 0.1]], [[1.5, 1.5], [1.6, 1.5]]):
+        along = np.linspace(side[0], side[1], 300)
+        sampled = np.array([cKDTree(shares @ one).query(along)[0].min() for one in triangles])
+        found = apart_from_side(triangles, np.array(side))
+        assert found == pytest.approx(sampled, abs=0.03) and np.all(found <= sampled + 1e-12)
+
+
+@pytest.mark.parametrize("way", [0.02, 0.05])
+def test_a_master_is_known_as_far_as_its_slave_may_slide_and_no_farther(way):
+    one = drawing(structure(**block(rigid=False, element_size_m=0.02)), "block", "small.toml")
+    face = next(face for face in one.faces if face.normal[2] > 0.5)
+    box = np.reshape(plane_box(face), (2, 2))
+    # no element ends just there
+    spot = box.mean(axis=1) + [0.0031, 0.0017]
+    whole, patch = (master_patch(face, 1, [(*spot, *spot, reach)]) for reach in (2.0, way))
+    corners = [(each.positions @ each.axes[:, :2])[each.triangles] for each in (whole, patch)]
+    near = [apart_from_side(triangles, np.stack([spot, spot])) < way for triangles in corners]
+    assert near[1].all() and near[0].sum() == len(near[1]) < len(near[0])
 
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_triangles_cover_a_face_of_any_order(order):
     case = structure(**block(element_order=order, rigid=False))
-    from fecolumn.structures.patches import master_patch
-
     one = drawing(case, "block", "small.toml")
     face = next(face for face in one.faces if face.normal[2] > 0.5)
-    patch = master_patch(face, order, [(-1, 1, -1, 1)])
+    patch = master_patch(face, order, [(0, 0, 0, 0, 2.0)])
     a, b, c = (patch.positions[patch.triangles[:, k], :2] for k in range(3))
     areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
     assert areas.min() > 0 and areas.sum() == pytest.approx(0.08) and patch.areas.sum() == pytest.approx(0.08)
