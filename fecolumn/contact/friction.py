@@ -11,7 +11,7 @@ from fecolumn.contact import tolerances
 from fecolumn.contact.arrays import marked
 from fecolumn.contact.coulomb import in_cone, law_error, slips_and_gaps, violation
 from fecolumn.contact.interior_point import approach, in_cones
-from fecolumn.contact.newton import newton_steps, solve_in_place, stiffness_together
+from fecolumn.contact.newton import newton_steps, solve_in_place, stiffnesses
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,9 +89,9 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     n, best, least, iterations, others = len(q), start.copy(), np.inf, 0, 0
     if n == 0:
         return best, 0.0, 0, 0
-    rho, rho_all = _stiffnesses(W)
+    rho = stiffnesses(W, False)
     if near:
-        best, least, iterations = newton_steps(W, q, friction, start, tolerance, rho_all, rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        best, least, iterations = newton_steps(W, q, friction, start, tolerance, stiffnesses(W, True), rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
     if least <= tolerance:
         return best, least, iterations, others
     # few of many points carry: those that do without friction, and those that sink where these do
@@ -149,17 +149,6 @@ def _one_by_one(W, q, friction, rho, tolerance, sweeps):
 
 
 @njit
-def _stiffnesses(W):
-    """Stiffness (n,) [N/m] of each point alone, and of each when all move."""
-    n = len(W) // 3
-    alone, together = np.empty(n), np.empty(n)
-    for i in range(n):
-        alone[i] = 3 / (W[3 * i, 3 * i] + W[3 * i + 1, 3 * i + 1] + W[3 * i + 2, 3 * i + 2])
-        together[i] = stiffness_together(W, i)
-    return alone, together
-
-
-@njit
 def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps, turns):
     """Put forces that obey the laws on the listed points (k,), the others open, in place of `forces` (n, 3): iterations of Newton and others."""
     k = len(listed)
@@ -186,14 +175,14 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
     n, stiffest, give = len(q), np.inf, 0.0
     if n == 0:
         return guess, 0.0, 0, 0
-    (rho, rho_all), rho_t = _stiffnesses(W), np.empty(n)
+    rho, rho_t = stiffnesses(W, False), np.empty(n)
     for i in range(n):
         rho_t[i] = 1 / np.hypot(W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1])
         stiffest, give = min(stiffest, rho[i]), max(give, tolerances.GIVE / rho[i])
     others = 0
     best, least, iterations = newton_steps(W, q, friction, guess, tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
     if least > tolerance:
-        forces, residual, made = newton_steps(W, q, friction, start, tolerance, rho_all, rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        forces, residual, made = newton_steps(W, q, friction, start, tolerance, stiffnesses(W, True), rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual

@@ -137,6 +137,21 @@ def solve_in_place(matrix, right):
     return True
 
 
+@njit
+def stiffness_alone(W, i):
+    """Stiffness [N/m] of point i when it moves alone."""
+    return 3 / (W[3 * i, 3 * i] + W[3 * i + 1, 3 * i + 1] + W[3 * i + 2, 3 * i + 2])
+
+
+@njit
+def stiffnesses(W, together):
+    """Stiffness (n,) [N/m] of each point alone, or when all move."""
+    found = np.empty(len(W) // 3)
+    for i in range(len(found)):
+        found[i] = stiffness_together(W, i) if together else stiffness_alone(W, i)
+    return found
+
+
 @njit(fastmath={"reassoc", "contract"})
 def stiffness_together(W, i):
     """Stiffness [N/m] of point i when all points move: it is less than alone, with which each would seem to slip to and fro."""

@@ -18,6 +18,7 @@ from fecolumn.contact.compliance import assemble, even_out
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.coulomb import law_error, slips_and_gaps
 from fecolumn.contact.friction import iterate
+from fecolumn.contact.newton import stiffness_alone
 from fecolumn.contact.pad import indent
 from fecolumn.contact.stick import find_stick, solve_sticking
 from fecolumn.contact.tolerances import CLOSE, EXACT, NEAR, PENETRATION, SHARE, SHARP, SOLVED, SWEEPS_MOST, USABLE
@@ -207,7 +208,7 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, pos
     W = problem.W[:9 * count * count].reshape(3 * count, 3 * count)
     assemble(bodies, base, points, arms, listed, poses, rigid, dynamic, 1.0, springs.own, W)
     for j in range(count):
-        problem.rho[listed[j]] = 3 / (W[3 * j, 3 * j] + W[3 * j + 1, 3 * j + 1] + W[3 * j + 2, 3 * j + 2])
+        problem.rho[listed[j]] = stiffness_alone(W, j)
     problem.flags[ASSEMBLED] = True
 
 
@@ -284,8 +285,9 @@ def solve_linear(problem, bodies, base, points, interfaces, springs, dynamic, el
     mark_close(problem, points, interfaces, positions, before, after)
     listed = near_points(problem)
     k, arms, old = len(listed), np.zeros((len(after), 3)), np.empty(3 * len(listed))
-    response = np.empty((3 * k, 3 * k))
-    if most > 0:
+    # feet that stick still have it in their operator
+    response, sticks = np.empty((3 * k, 3 * k)), problem.flags[STICKS_STILL]
+    if most > 0 and not sticks:
         assemble(bodies, base, points, arms, listed, poses, 0.0, elastic, 0.0, springs.own, response)
     for attempt in range(most + 1):
         answer, residual = find_residual(problem, bodies, base, points, interfaces, springs, dynamic, 0.0, stick, rims, poses, positions, attempt == 0,
@@ -301,8 +303,8 @@ def solve_linear(problem, bodies, base, points, interfaces, springs, dynamic, el
         for j in range(k):
             for a in range(3):
                 old[3 * j + a] = after[listed[j]].force[a] - old[3 * j + a]
-        moved = response @ old
+        moved = stick.W @ old - stick.static @ old if sticks else response @ old
         for j in range(k):
             for a in range(3):
-                positions[listed[j], a] += moved[3 * j + a]
+                positions[listed[j], a] += moved[3 * j + a] - (springs.own[j, a] * old[3 * j + a] if sticks else 0.0)
     return ITERATIONS_SPENT, np.inf

@@ -15,7 +15,7 @@ from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.coulomb import law_error
-from fecolumn.contact.newton import solve_in_place, stiffness_together
+from fecolumn.contact.newton import solve_in_place, stiffness_alone, stiffness_together
 from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.tolerances import PAD_TURN, STICK_TURN, STICK_WAY
 
@@ -78,7 +78,7 @@ def find_stick(stick, bodies, base, points, springs, dynamic, rigid, rims, poses
     assemble(bodies, base, points, arms, everyone, poses, rigid, dynamic, 1.0, springs.own, stick.W)
     inverse = np.linalg.inv(stick.W)
     for i in range(n):
-        stick.rho[i] = 3 / (stick.W[3 * i, 3 * i] + stick.W[3 * i + 1, 3 * i + 1] + stick.W[3 * i + 2, 3 * i + 2])
+        stick.rho[i] = stiffness_alone(stick.W, i)
         stick.rho_all[i] = stiffness_together(stick.W, i)
         for a in range(3):
             stick.static[3 * i + a, 3 * i + a] -= springs.own[i, a]
