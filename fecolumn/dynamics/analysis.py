@@ -97,6 +97,7 @@ class FullAnalysis(Analysis):
         start = float(extra["start"])
         work, record = dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True)), Record(*extra["record"].tolist())
         self.resumed(extra)
+        self.system.interface.stay.take(extra)
         self.state, self.ledger.start, self.ledger.work, self.stepper.record = state, start, work, record
 
     def _fields(self):
@@ -169,6 +170,7 @@ class FullAnalysis(Analysis):
 
         extra = self.to_resume() | dict(start=self.ledger.start, work=list(self.ledger.work.values()),
                                         record=dataclasses.astuple(self.stepper.record))
+        extra |= self.system.interface.stay.to_keep(self.system.of_step().nodal)
         write_checkpoint(self.folder / CHECKPOINT, self.system, self.state, extra)
         self.write_history()
         self.comm.barrier()

@@ -8,13 +8,18 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.atomic import write_bytes
+from fecolumn.contact.interface import RIM
+from fecolumn.contact.points import CONTACT
+from fecolumn.dynamics.links import TIE
 from fecolumn.dynamics.system import State
 from fecolumn.files import read_bytes
 
-_FIELDS = ("x", "v", "a", "contact_a", "internal")
+_FIELDS = ("x", "v", "a", "contact_a", "internal", "surface_a")
 # arrays and fields with the angle of the rim's lowest point, nan while the foot touches with its nodes only
-_WITH_RIM = {"angle", "stick.key", "stick.angles"}
-_SHARED = ("time", "strain", "rotation", "contact", "static", "ground", "rims", "ties")
+_WITH_RIM = {"angle", "stick.key", "stick.angles", "extra.stick.key", "extra.stick.angles"}
+# A file knows no records
+_RECORDS = {"contact": CONTACT, "rims": RIM, "ties": TIE}
+_SHARED = ("time", "strain", "rotation", "contact", "static", "ground", "rims", "ties", "surface_forces")
 
 
 def node_order(body) -> np.ndarray:
@@ -34,8 +39,9 @@ def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
     """Write state and `extra` arrays atomically on rank 0; called on every rank."""
     column = system.column
     orders = {part: node_order(part) for part in set(column.parts)}
-    arrays = {name: getattr(state, name) for name in _SHARED}
-    for name in _FIELDS:
+    known = [name for name in _FIELDS + _SHARED if getattr(state, name) is not None]
+    arrays = {name: getattr(state, name) for name in _SHARED if name in known}
+    for name in filter(known.__contains__, _FIELDS):
         values = [gather_all(part, getattr(state, name)[rows]) for part, rows in zip(column.parts, column.rows)]
         if column.comm.rank == 0:
             arrays[name] = np.concatenate([one[orders[part]] for part, one in zip(column.parts, values)])
@@ -65,9 +71,10 @@ def read_state(arrays: dict[str, np.ndarray], system) -> tuple[State, dict]:
     """State on this rank and the `extra` arrays of a checkpoint of the full-order engine."""
     parts = system.column.parts
     orders = {part: node_order(part) for part in set(parts)}
-    values = {name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name] for name in _SHARED}
+    values = {name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name] for name in _SHARED if name in arrays}
+    values |= {name: values[name].astype(kind) for name, kind in _RECORDS.items()}
     ends = np.cumsum([part.n_nodes for part in parts])
-    for name in _FIELDS:
+    for name in filter(arrays.__contains__, _FIELDS):
         mine = []
         for part, kept in zip(parts, np.split(arrays[name], ends[:-1]), strict=True):
             by_node = np.empty((part.n_nodes, *kept.shape[1:]))

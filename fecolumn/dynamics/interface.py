@@ -11,17 +11,16 @@ from fecolumn.contact.projection import base_for_steps, place_on_masters, projec
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact
-from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.joints import Joints, left_faces
 from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
-from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, begin_problem, near_points, room, solve_linear, stored_energy
+from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, near_points, room, solve_linear, stored_energy
 from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, poses_on_base
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
-from fecolumn.contact.stick import no_stick
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.dynamics.cuts import Stop, StepFailed
+from fecolumn.dynamics.stay import Stay
 from fecolumn.fem.rotation import into_frames, out_of_frames
 
 _STOPS = {CONTACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.CONTACT, OFF_BASE: Stop.OFF_BASE}
@@ -70,13 +69,15 @@ class Interface:
         #: Rows of each body's surface nodes.
         self.rows = [slice(first, last) for first, last in zip(rows, rows[1:])]
         self.surface, self.counts = base_for_steps(base), np.zeros(N_COUNTS, np.int64)
-        self._problem, self._stick = room(self.size), no_stick(0)
+        self._problem = room(self.size)
+        #: Of many bodies; a single foot's problem is small.
+        self.stay = Stay(self.interfaces, self.size if self.moving else 0)
         #: Nodes and shares of the masters below the points at the start of the step.
         self._below, self._shares = self.points["below"].copy(), self.points["shares"].copy()
         #: Arms (N, 3) of the surface nodes from the centres of mass, in the frames of their bodies, where they were found last.
         self._arms_now = self.reference - centers
-        # Positions and rotation that were filtered last, and what came of it
-        self._filtered = None, None, None
+        # Positions, and velocities, and the rotation that were filtered last, and what came of it
+        self._filtered = self._filtered_velocity = None, None, None
 
     def prepare(self, say=lambda text: None) -> None:
         """Have compiled what the steps call, so that the first landing costs what all cost; `say` is told why it takes long, if it does."""
@@ -84,7 +85,7 @@ class Interface:
             say("compiling the contact of the full-order engine, once on this machine: a minute")
         before, values, mask = np.zeros(self.size, CONTACT), np.zeros((self.size, 3)), np.zeros(self.size, bool)
         static, springs, poses = self.bodies.static, springs_of(self.points, self.record, 1.0), poses_on_base(np.eye(3)[None])
-        compile_for(solve_linear, (self._problem, self.bodies, self.surface, self.points, self.interfaces, springs, static, static, self._stick, rims_at_rest(),
+        compile_for(solve_linear, (self._problem, self.bodies, self.surface, self.points, self.interfaces, springs, static, static, self.stay.stick, self.stay.rims,
                                    poses, values, ITERATIONS, before, before, self.counts))
         compile_for(find_impact, (self.bodies, self.surface, self.points, self.interfaces, springs, self.near, values, poses, before, before, values, values,
                                   mask, mask, True, 1.0, 1.0, self.counts))
@@ -186,31 +187,49 @@ class Interface:
     def velocities(self, v: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False) -> np.ndarray:
         """Velocities (P, 3) of the points from the bodies' velocities, relative to the master in the frame of the interface; starts: with the nodes that were below them
         at the start of the step."""
-        nodes = self._out_of_frames(self.foot.position(into_frames(v, rotation, self.column.rows)), rotation)
-        velocities = self.at_points(nodes)
+        if self._filtered_velocity[0] is not v or self._filtered_velocity[1] is not rotation:
+            # those at the end of a step are those at the start of the next
+            self._filtered_velocity = v, rotation, self._out_of_frames(self.foot.position(into_frames(v, rotation, self.column.rows)), rotation)
+        return self._relative(self._filtered_velocity[2], poses, *((self._below, self._shares) if starts else (self.points["below"], self.points["shares"])))
+
+    def _relative(self, nodes, poses, below, shares) -> np.ndarray:
+        """Values (P, 3) at the points, relative to the nodes `below` in the frame of the interface, from those at the nodes (N, 3)."""
+        values = self.at_points(nodes)
         if self.moving:
             under = np.flatnonzero(self.points["master"] != BASE)
-            below, shares = (self._below, self._shares) if starts else (self.points["below"], self.points["shares"])
-            relative = velocities[under] - np.einsum("pq,pqa->pa", shares[under], nodes[below[under]])
-            velocities[under] = np.einsum("pba,pb->pa", poses["frame"][self.points["interface"][under]], relative)
-        return velocities
+            relative = values[under] - np.einsum("pq,pqa->pa", shares[under], nodes[below[under]])
+            values[under] = np.einsum("pba,pb->pa", poses["frame"][self.points["interface"][under]], relative)
+        return values
 
     def load(self, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """Nodal forces (n_owned, 3) of contact forces (P, 3) in a step on bodies turned by `rotation`."""
-        at_nodes = self._into_frames(self.at_nodes(forces, rotation, True), rotation)
-        return out_of_frames(self.foot.load(at_nodes), rotation, self.column.rows)
+        return self.answer(self.surface_forces(forces, rotation), rotation)[0]
+
+    def surface_forces(self, forces: np.ndarray, rotation: np.ndarray, within: bool = True) -> np.ndarray:
+        """Forces (N, 3) [N] on the surface nodes, in the frames of their bodies turned by `rotation`, of contact forces (P, 3); within: as of `at_nodes`."""
+        return self._into_frames(self.at_nodes(forces, rotation, within), rotation)
+
+    def answer(self, surface_forces: np.ndarray, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+        """Nodal forces (n_owned, 3) [N] of `surface_forces` and their acceleration (n_owned, 3) [m/s2], of which they are the mass times; None where the foot has no filter."""
+        if self.foot.filtered:
+            acceleration = out_of_frames(self.foot.acceleration(surface_forces), rotation, self.column.rows)
+            return self.column.momentum(acceleration), acceleration
+        return out_of_frames(self.foot.load(surface_forces), rotation, self.column.rows), None
 
     def acceleration(self, forces: np.ndarray, rotation: np.ndarray, within: bool = True) -> np.ndarray:
         """Accelerations (n_owned, 3) of contact forces in a step; within False: velocity jumps of contact impulses (P, 3) at its end."""
-        at_nodes = self._into_frames(self.at_nodes(forces, rotation, within), rotation)
-        return out_of_frames(self.foot.acceleration(at_nodes), rotation, self.column.rows)
+        return out_of_frames(self.foot.acceleration(self.surface_forces(forces, rotation, within)), rotation, self.column.rows)
 
-    def displacement(self, response, scale: float, forces: np.ndarray, rotation: np.ndarray, frame: np.ndarray) -> np.ndarray:
-        """Displacement (n_owned, 3) [m] of `scale` times contact forces (P, 3) in a step on bodies turned by `rotation`; response: of `fem.composite.response_of`,
-        found with the bodies turned by `frame`."""
+    def displacement(self, response, scale: float, surface_forces: np.ndarray, rotation: np.ndarray, frame: np.ndarray) -> np.ndarray:
+        """Displacement (n_owned, 3) [m] of `scale` times `surface_forces` on bodies turned by `rotation`; response: of `fem.composite.response_of`, found with the
+        bodies turned by `frame`."""
         along = rotation @ frame.swapaxes(-1, -2)
-        at_nodes = self._into_frames(self.at_nodes(forces, rotation, True), along)
-        return out_of_frames(scale * response.displacement(at_nodes), along, self.column.rows)
+        return out_of_frames(scale * response.displacement(self._out_of_frames(surface_forces, frame)), along, self.column.rows)
+
+    def shifts(self, nodal: Nodal, surface_forces: np.ndarray, rotation: np.ndarray, poses: np.ndarray) -> np.ndarray:
+        """By how much `positions` (P, 3) [m] change where the bodies, turned by `rotation`, answer `surface_forces` in a stage."""
+        moved = np.concatenate([(nodal.elastic[3 * rows.start:3 * rows.stop, :3 * (rows.stop - rows.start)] @ surface_forces[rows].ravel()).reshape(-1, 3) for rows in self.rows])
+        return self._relative(self._out_of_frames(moved, rotation), poses, self.points["below"], self.points["shares"])
 
     def nodal(self, compliance, scale: float, frame: np.ndarray) -> Nodal:
         """Compliance of a stage from that of its response (n, n, 3, 3), of several bodies a list, found with them turned by `frame`."""
@@ -229,13 +248,12 @@ class Interface:
             halfway: (3, 3) rotation in the middle of the step, (nb, 3, 3) of several bodies. rolls: False: the points stay in any case.
         """
         before, rims, rolled = state.contact.copy(), state.rims.copy(), False
-        if not (self.interfaces["rim_count"].any() or self.moving):
-            self.positions(state.x, state.rotation, None)
-            return before, rims, rolled
         now, then = self.poses(state.x, state.rotation), self.poses(state.x, halfway)
         for interface, rim, pose, turned in zip(self.interfaces, rims, now, then):
             if interface["rim_count"]:
                 rolled |= self._roll(interface, rim, pose, turned["turned"][SLAVE], state, before, rolls)
+        if self.moving:
+            self.stay.note(now, rims)
         if self.moving or rolled:
             self.points["beyond"] = OVER
             positions = self.start_positions(state.x, state.rotation, now)
@@ -298,14 +316,15 @@ class Interface:
         """Find forces in `after` that obey the laws at points that move from `positions` (P, 3) along with them: why it ended, violation over
         what is allowed.
 
-        times: 0 only looks how well they do.
+        times: 0 only looks how well they do, in or near the places where they were found last.
         """
         springs = springs_of(self.points, self.record, dt)
-        # the bodies' compliance has changed with their places
-        begin_problem(self._problem, False, False)
+        if times:
+            self.stay.begin(self._problem, nodal)
         while True:
             answer, residual = solve_linear(self._problem, self.bodies, self.surface, self.points, self.interfaces, springs, nodal.dynamic, nodal.elastic,
-                                            self._stick, rims_at_rest(), poses, positions, times, before, after, self.counts)
+                                            self.stay.stick, self.stay.rims, poses, positions, times, before, after, self.counts)
+            self.stay.end(self._problem, nodal)
             if answer != FAR_BASE:
                 return _STOPS.get(answer, Stop.CONVERGED), residual
             self._extend_base(positions[self.near[self.points["master"][self.near] == BASE]])

@@ -31,6 +31,7 @@ class Stage:
         forces that the start brings to the load [N]. turns: whether internal forces and what the start brings turn with the bodies; not in the literal HHT
         scheme, whose accelerations hold contact forces.
     place, internal: (n_owned, 3) positions [m] and internal forces [N] at the start; levers: (P, 2, 3) of the points there, as of `Interface.levers`.
+    surface_a, surface_forces: of the State at the start, the first guess of what contact forces do; None: it is found.
     """
 
     target: np.ndarray
@@ -50,6 +51,8 @@ class Stage:
     place: np.ndarray | None = None
     internal: np.ndarray | None = None
     levers: np.ndarray | None = None
+    surface_a: np.ndarray | None = None
+    surface_forces: np.ndarray | None = None
 
     def middle(self, column, halfway: np.ndarray) -> Middle:
         """What the stage asks for, with all that its start brings, in the frame `halfway`."""
@@ -118,7 +121,8 @@ def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
 @dataclass(slots=True)
 class Outcome:
     """Positions, internal forces and strain energy of the column, what its points carry now (n,) of CONTACT, the energy `static` [J]
-    of base, foot's static rest, penalty springs and pad, and the record; push: (n_owned, 3) nodal forces of the contact forces [N], mends: of `Stage.untwisting`."""
+    of base, foot's static rest, penalty springs and pad, and the record; surface_forces: (N, 3) of the contact forces, as of `Interface.surface_forces`, push: (n_owned, 3) their nodal
+    forces [N] and surface_a: (n_owned, 3) their acceleration [m/s2], as of `Interface.answer`; mends: of `Stage.untwisting`."""
 
     stop: Stop
     x: np.ndarray
@@ -130,7 +134,9 @@ class Outcome:
     static: float
     iterations: int
     residual: float
+    surface_forces: np.ndarray
     push: np.ndarray
+    surface_a: np.ndarray | None
     mends: tuple
     message: str = ""
 
@@ -148,6 +154,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     """
     interface, column, links, scale = system.interface, system.column, system.links, stage.scale
     x, contact, static = np.array(stage.start), stage.before.copy(), 0.0
+    surface_forces = push = surface_a = mends = None
     first = previous = size = np.inf
 
     def ended(stop, message=""):
@@ -157,7 +164,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             contact["relative"][far] = interface.positions(x, rotation, poses)[far]
             contact["anchor"][far] = contact["relative"][far, :2]
         contact["located"] = True
-        return Outcome(stop, x, internal, strain, rotation, halfway, contact, static, iteration, size, push, mends, message)
+        return Outcome(stop, x, internal, strain, rotation, halfway, contact, static, iteration, size, surface_forces, push, surface_a, mends, message)
 
     for iteration in range(max_iterations + 1):
         rotation, internal, strain = system.kinematics.internal(x)
@@ -168,15 +175,19 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             inner = internal + system.damping.force(middle.velocity + operators.rate_factor * (x - middle.target), rotation)
         if acts_halfway:
             inner = out_of_frames(inner, halfway @ rotation.swapaxes(-1, -2), column.rows)
-        poses = interface.poses(x, rotation)
-        positions = interface.positions(x, rotation, poses)
-        push = interface.load(contact["force"], halfway)
-        mends = stage.untwisting(system, x, internal, rotation, halfway, contact["force"], push)
-        pushed = operators.mass_factor * (middle.target - x) + scale * sum(mends)
-        residual = column.momentum(pushed) + middle.load - operators.stiffness_factor * inner
+        acceleration = operators.mass_factor * (middle.target - x)
+        if iteration == 0 and stage.surface_a is not None:
+            # nothing large is read for a guess
+            surface_forces, total = stage.surface_forces, scale * column.momentum(out_of_frames(stage.surface_a, halfway, column.rows))
+        else:
+            poses = interface.poses(x, rotation)
+            positions, surface_forces = interface.positions(x, rotation, poses), interface.surface_forces(contact["force"], halfway)
+            push, surface_a = interface.answer(surface_forces, halfway)
+            mends = stage.untwisting(system, x, internal, rotation, halfway, contact["force"], push)
+            acceleration, total = acceleration + scale * sum(mends), scale * push
+        total = total + column.momentum(acceleration) + middle.load - operators.stiffness_factor * inner
         if links:
-            residual += scale * links.load(links.pulls(stage, x, rotation), halfway)
-        total = residual + scale * push
+            total += scale * links.load(links.pulls(stage, x, rotation), halfway)
         reference = max(system.weight, scale * np.abs(contact["force"]).max(initial=0.0))
         size = column.max(np.abs(total).max(initial=0.0)) / reference
         nodal, violation = _nodal(interface, operators, scale), np.inf
@@ -202,12 +213,15 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         # forces act in the frame halfway: as the body's own they meet the stiffness as it is, by which a turned one would be multiplied
         acts = halfway @ operators.rotation.swapaxes(-1, -2) if acts_halfway else turn
         x = system.kinematics.moved(x, out_of_frames(operators.factor.solve(into_frames(total, acts, column.rows)), turn, column.rows))
-        old = contact["force"].copy()
         poses = interface.poses(x, rotation)
-        stop, violation = interface.solve(nodal, poses, interface.positions(x, rotation, poses), stage.dt, stage.before, contact)
+        positions = interface.positions(x, rotation, poses)
+        # the forces act elsewhere now, and in frames that have turned
+        positions += interface.shifts(nodal, interface.surface_forces(contact["force"], halfway) - surface_forces, rotation, poses)
+        stop, violation = interface.solve(nodal, poses, positions, stage.dt, stage.before, contact)
         if stop is not Stop.CONVERGED:
             return ended(stop, "" if stop is Stop.OFF_BASE else f"contact residual {violation:.2e} of what is allowed")
-        x = system.kinematics.moved(x, interface.displacement(operators.response, scale, contact["force"] - old, halfway, operators.rotation))
+        answered = interface.surface_forces(contact["force"], halfway) - surface_forces
+        x = system.kinematics.moved(x, interface.displacement(operators.response, scale, answered, halfway, operators.rotation))
     return ended(Stop.ITERATIONS)
 
 

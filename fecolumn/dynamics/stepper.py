@@ -18,7 +18,7 @@ from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
 from fecolumn.dynamics.stage import Stage, carried, equilibrate
 from fecolumn.dynamics.system import State
-from fecolumn.fem.rotation import out_of_frames
+from fecolumn.fem.rotation import into_frames, out_of_frames
 
 
 class Stepper:
@@ -106,8 +106,8 @@ class Stepper:
             scale=1 / (2 * be) if self.plastic else 1.0, before=before, dt=dt, rotation=start.rotation,
             velocity=start.v if damping else None, centers=column.centers(start.x) if links else None, ties=start.ties,
             memory=start.a, shares=(dt**2 * (0.5 - be), dt * (1 - ga)), held=al * (start.internal + damped), turns=self.plastic,
-            place=start.x, internal=start.internal, levers=interface.levers())
-        operators = system.operators(hht.mass_factor, hht.stiffness_factor, hht.rate_factor)
+            place=start.x, internal=start.internal, levers=interface.levers(), surface_a=start.surface_a, surface_forces=start.surface_forces)
+        operators = system.of_step(hht)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
         self.record.iterations += outcome.iterations
         self.record.contact_iterations += interface.spent()
@@ -121,8 +121,9 @@ class Stepper:
                       rotation=outcome.rotation, contact=outcome.contact, static=outcome.static, ground=np.array(ground, float), rims=rims, ties=start.ties.copy())
         push, (straight, led) = outcome.push, outcome.mends
         if self.plastic:
-            w, untwists = interface.acceleration(after.forces, R) + turned + straight + led, column.momentum(straight)
+            w, untwists = outcome.surface_a + turned + straight + led, column.momentum(straight)
             push = push + column.momentum(led)
+            after.surface_a, after.surface_forces = into_frames(outcome.surface_a + straight + led, R, column.rows), outcome.surface_forces
             if links:
                 pulls = links.pulls(stage, after.x, after.rotation)
                 push, w = push + links.load(pulls, R), w + links.acceleration(pulls, R)

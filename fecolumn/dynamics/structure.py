@@ -17,13 +17,12 @@ from fecolumn.fem.corotated import Corotated
 DAMPED = 30
 
 
-def structure_system(model, bodies: list, hht: HHT, gravity, filtered: bool = True, kinematics=Corotated, nodes: list | None = None, damped: list | None = None) -> System:
+def structure_system(model, bodies: list, hht: HHT, gravity, filtered: bool = True, nodes: list | None = None, damped: list | None = None) -> System:
     """System of a structure with all degrees of freedom of its bodies.
 
     Args:
         model: `structures.model.StructureModel`: where its bodies are and what they do to one another; of their own models no more than nodes and surfaces is used.
         bodies: `fem.body.Body` of each part, copies the same object.
-        kinematics: of each, Corotated or TotalLagrangian.
         nodes: of each, (n,) of the body that are its model's rows; found by their places unless given.
         damped: of each, lowest elastic modes that are damped; those of its model unless given, or DAMPED where it has none.
     Raises:
@@ -36,7 +35,7 @@ def structure_system(model, bodies: list, hht: HHT, gravity, filtered: bool = Tr
     ratios = [part.damping_ratio if part.model.damping is None else part.model.damping for part in parts]
     damped = damped or [len(part.model.frequencies) or DAMPED for part in parts]
     damping = CompositeDamping(column, damped, ratios) if np.any([np.any(ratio) for ratio in ratios]) else None
-    return System(column, CompositeKinematics(column, kinematics), model.base, nodes, joints_of(parts, model.joints), gravity, hht, filtered, damping, links_of(model, hht))
+    return System(column, CompositeKinematics(column, Corotated), model.base, nodes, joints_of(parts, model.joints), gravity, hht, filtered, damping, links_of(model, hht))
 
 
 def released(system: System, parts, standing: State | None) -> State:

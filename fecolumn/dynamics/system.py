@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class State:
         (nb, 3, 3) of several bodies.
     contact: (P,) of CONTACT, what the points carry. static: strain energy of base, static rest of the bodies, penalty springs, pad and links [J].
     ground: (3,) acceleration of the base [m/s2]. rims: (ni,) of RIM. ties: (nl,) of TIE.
+    surface_a: (n_owned, 3) acceleration of the contact forces in the last step, with what gives them and internal forces their moments [m/s2], and surface_forces: (N, 3) the forces
+        on the surface nodes that it is of [N], both in the frames of the bodies; None before the first step.
     """
 
     time: float
@@ -46,6 +48,8 @@ class State:
     ground: np.ndarray
     rims: np.ndarray = field(default_factory=rims_at_rest)
     ties: np.ndarray = field(default_factory=lambda: np.zeros(0, TIE))
+    surface_a: np.ndarray | None = None
+    surface_forces: np.ndarray | None = None
 
     @property
     def forces(self) -> np.ndarray:
@@ -63,7 +67,7 @@ class State:
         return self.contact["relative"]
 
     def copy(self) -> "State":
-        return replace(self, **{name: getattr(self, name).copy() for name in ("x", "v", "a", "contact_a", "internal", "rotation", "contact", "ground", "rims", "ties")})
+        return replace(self, **{one.name: value.copy() for one in fields(self) if isinstance(value := getattr(self, one.name), np.ndarray)})
 
 
 @dataclass(slots=True)
@@ -142,6 +146,11 @@ class System:
         """Operators of mass_factor M + stiffness_factor (K + rate_factor C), C the damping, built once."""
         factors = mass_factor, stiffness_factor, rate_factor
         return self._operators.get(factors) or self._add(*factors, self._factor(mass_factor, stiffness_factor), self.column.unturned)
+
+    def of_step(self, hht: HHT | None = None) -> Operators:
+        """Operators of a step of `hht`, of a whole one unless given."""
+        hht = hht or self.hht
+        return self.operators(hht.mass_factor, hht.stiffness_factor, hht.rate_factor)
 
     def refresh(self, old: Operators, x: np.ndarray) -> Operators:
         """Operators with the column's tangent at positions x; only where the kinematics has one."""

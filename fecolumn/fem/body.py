@@ -121,14 +121,18 @@ class Body:
         return result
 
     def apply(self, matrix: PETSc.Mat, values: np.ndarray) -> np.ndarray:
-        """Product of a matrix with an owned array (n_owned, 3)."""
+        """Product of a matrix with an owned array (n_owned, 3), or with (k, n_owned, 3) of k copies at once, for which the matrix is read once."""
+        if values.ndim == 3:
+            return self.apply_many(matrix, values.reshape(len(values), -1).T).T.reshape(values.shape)
         source, target = self.work
         source.array[:] = values.reshape(-1)
         matrix.mult(source, target)
         return target.array.reshape(-1, 3).copy()
 
     def momentum(self, values: np.ndarray) -> np.ndarray:
-        """Product of the mass with an owned array (n_owned, 3)."""
+        """Product of the mass with an owned array (n_owned, 3), or with those of copies (k, n_owned, 3)."""
+        if values.ndim == 3:
+            return np.stack([self.momentum(one) for one in values])
         self._motion.getDenseArray()[:] = values
         self._mass_of_axis.matMult(self._motion, self._momentum)
         return np.array(self._momentum.getDenseArray(), order="C")

@@ -70,11 +70,16 @@ def slices(counts) -> list[slice]:
     return [slice(first, last) for first, last in zip(ends, ends[1:])]
 
 
+def copies_of(each: list):
+    """Each different one and the places where it is."""
+    for one in dict.fromkeys(each):
+        yield one, [place for place, other in enumerate(each) if other is one]
+
+
 def of_copies(each: list, rows: list, values: np.ndarray, name: str) -> np.ndarray:
     """What the methods `name` of `each` give of rows of values (n, 3), one below the other; copies are asked at once, so that what is large is read once."""
     found = {}
-    for one in dict.fromkeys(each):
-        mine = [place for place, other in enumerate(each) if other is one]
+    for one, mine in copies_of(each):
         given = values[rows[mine[0]]] if len(mine) == 1 else np.stack([values[rows[place]] for place in mine])
         found |= zip(mine, getattr(one, name)(given).reshape(len(mine), -1, 3))
     return np.concatenate([found[place] for place in range(len(each))])
@@ -103,7 +108,10 @@ class CompositeKinematics:
 
     def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
         """Rotations (nb, 3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions x."""
-        rotations, forces, strains = zip(*(one.internal(x[rows]) for one, rows in zip(self.each, self._rows)))
+        found = {}
+        for one, mine in copies_of(self.each):
+            found |= zip(mine, one.internal_of_copies([x[self._rows[place]] for place in mine]))
+        rotations, forces, strains = zip(*(found[place] for place in range(len(self.each))))
         return np.stack(rotations), np.concatenate(forces), sum(strains)
 
     def moved(self, x, step):

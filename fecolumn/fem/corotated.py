@@ -33,13 +33,22 @@ class Corotated:
         return mean_rotation(self.body, x)
 
     def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-        """Rotation (3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions x."""
+        """Rotation (3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions x (n_owned, 3)."""
+        rotation, deformation = self._deformed(x)
+        force = self.body.apply(self.body.stiffness, deformation)
+        return rotation, force @ rotation.T, 0.5 * self.body.dot(deformation, force)
+
+    def internal_of_copies(self, places: list) -> list[tuple]:
+        """`internal` of copies of the body at each of the positions, for which the stiffness is read once."""
+        rotations, deformations = zip(*map(self._deformed, places))
+        forces = self.body.apply(self.body.stiffness, np.stack(deformations))
+        return [(R, force @ R.T, 0.5 * self.body.dot(deformation, force)) for R, deformation, force in zip(rotations, deformations, forces)]
+
+    def _deformed(self, x):
         rotation = self.rotation(x)
         deformation = x @ rotation - self.body.X
         # the stiffness does not see a translation, the rounding of the energy does
-        deformation -= self.body.sum(self.body.node_mass @ deformation) / self.body.total_mass
-        force = self.body.apply(self.body.stiffness, deformation)
-        return rotation, force @ rotation.T, 0.5 * self.body.dot(deformation, force)
+        return rotation, deformation - self.body.sum(self.body.node_mass @ deformation) / self.body.total_mass
 
     def moved(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
         """Positions after an increment (n_owned, 3) [m] of an iteration; the stretch of its turn falls out with R."""

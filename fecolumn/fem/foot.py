@@ -25,8 +25,8 @@ class FilteredFoot:
     memory. This is the residual flexibility of component mode synthesis (Rubin 1975; Craig and Chang 1977) with powers of
     the effective matrix in place of a modal cut.
 
-    Arrays are in the body's frame, rows those of this rank: `push` = U (3 n_owned, 3 n), `jump` = Y likewise;
-    `static` = C and `mobility` = U^T Y (n, n, 3, 3) on every rank.
+    Arrays are in the body's frame, rows those of this rank: `jump` = Y (3 n_owned, 3 n), U is M times it; `static` = C and `mobility` = U^T Y
+    (n, n, 3, 3) on every rank.
     """
 
     filtered = True
@@ -37,20 +37,23 @@ class FilteredFoot:
         momentum = body.apply_many(body.mass, once)
         twice = mass_factor * factor.solve_many(momentum)
         self.jump = 2 * once - twice
-        self.push = body.apply_many(body.mass, self.jump)
         s1 = body.gather(nodes, once.reshape(body.n_owned, 3, -1)).reshape(3 * len(nodes), -1)
         s2, s3 = body.sum(momentum.T @ once), body.sum(momentum.T @ twice)
         s4 = body.sum(twice.T @ body.apply_many(body.mass, twice))
-        self.mobility = blocks(body.sum(self.push.T @ self.jump))
+        self.mobility = blocks(body.sum(self.unit_push().T @ self.jump))
         self.static = blocks(stiffness_factor / mass_factor * (s1 + s2 - 3 * s3 + s4))
 
     def position(self, displacement: np.ndarray) -> np.ndarray:
         """Filtered displacement or velocity (..., n, 3) of the foot from fields (..., n_owned, 3) of as many copies, both in the body's frame."""
-        return self.body.sum(as_row(displacement) @ self.push).reshape(*displacement.shape[:-2], -1, 3)
+        return self.body.sum(as_row(self.body.momentum(displacement)) @ self.jump).reshape(*displacement.shape[:-2], -1, 3)
 
     def load(self, forces: np.ndarray) -> np.ndarray:
-        """Nodal forces (..., n_owned, 3) of contact forces (..., n, 3) on as many copies, both in the body's frame."""
-        return _combine(self.push, forces)
+        """Nodal forces (..., n_owned, 3) of contact forces (..., n, 3) on as many copies, both in the body's frame: the mass times their `acceleration`."""
+        return self.body.momentum(self.acceleration(forces))
+
+    def unit_push(self) -> np.ndarray:
+        """U (3 n_owned, 3 n), as large as Y and not kept: nodal forces of unit forces on the nodes."""
+        return self.body.apply_many(self.body.mass, self.jump)
 
     def acceleration(self, forces: np.ndarray) -> np.ndarray:
         """M^-1 of `load`: acceleration of contact forces, or velocity jump of contact impulses."""
@@ -64,7 +67,6 @@ class PlainFoot:
 
     def __init__(self, body, nodes):
         self.body, self.nodes = body, nodes
-        self.push = unit_loads(body, nodes)
         self.static = np.zeros((len(nodes), len(nodes), 3, 3))
 
     def position(self, displacement: np.ndarray) -> np.ndarray:
@@ -74,6 +76,10 @@ class PlainFoot:
     def load(self, forces: np.ndarray) -> np.ndarray:
         """As of FilteredFoot."""
         return self.body.spread(self.nodes, forces) if forces.ndim == 2 else np.stack([self.load(one) for one in forces])
+
+    def unit_push(self) -> np.ndarray:
+        """As of FilteredFoot."""
+        return unit_loads(self.body, self.nodes)
 
 
 class Response:
@@ -85,8 +91,9 @@ class Response:
     """
 
     def __init__(self, foot, factor):
-        self._columns = factor.solve_many(foot.push)
-        self.compliance = blocks(foot.body.sum(foot.push.T @ self._columns))
+        push = foot.unit_push()
+        self._columns = factor.solve_many(push)
+        self.compliance = blocks(foot.body.sum(push.T @ self._columns))
 
     def displacement(self, forces: np.ndarray) -> np.ndarray:
         """Displacements (..., n_owned, 3) of contact forces (..., n, 3) on as many copies, both in the frame of the factored matrix."""

@@ -10,6 +10,7 @@ from fecolumn.case import Material
 from fecolumn.contact.points import SUNK
 from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
 from fecolumn.dynamics.energy import TERMS
+from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.stage import Stage
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced.observe import ENERGY, WIDTH
@@ -151,6 +152,15 @@ def test_a_structure_goes_on_from_a_checkpoint_as_if_nothing_had_happened(tmp_pa
     assert len(extra["work"]) == len(TERMS) - 4
     resumed, _ = FullRun(other.system, other.model, state=state).advance(np.zeros((90, 3)))
     np.testing.assert_allclose(resumed, whole, rtol=0, atol=1e-10)
+
+
+def test_a_standing_stack_steps_by_its_stick_operator_and_without_it_in_a_step_that_is_cut():
+    run, shaken = stack().full(), np.outer(0.5 * np.sin(0.05 * np.arange(1, 21)), [1.0, 0.3, 0.0])
+    run.advance(shaken)
+    whole, hht = run.stepper.step(run.state.copy(), shaken[-1]), run.system.hht
+    assert run.system.interface.stay.stick.key[1] == 1.0 and run.stepper.record.contact_iterations > 0
+    halved = run.stepper._hht_step(run.state.copy(), shaken[-1], HHT(hht.dt / 2, hht.alpha))
+    assert np.abs(halved.x - run.state.x).max() > 0 and np.abs(2 * (halved.x - run.state.x) - (whole.x - run.state.x)).max() < 1e-7
 
 
 def tie(**settings):

@@ -22,7 +22,7 @@ def model(system):
 def test_flexibility_is_that_of_the_filtered_foot_at_any_step(system, model):
     """U^T K^+ U + C = K^+, whatever the step's filter moves from one to the other."""
     foot, n = system.interface.foot, len(model.arms)
-    response = (foot.push.T @ FreeBody(system.column).response(foot.push)).reshape(n, 3, n, 3).transpose(0, 2, 1, 3)
+    response = (foot.unit_push().T @ FreeBody(system.column).response(foot.unit_push())).reshape(n, 3, n, 3).transpose(0, 2, 1, 3)
     assert np.abs(response + foot.static - model.flexibility).max() < 1e-8 * np.abs(model.flexibility).max()
 
 

@@ -10,6 +10,7 @@ from mpi4py import MPI
 from small_structures import STONE, structure
 
 from fecolumn.dynamics.history import read_history
+from fecolumn.dynamics.stay import Stay
 from fecolumn.schema import InputError, merge
 from fecolumn.simulation import read_folder_case, run
 from fecolumn.structures.elements import structure_of_elements
@@ -102,6 +103,32 @@ def test_interrupted_analysis_goes_on_to_the_same_motion(leaning, tmp_path):
     for name in ("u_top", "tilt", "body/lower/displacement"):
         np.testing.assert_allclose(rows[name], whole[name], rtol=0, atol=1e-10)
     assert len(rows["time"]) == 301
+
+
+def test_standing_structure_keeps_its_stick_operator_through_an_interruption(tmp_path, monkeypatch):
+    standing = merge({name: table for name, table in LEANING.items() if name != "initial"},
+                     merge(QUIET, dict(initial=dict(upper=dict(velocity_m_s=[2e-3, 1e-3, 0.0])), integration=dict(duration_s=0.06))))
+    asked = []
+
+    def rows(name, **how):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            run(structure(**standing), tmp_path / name, quiet=True, **how)
+        return read_history(tmp_path / name / "history.h5")
+
+    whole = rows("whole")
+    with pytest.raises(KeyboardInterrupt):
+        rows("broken", stop=lambda: asked.append(0) or len(asked) == 30)
+    with np.load(tmp_path / "broken" / "checkpoint.npz") as kept:
+        assert kept["extra.stick.key"][1] == 1.0 and np.abs(kept["extra.stick.inverse"]).max() > 0
+    again = rows("broken")
+    # found anew in each step instead
+    monkeypatch.setattr(Stay, "note", lambda self, poses, rims: None)
+    without = rows("without")
+    assert np.abs(whole["u_top"]).max() > 1e-6
+    for name in ("u_top", "body/lower/displacement", "energy/strain"):
+        np.testing.assert_array_equal(again[name], whole[name])
+        np.testing.assert_allclose(without[name], whole[name], rtol=0, atol=1e-5 * np.abs(whole[name]).max())
 
 
 def test_block_that_is_tilted_too_far_overturns(tmp_path):
