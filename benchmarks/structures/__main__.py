@@ -1,6 +1,7 @@
 """Finite elements beside the models: forces and free motion of the restrained wobbling frame, impacts of the rocking podium; and what a step costs.
 
-    ./containers/run python -m benchmarks.structures [forces planar rolled impacts rocking speed] [-o DIR]
+    ./containers/run python -m benchmarks.structures [forces planar rolled impacts rocking speed large] [-o DIR]
+    ./containers/run mpirun -n 2 python -m benchmarks.structures large
 
 Writes the rows of what was asked for into DIR as CSV, draws structures.png (and .pdf) from all that is there, and prints the tables. The first
 run makes the meshes and compiles; after it some minutes.
@@ -12,8 +13,9 @@ import argparse
 from pathlib import Path
 
 import numpy as np
+from mpi4py import MPI
 
-from benchmarks.structures import frame, podium, speed
+from benchmarks.structures import frame, large, podium, speed
 from benchmarks.structures.figure import draw
 from fecolumn.atomic import write_csv
 from fecolumn.rocking.podium_impact import LAWS
@@ -92,7 +94,17 @@ def speeds(folder: Path) -> None:
     write_csv(folder / "speed.csv", [["structure", "number", "state", *found], *table])
 
 
-PARTS = dict(speed=speeds, forces=forces, planar=planar, rolled=rolled, impacts=impacts, rocking=rocking)
+def large_costs(folder: Path) -> None:
+    """Of a large structure in full order, on all ranks."""
+    found = large.costs(MPI.COMM_WORLD)
+    if MPI.COMM_WORLD.rank == 0:
+        write_csv(folder / "large.csv", [list(found), list(found.values())])
+        print("\n| degrees of freedom | ranks | first step after [s] | standing: s a step, iterations | rocking, at most [rad] | s a step, iterations |\n|---|---|---|---|---|---|")
+        print(f"| {found['dofs']:,} | {found['ranks']} | {found['start_s']:.0f} | {found['standing_s']:.3f}, {found['standing_iterations']:.2f} | {found['tilt_rad']:.4f} "
+              f"| {found['rocking_s']:.3f}, {found['rocking_iterations']:.2f} |")
+
+
+PARTS = dict(speed=speeds, large=large_costs, forces=forces, planar=planar, rolled=rolled, impacts=impacts, rocking=rocking)
 
 
 def main() -> None:
@@ -106,7 +118,8 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name in args.parts or PARTS:
         PARTS[name](folder)
-    print("wrote", ", ".join(str(file) for file in draw(folder)))
+    if MPI.COMM_WORLD.rank == 0 and (drawn := draw(folder)):
+        print("wrote", ", ".join(map(str, drawn)))
 
 
 if __name__ == "__main__":

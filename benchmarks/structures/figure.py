@@ -28,7 +28,9 @@ def _value(text: str):
 
 
 def draw(folder: Path) -> list[Path]:
-    """Force against displacement, ways of the slab, velocity kept at impacts, free rocking of podia; a panel of what is missing stays empty."""
+    """Force against displacement, ways of the slab, velocity kept at impacts, free rocking of podia; a panel of what is missing stays empty. Nothing of nothing."""
+    if not any((folder / f"{name}.csv").exists() for name in PANELS):
+        return []
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, 0.75 * PAGE_WIDTH_IN)
         for axes, (name, panel) in zip(figure.subplots(2, 2).ravel(), PANELS.items()):
