@@ -16,7 +16,7 @@ from fecolumn.files import read_bytes
 
 _FIELDS = ("x", "v", "a", "contact_a", "internal", "surface_a")
 # arrays and fields with the angle of the rim's lowest point, nan while the foot touches with its nodes only
-_WITH_RIM = {"angle", "stick.key", "stick.angles", "extra.stick.key", "extra.stick.angles"}
+_WITH_RIM = {"angle", "stick.key", "stick.angles", "extra.stick.angles"}
 # A file knows no records
 _RECORDS = {"contact": CONTACT, "rims": RIM, "ties": TIE}
 _SHARED = ("time", "strain", "rotation", "contact", "static", "ground", "rims", "ties", "surface_forces")

@@ -36,11 +36,12 @@ class FilteredFoot:
         once = mass_factor * factor.solve_many(unit_loads(body, nodes))
         momentum = body.apply_many(body.mass, once)
         twice = mass_factor * factor.solve_many(momentum)
+        last = body.apply_many(body.mass, twice)
         self.jump = 2 * once - twice
         s1 = body.gather(nodes, once.reshape(body.n_owned, 3, -1)).reshape(3 * len(nodes), -1)
         s2, s3 = body.sum(momentum.T @ once), body.sum(momentum.T @ twice)
-        s4 = body.sum(twice.T @ body.apply_many(body.mass, twice))
-        self.mobility = blocks(body.sum(self.unit_push().T @ self.jump))
+        s4 = body.sum(twice.T @ last)
+        self.mobility = blocks(body.sum((2 * momentum - last).T @ self.jump))
         self.static = blocks(stiffness_factor / mass_factor * (s1 + s2 - 3 * s3 + s4))
 
     def position(self, displacement: np.ndarray) -> np.ndarray:
