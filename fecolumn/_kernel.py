@@ -117,10 +117,18 @@ class Kernel(CPUDispatcher):
 
     def compile(self, sig):
         with contextlib.ExitStack() as stack:
-            if not is_kept(self):  # one process of this machine compiles; others wait and open what it made
+            if not self._keeps(sig):  # one process of this machine compiles; others wait and open what it made
                 stack.enter_context(alone(Path(self.stats.cache_path) / self.__name__))
             stack.enter_context(_one_piece(self.py_func))
             return super().compile(sig)
+
+    def _keeps(self, sig) -> bool:
+        """Whether the form for these types is on disk.
+
+        It is not enough that some form is: two processes that each add one at once would give both the same number, and the form of
+        one would be run for the types of the other.
+        """
+        return self._cache._index_key(sig, self.targetctx.codegen()) in self._cache._cache_file._load_index()
 
     def get_call_template(self, args, kws):
         # numba would compile a function again for each constant that it is called with
