@@ -9,6 +9,7 @@ import numpy as np
 from fecolumn._compiled import compiled, njit
 from fecolumn.contact import tolerances
 from fecolumn.contact.arrays import marked
+from fecolumn.contact.blocks import find_blocks
 from fecolumn.contact.coulomb import in_cone, law_error, slips_and_gaps, violation
 from fecolumn.contact.interior_point import approach, in_cones
 from fecolumn.contact.newton import newton_steps, solve_in_place, stiffnesses
@@ -89,9 +90,9 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     n, best, least, iterations, others = len(q), start.copy(), np.inf, 0, 0
     if n == 0:
         return best, 0.0, 0, 0
-    rho = stiffnesses(W, False)
+    rho, blocks = stiffnesses(W, False), find_blocks(W)
     if near:
-        best, least, iterations = newton_steps(W, q, friction, start, tolerance, stiffnesses(W, True), rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        best, least, iterations = newton_steps(W, blocks, q, friction, start, tolerance, stiffnesses(W, True), rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
     if least <= tolerance:
         return best, least, iterations, others
     # few of many points carry: those that do without friction, and those that sink where these do
@@ -175,14 +176,14 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
     n, stiffest, give = len(q), np.inf, 0.0
     if n == 0:
         return guess, 0.0, 0, 0
-    rho, rho_t = stiffnesses(W, False), np.empty(n)
+    rho, rho_t, blocks = stiffnesses(W, False), np.empty(n), find_blocks(W)
     for i in range(n):
         rho_t[i] = 1 / np.hypot(W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1])
         stiffest, give = min(stiffest, rho[i]), max(give, tolerances.GIVE / rho[i])
     others = 0
-    best, least, iterations = newton_steps(W, q, friction, guess, tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
+    best, least, iterations = newton_steps(W, blocks, q, friction, guess, tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
     if least > tolerance:
-        forces, residual, made = newton_steps(W, q, friction, start, tolerance, stiffnesses(W, True), rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        forces, residual, made = newton_steps(W, blocks, q, friction, start, tolerance, stiffnesses(W, True), rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
@@ -193,7 +194,7 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
             forces, made = approach(A, Q, friction, R, U, most, np.empty(0))
             inside += made
             # from inside Newton needs a step or two when the active set is right, and costs a tenth
-            forces, residual, newtons = newton_steps(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
+            forces, residual, newtons = newton_steps(W, blocks, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
             iterations += newtons
             if residual < least:
                 best, least = forces, residual
@@ -205,7 +206,7 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
     while least > tolerance and count <= sweeps:
         forces = best.copy()
         others += gauss_seidel(W, q, forces, friction, rho_t, count, tolerance * stiffest)
-        forces, residual, made = newton_steps(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        forces, residual, made = newton_steps(W, blocks, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
@@ -213,12 +214,12 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
     if least > tolerance:
         # many small steps, each held by a compliance against change: they end where the active sets of all other ways cycle
         held = give * tolerances.HELD_GIVE / tolerances.GIVE
-        forces, residual, made = newton_steps(W, q, friction, best, tolerance, rho, rho, held, tolerances.HELD_STEPS, tolerances.HELD_STALLED)
+        forces, residual, made = newton_steps(W, blocks, q, friction, best, tolerance, rho, rho, held, tolerances.HELD_STEPS, tolerances.HELD_STALLED)
         iterations += made
         if residual < least:
             best, least = forces, residual
     if least > tolerance and turns > 0 and n <= tolerances.FROZEN_POINTS:
-        forces, residual, made, inside = _with_frozen_slips(W, q, friction, tolerance, rho, give, turns)
+        forces, residual, made, inside = _with_frozen_slips(W, blocks, q, friction, tolerance, rho, give, turns)
         iterations += made
         others += inside
         if residual < least:
@@ -227,7 +228,7 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
 
 
 @njit
-def _with_frozen_slips(W, q, friction, tolerance, rho, give, turns):
+def _with_frozen_slips(W, blocks, q, friction, tolerance, rho, give, turns):
     """Forces by a fixed point on the sizes of the slips (Acary, Cadoux, Lemarechal and Malick 2011, ZAMM 91): best forces, residual, steps of Newton, iterations inside.
 
     With these sizes frozen the problem is convex, and an interior point solves it to its end; Newton tries from each solution, `turns` times at most.
@@ -240,7 +241,7 @@ def _with_frozen_slips(W, q, friction, tolerance, rho, give, turns):
         relative = slips_and_gaps(W, q, forces)
         for i in range(n):
             slips[i] = np.hypot(relative[i, 0], relative[i, 1])
-        forces, residual, made = newton_steps(W, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
+        forces, residual, made = newton_steps(W, blocks, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
         iterations += made
         others += inside
         if residual < least:

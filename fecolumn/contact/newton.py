@@ -6,11 +6,12 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
+from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate
 from fecolumn.contact.coulomb import slips_and_gaps, violation
 
 
 @njit
-def newton_steps(W, q, friction, start, tolerance, rho, rho_alone, give, most, patience):
+def newton_steps(W, blocks, q, friction, start, tolerance, rho, rho_alone, give, most, patience):
     """Newton steps until the tolerance is met, or the residual has not fallen for more than `patience`: best forces, residual, steps made."""
     forces, least, stalled, made = start, np.inf, 0, 0
     best = start
@@ -22,7 +23,7 @@ def newton_steps(W, q, friction, start, tolerance, rho, rho_alone, give, most, p
             best, least, stalled = forces, residual, 0
         if residual <= tolerance or stalled > patience or made == most:
             break
-        forces, regular = newton_step(W, q, forces, relative, friction, rho, give)
+        forces, regular = newton_step(W, blocks, q, forces, relative, friction, rho, give)
         if not regular:
             break
         made += 1
@@ -30,10 +31,10 @@ def newton_steps(W, q, friction, start, tolerance, rho, rho_alone, give, most, p
 
 
 @njit
-def newton_step(W, q, forces, relative, friction, rho, give):
+def newton_step(W, blocks, q, forces, relative, friction, rho, give):
     """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular.
 
-    relative: (n, 3) slips and gaps under the forces.
+    blocks: of `blocks.find_blocks`. relative: (n, 3) slips and gaps under the forces.
 
     give: compliance [m/N] of each point against a change of its force, in this step alone: 0, or little where W leaves open which of many points
     carry. The laws are not softened by it: where the forces change no more, it plays no part.
@@ -41,7 +42,7 @@ def newton_step(W, q, forces, relative, friction, rho, give):
     With d the direction of the trial force and e across it, a slipping point has r_t = mu r_n d + y e. Linearised in r_t, r_n and the
     slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c = mu r_n / |trial|: two unknowns, three for a sticking point.
     """
-    n = len(q)
+    n, g = len(q), len(blocks.coupled)
     trial, updated = np.empty((n, 3)), np.zeros((n, 3))
     for i in range(n):
         for a in range(3):
@@ -49,7 +50,7 @@ def newton_step(W, q, forces, relative, friction, rho, give):
     # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or gap along test[u]
     point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
     stiffening, count = np.zeros(3 * n), 0
-    for i in range(n):
+    for i in blocks.order:
         if not trial[i, 2] > 0:
             continue
         mu = friction[i]
@@ -76,6 +77,12 @@ def newton_step(W, q, forces, relative, friction, rho, give):
         count += 2
     if count == 0:
         return updated, True
+    # rows and columns of the blocks
+    begin = np.zeros(g + 1, np.int64)
+    for u in range(count):
+        begin[blocks.of[point[u]] + 1] += 1
+    for k in range(g):
+        begin[k + 1] += begin[k]
     line, matrix, right = np.empty(3 * n), np.empty((count, count)), np.empty(count)
     for u in range(count):
         row, x, y, z = 3 * point[u], test[u, 0], test[u, 1], test[u, 2]
@@ -83,17 +90,22 @@ def newton_step(W, q, forces, relative, friction, rho, give):
         for a in range(3):
             right[u] -= test[u, a] * (q[point[u], a] - give * forces[point[u], a])
         first, second, third = W[row], W[row + 1], W[row + 2]
-        for j in range(3 * n):
-            line[j] = x * first[j] + y * second[j] + z * third[j]
-        for v in range(count):
-            column = 3 * point[v]
-            matrix[u, v] = basis[v, 0] * line[column] + basis[v, 1] * line[column + 1] + basis[v, 2] * line[column + 2]
+        for k in range(g):
+            if begin[k] == begin[k + 1] or not blocks.coupled[blocks.of[point[u]], k]:
+                continue
+            # the points of a block are beside each other
+            near = 3 * blocks.order[blocks.first[k]]
+            for j in range(near, near + 3 * (blocks.first[k + 1] - blocks.first[k])):
+                line[j] = x * first[j] + y * second[j] + z * third[j]
+            for v in range(begin[k], begin[k + 1]):
+                column = 3 * point[v]
+                matrix[u, v] = basis[v, 0] * line[column] + basis[v, 1] * line[column + 1] + basis[v, 2] * line[column + 2]
         # the unknowns of a point are beside each other
         for v in range(max(u - 2, 0), min(u + 3, count)):
             if point[v] == point[u]:
                 matrix[u, v] += give * (x * basis[v, 0] + y * basis[v, 1] + z * basis[v, 2])
         matrix[u, u] += stiffening[u]
-    if not solve_in_place(matrix, right):
+    if not (solve_in_place(matrix, right) if g == 1 else eliminate(matrix, right, begin, blocks.coupled)):
         return updated, False
     for u in range(count):
         for a in range(3):
@@ -105,7 +117,7 @@ def newton_step(W, q, forces, relative, friction, rho, give):
 def solve_in_place(matrix, right):
     """Solve by Gaussian elimination with row pivoting, LAPACK where it pays; overwrites both, False where singular."""
     n = len(right)
-    if n > 40:
+    if n > FEW_UNKNOWNS:
         try:
             put(np.linalg.solve(matrix, right), right)
         except Exception:
