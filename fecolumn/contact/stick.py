@@ -17,7 +17,7 @@ from fecolumn.contact.compliance import assemble
 from fecolumn.contact.coulomb import law_error
 from fecolumn.contact.newton import solve_in_place, stiffness_alone, stiffness_together
 from fecolumn.contact.pose import POSE, SLAVE
-from fecolumn.contact.tolerances import PAD_TURN, STICK_TURN, STICK_WAY
+from fecolumn.contact.tolerances import PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 
 
 class Stick(NamedTuple):
@@ -63,6 +63,16 @@ def holds(stick, interfaces, rims, rigid, poses):
                 if abs(now.turned[SLAVE, a, b] - then.turned[SLAVE, a, b]) > (PAD_TURN if on_pad else STICK_TURN):
                     return False
     return True
+
+
+@njit
+def is_worth(interface, pose, turn, way):
+    """Whether a foot in a pose (of POSE) that in one step turns by `turn` [rad] and goes by `way` [m] stays in its place long enough for finding the operator to pay."""
+    if interface.on_pad:
+        return turn < STICK_STAYS * PAD_TURN
+    turned = pose.turned
+    flat = np.hypot(turned[SLAVE, 2, 0], turned[SLAVE, 2, 1]) < STICK_TURN
+    return flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interface.width
 
 
 @njit

@@ -8,8 +8,7 @@ from fecolumn._compiled import interpreted
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.problem import STICKS_STILL, begin_problem
-from fecolumn.contact.stick import holds, no_stick
-from fecolumn.contact.tolerances import STICK_STAYS, STICK_TURN, STICK_WAY
+from fecolumn.contact.stick import holds, is_worth, no_stick
 
 
 class Stay:
@@ -29,15 +28,14 @@ class Stay:
         self._still, self._worth = False, False
 
     def note(self, poses: np.ndarray, rims: np.ndarray) -> None:
-        """Note, at the start of a step, whether feet with these poses (ni,) of POSE and rims are where the operator holds, and whether they have stayed as long as
-        `reduced.equilibrium.stays` asks."""
+        """Note, at the start of a step, whether feet with these poses (ni,) of POSE and rims are where the operator holds, and whether they go on to stay as they did in the step
+        before, long enough for finding it to pay."""
         before, angles, self._poses, self.rims = self._poses, self.rims["angle"], poses, rims
         self._still, self._worth = interpreted(holds)(self.stick, self._interfaces, rims, 0.0, poses), False
         if before is not None and np.array_equal(angles, rims["angle"], equal_nan=True):
-            turned, width = poses["turned"][:, SLAVE], self._interfaces["width"]
-            turn = np.abs(turned - before["turned"][:, SLAVE]).max()
-            way = (np.abs(poses["foot"] - before["foot"])[:, :2].max(axis=1) / width).max()
-            self._worth = np.hypot(*turned[:, 2, :2].T).max() < STICK_TURN and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY
+            turns = np.abs(poses["turned"][:, SLAVE] - before["turned"][:, SLAVE]).max(axis=(1, 2))
+            ways = np.abs(poses["foot"] - before["foot"])[:, :2].max(axis=1)
+            self._worth = all(map(interpreted(is_worth), self._interfaces, poses, turns, ways))
 
     def begin(self, problem, nodal) -> None:
         """Begin a contact problem of a stage with the compliance `nodal` of `dynamics.interface`."""

@@ -26,8 +26,8 @@ from fecolumn.contact.problem import (
     stored_energy,
 )
 from fecolumn.contact.outline import mark_sunk, was_beyond
-from fecolumn.contact.stick import Stick, holds, no_stick, same_points
-from fecolumn.contact.tolerances import CLOSE, ITERATIONS, PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
+from fecolumn.contact.stick import Stick, holds, is_worth, no_stick, same_points
+from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_on_master, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, begin_frames, follow, no_action
 from fecolumn.contact.pose import find_poses
@@ -66,7 +66,7 @@ def work_of(structure, points) -> Work:
 def stays(interfaces, poses, start, rims, free_center, advance):
     """Whether all feet stay in their places long enough for finding their stick operator to pay; poses: at the start, rims: (ni,) of RIM at the end."""
     for k in range(len(interfaces)):
-        way, turn, b, turned = 0.0, 0.0, interfaces[k].slave, poses[k].turned
+        way, turn, b = 0.0, 0.0, interfaces[k].slave
         if not same_points(start.rims[k].angle, rims[k].angle):
             # they rolled in this step, and would in the next
             return False
@@ -74,12 +74,7 @@ def stays(interfaces, poses, start, rims, free_center, advance):
             turn = max(turn, abs(advance[b, a]))
             if a < 2:
                 way = max(way, abs(free_center[b, a] - start.frames[b].center[a]))
-        if interfaces[k].on_pad:
-            if not turn < STICK_STAYS * PAD_TURN:
-                return False
-            continue
-        flat = np.hypot(turned[SLAVE, 2, 0], turned[SLAVE, 2, 1]) < STICK_TURN
-        if not (flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interfaces[k].width):
+        if not is_worth(interfaces[k], poses[k], turn, way):
             return False
     return True
 
