@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn.post.style import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
 
-ENGINES = {"full": ("full order", BLACK, "s"), "reduced": ("reduced, 100 modes", BLUE, "o"), "modes-30": ("reduced, 30 modes", GREEN, "v"),
+ENGINES = {"full": ("full order, bricks of 5 mm", BLACK, "s"), "bricks-2.5": ("full order, 2.5 mm", ORANGE, "D"), "reduced": ("reduced, 100 modes", BLUE, "o"), "modes-30": ("reduced, 30 modes", GREEN, "v"),
            "rigid": ("rigid body, elastic foot", VERMILION, "^")}
 TILTS = {"share-0.05": ("0.05", VERMILION, "^"), "share-0.1": ("0.1", ORANGE, "v"), "reduced": ("0.3", BLUE, "o"), "share-0.6": ("0.6", GREEN, "s")}
 
