@@ -1,7 +1,7 @@
 """Points in blocks of which not all move one another: feet of different columns, joints of a stack that no body has in common.
 
-Where W is zero between two blocks, so are the equations of Newton; what elimination fills in between them is little in a good order. The cost of a stack
-then grows with the number of its joints, not with its third power.
+Where W is zero between two blocks, so are the equations of Newton; what elimination fills in between them is little in a good order. What they cost
+then grows with the number of a stack's joints, not with its third power.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ def eliminate(matrix, right, first, coupled):
                 beside = np.ascontiguousarray(np.linalg.solve(own, beside))
             except Exception:
                 return False
-        elif not _solve_together(own, beside):
+        elif not solve_columns(own, beside):
             return False
         for i in range(n):
             column = 0
@@ -163,8 +163,8 @@ def eliminate(matrix, right, first, coupled):
 
 
 @njit
-def _solve_together(matrix, right):
-    """Solve for all columns of right (n, m) in their place, with row pivoting, where n is small; False where singular."""
+def solve_columns(matrix, right):
+    """Solve for all columns of right (n, m) in their place by Gaussian elimination with row pivoting, where n is small; False where singular."""
     n, m = right.shape
     for k in range(n):
         pivot = k
@@ -187,12 +187,9 @@ def _solve_together(matrix, right):
                 for j in range(m):
                     right[i, j] -= factor * right[k, j]
     for i in range(n - 1, -1, -1):
-        inverse = 1 / matrix[i, i]
         for k in range(i + 1, n):
-            factor = matrix[i, k]
-            if factor != 0.0:
-                for j in range(m):
-                    right[i, j] -= factor * right[k, j]
+            for j in range(m):
+                right[i, j] -= matrix[i, k] * right[k, j]
         for j in range(m):
-            right[i, j] *= inverse
+            right[i, j] /= matrix[i, i]
     return True

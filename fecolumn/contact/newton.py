@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
-from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate
+from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate, solve_columns
 from fecolumn.contact.coulomb import slips_and_gaps, violation
 
 
@@ -115,7 +115,7 @@ def newton_step(W, blocks, q, forces, relative, friction, rho, give):
 
 @njit
 def solve_in_place(matrix, right):
-    """Solve by Gaussian elimination with row pivoting, LAPACK where it pays; overwrites both, False where singular."""
+    """Solve for right (n,) in its place with row pivoting, by LAPACK where it pays; overwrites both, False where singular."""
     n = len(right)
     if n > FEW_UNKNOWNS:
         try:
@@ -123,30 +123,7 @@ def solve_in_place(matrix, right):
         except Exception:
             return False
         return True
-    for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(matrix[i, k]) > abs(matrix[pivot, k]):
-                pivot = i
-        if matrix[pivot, k] == 0.0:
-            return False
-        if pivot != k:
-            for j in range(k, n):
-                matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
-            right[k], right[pivot] = right[pivot], right[k]
-        inverse = 1 / matrix[k, k]
-        for i in range(k + 1, n):
-            factor = matrix[i, k] * inverse
-            if factor != 0.0:
-                for j in range(k + 1, n):
-                    matrix[i, j] -= factor * matrix[k, j]
-                right[i] -= factor * right[k]
-    for i in range(n - 1, -1, -1):
-        value = right[i]
-        for j in range(i + 1, n):
-            value -= matrix[i, j] * right[j]
-        right[i] = value / matrix[i, i]
-    return True
+    return solve_columns(matrix, right.reshape(n, 1))
 
 
 @njit
