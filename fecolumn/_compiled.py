@@ -12,8 +12,8 @@ from llvmlite.binding import get_host_cpu_name
 from fecolumn._kernel import Kernel, is_kept, is_tested
 from fecolumn.sources import digest_of
 
-# Folders of which compiled functions take code or constants
-_SOURCES = ("fem", "contact", "dynamics", "reduced")
+# Folders of which compiled functions take code or constants, and the files that say how they are compiled
+_SOURCES, _HOW = ("fem", "contact", "dynamics", "reduced"), ("_borrowed.py", "_compiled.py", "_kernel.py")
 
 
 def cache_folder() -> Path:
@@ -34,7 +34,8 @@ def compiled_folder(alone: tuple[str, ...] = ()) -> str:
             $FECOLUMN_COMPILED where that is given: tests, whose cache of everything else is their own, need not compile them again.
     """
     package = Path(__file__).parent
-    sources = digest_of([Path(file) for file in alone] if alone else (path for name in _SOURCES for path in sorted((package / name).glob("*.py"))))
+    taken = [Path(file) for file in alone] if alone else [path for name in _SOURCES for path in sorted((package / name).glob("*.py"))]
+    sources = digest_of([*taken, *(package / name for name in _HOW)])
     home = Path(alone and os.environ.get("FECOLUMN_COMPILED") or cache_folder())
     return str(home / f"compiled-{sources}-numba-{numba.__version__}-{get_host_cpu_name()}")
 

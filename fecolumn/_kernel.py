@@ -4,6 +4,9 @@ numba optimises each compiled function together with all its callees and emits m
 contact solver five times over. Here a function that is called by compiled code is only translated; optimisation and code are left to
 the function that Python calls (see numba's pull request 9566). A fourth of the time, the same digits.
 
+In one piece LLVM sees, too, which references to arrays need no counting: those of `_borrowed.borrowed`, whose owner is nobody. numba keeps the counting out of line for a pass of its own
+that prunes it; put in place, all of it that meets nobody falls away with the arguments that hand nobody on. A step of a rocking column takes a third of the time.
+
 This reaches into numba's internals, as they are in the versions TESTED. With any other version functions are compiled as numba does.
 """
 
@@ -13,11 +16,13 @@ import contextlib
 from pathlib import Path
 
 import numba
+from llvmlite import binding as llvm
 from numba import _dynfunc, types
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.cpu import CPUContext
 from numba.core.environment import lookup_environment
 from numba.core.registry import CPUDispatcher
+from numba.core.runtime import rtsys
 
 from fecolumn.lock import alone
 
@@ -51,10 +56,19 @@ class _Library(JITCodeLibrary):
 
     def finalize(self):
         self._raise_if_finalized()
+        own = {function.name for function in self._final_module.functions if not function.is_declaration}
         for library in self._callees():
             self._reload_init.update(library._reload_init)
-            left = isinstance(library, _Library) and not library._finalized
-            self._final_module.link_in(library._for_entry() if left else library._get_module_for_linking(), preserve=True)
+            if library is rtsys.library:
+                code = _counting()
+            else:
+                left = isinstance(library, _Library) and not library._finalized
+                code = library._for_entry() if left else library._get_module_for_linking()
+            self._final_module.link_in(code, preserve=True)
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.name not in own:
+                # nobody else calls it, so that what all its calls agree on is known in it
+                function.linkage = "internal"
         self._optimize_final_module()
         self._final_module.verify()
         self._finalize_final_module()
@@ -81,6 +95,11 @@ class _Library(JITCodeLibrary):
                 if not function.is_declaration and function.linkage.name == "external":
                     function.linkage = "linkonce_odr"
         return self._translated
+
+
+def _counting():
+    """numba's code that counts references to arrays, to be put in place of each call."""
+    return llvm.parse_assembly(str(rtsys.library._get_module_for_linking()).replace("noinline", "alwaysinline"))
 
 
 def _executable(context, library, fndesc, env, emitted=CPUContext.get_executable):
