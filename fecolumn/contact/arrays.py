@@ -1,4 +1,4 @@
-"""Copies and products of small arrays for compiled code.
+"""Copies and products of small arrays for compiled code, and what a tuple has of them.
 
 Plain loops: numba's assignment and arithmetic of whole arrays bring broadcasting and its error messages along, half a second of compilation at each place.
 """
@@ -8,6 +8,14 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
+
+
+def arrays_of(whole) -> dict[str, np.ndarray]:
+    """The arrays of a NamedTuple by name, those of a NamedTuple within it as "part.name": for a checkpoint."""
+    found = {}
+    for name, value in whole._asdict().items():
+        found |= {f"{name}.{part}": array for part, array in arrays_of(value).items()} if isinstance(value, tuple) else {name: value}
+    return found
 
 
 @njit

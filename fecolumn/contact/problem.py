@@ -17,6 +17,7 @@ from fecolumn.contact.projection import ON, UNKNOWN, project
 from fecolumn.contact.compliance import assemble, even_out
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.coulomb import law_error, slips_and_gaps
+from fecolumn.contact.factor import multiply
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.newton import stiffness_alone
 from fecolumn.contact.pad import indent
@@ -185,11 +186,12 @@ def _active(problem):
 def _displace_all(stick, after, target):
     """target (n, 3): static displacement of all points by the stick operator."""
     n = len(after)
-    forces = np.empty(3 * n)
+    forces, moved = np.empty(3 * n), np.empty(3 * n)
     for i in range(n):
         for a in range(3):
             forces[3 * i + a] = after[i].force[a]
-    put_points(stick.static @ forces, target)
+    multiply(stick.static, forces, moved)
+    put_points(moved, target)
 
 
 @njit
@@ -303,7 +305,13 @@ def solve_linear(problem, bodies, base, points, interfaces, springs, dynamic, el
         for j in range(k):
             for a in range(3):
                 old[3 * j + a] = after[listed[j]].force[a] - old[3 * j + a]
-        moved = stick.W @ old - stick.static @ old if sticks else response @ old
+        if sticks:
+            moved, static = stick.W @ old, np.empty(3 * k)
+            multiply(stick.static, old, static)
+            for j in range(3 * k):
+                moved[j] -= static[j]
+        else:
+            moved = response @ old
         for j in range(k):
             for a in range(3):
                 positions[listed[j], a] += moved[3 * j + a] - (springs.own[j, a] * old[3 * j + a] if sticks else 0.0)

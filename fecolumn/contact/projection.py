@@ -80,15 +80,16 @@ def project_on_body(bodies, interface, point, x, y):
     surface that is not convex. Off the surface, of the nearest facet, or of a convex one of the last on the way.
     """
     first, count, facet, margin = interface.facet_first, interface.facet_count, point.facet, EDGE * interface.width + interface.bulge
-    shares, nearest, least, side = np.empty(3), 0, np.inf, 0
+    # of room of their own, made at each call, they would take longer than to find
+    shares, nearest, least, side = point.shares, 0, np.inf, 0
     for step in range(count):
         across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
         if across < 0:
-            _take(bodies.facets[first + facet], facet, shares, point)
+            _take(bodies.facets[first + facet], facet, point)
             return ON
         beside = bodies.facets[first + facet].neighbours[across]
         if beside < 0 and beside != GOES_ON and interface.convex:
-            _take(bodies.facets[first + facet], facet, shares, point)
+            _take(bodies.facets[first + facet], facet, point)
             return OFF
         if beside < 0:
             break
@@ -96,12 +97,12 @@ def project_on_body(bodies, interface, point, x, y):
     for facet in range(count):
         across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
         if across < 0:
-            _take(bodies.facets[first + facet], facet, shares, point)
+            _take(bodies.facets[first + facet], facet, point)
             return ON
         if -shares[across] < least:
             nearest, least, side = facet, -shares[across], across
     _shares_of(bodies.facets[first + nearest], x, y, margin, shares)
-    _take(bodies.facets[first + nearest], nearest, shares, point)
+    _take(bodies.facets[first + nearest], nearest, point)
     return UNKNOWN if bodies.facets[first + nearest].neighbours[side] == GOES_ON else OFF
 
 
@@ -157,7 +158,7 @@ def place_on_masters(bodies, interfaces, points, poses, moved, starts, places):
 
 @njit
 def _shares_of(facet, x, y, margin, shares):
-    """shares (3,): of a facet's corners in the place x, y; the side most beyond which it lies, -1 where it lies within, or by `margin` [m] beyond an outline."""
+    """The first three shares: of a facet's corners in the place x, y; the side most beyond which it lies, -1 where it lies within, or by `margin` [m] beyond an outline."""
     corners = facet.corners
     ax, ay = corners[1, 0] - corners[0, 0], corners[1, 1] - corners[0, 1]
     bx, by = corners[2, 0] - corners[0, 0], corners[2, 1] - corners[0, 1]
@@ -166,6 +167,8 @@ def _shares_of(facet, x, y, margin, shares):
     shares[0] = 1 - shares[1] - shares[2]
     worst, across = 0.0, -1
     for q in range(3):
+        if shares[q] >= 0:
+            continue
         # height of the triangle over the side opposite to the corner
         x0, y0 = corners[(q + 1) % 3, 0], corners[(q + 1) % 3, 1]
         x1, y1 = corners[(q + 2) % 3, 0], corners[(q + 2) % 3, 1]
@@ -177,11 +180,11 @@ def _shares_of(facet, x, y, margin, shares):
 
 
 @njit
-def _take(facet, number, shares, point):
-    """Let a point stand on a facet."""
+def _take(facet, number, point):
+    """Let a point stand on a facet, of whose corners it has the shares."""
     point.facet = number
     for q in range(3):
-        point.below[q], point.shares[q] = facet.nodes[q], shares[q]
+        point.below[q] = facet.nodes[q]
     point.below[3], point.shares[3] = facet.nodes[0], 0.0
 
 

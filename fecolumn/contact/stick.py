@@ -15,19 +15,22 @@ from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.coulomb import law_error
+from fecolumn.contact.factor import Blocked, divide, factorize, no_blocks, solve_factored
 from fecolumn.contact.newton import solve_in_place, stiffness_alone, stiffness_together
 from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.tolerances import PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 
 
 class Stick(NamedTuple):
-    """Compliance W of all points and its inverse, the static part without what the points give alone, all (3 n, 3 n); rho, rho_all: (n,) stiffness of a
-    point alone and with all others [N/m]; poses: (ni,) of POSE and angles: (ni,) of the rims for which they hold; key: (2,) length of the step, and 1 once they
-    are found."""
+    """Compliance W of all points (3 n, 3 n) and its factor, and the static part without what the points give alone; inverse: (3 n, 3 n), of whose rows those known, (3 n,), are found;
+    rho, rho_all: (n,) stiffness of a point alone and with all others [N/m]; poses: (ni,) of POSE and angles: (ni,) of the rims for which they hold; key: (2,) length of the step, and
+    1 once they are found."""
 
     W: np.ndarray
+    factor: Blocked
+    static: Blocked
     inverse: np.ndarray
-    static: np.ndarray
+    known: np.ndarray
     rho: np.ndarray
     rho_all: np.ndarray
     poses: np.ndarray
@@ -37,7 +40,7 @@ class Stick(NamedTuple):
 
 def no_stick(n: int, interfaces: int = 1) -> Stick:
     """Of n points, not found yet."""
-    return Stick(*(np.zeros((3 * n, 3 * n)) for _ in range(3)), np.zeros(n), np.zeros(n), np.zeros(interfaces, POSE), np.zeros(interfaces), np.zeros(2))
+    return Stick(np.zeros((3 * n, 3 * n)), no_blocks(n), no_blocks(n), np.zeros((3 * n, 3 * n)), np.zeros(3 * n, bool), np.zeros(n), np.zeros(n), np.zeros(interfaces, POSE), np.zeros(interfaces), np.zeros(2))
 
 
 @njit
@@ -79,25 +82,35 @@ def is_worth(interface, pose, turn, way):
 def find_stick(stick, bodies, base, points, springs, dynamic, rigid, rims, poses):
     """Find the operator of feet of which all points stand; further arguments as of `compliance.assemble`."""
     n = len(stick.rho)
-    everyone, arms = np.empty(n, np.int64), np.empty((n, 3))
+    everyone, arms, static = np.empty(n, np.int64), np.empty((n, 3)), np.empty((3 * n, 3 * n))
     for i in range(n):
         everyone[i] = i
         for a in range(3):
             arms[i, a] = points[i].arm[a]
-    assemble(bodies, base, points, arms, everyone, poses, 0.0, bodies.static, 1.0, springs.own, stick.static)
+    assemble(bodies, base, points, arms, everyone, poses, 0.0, bodies.static, 1.0, springs.own, static)
     assemble(bodies, base, points, arms, everyone, poses, rigid, dynamic, 1.0, springs.own, stick.W)
-    inverse = np.linalg.inv(stick.W)
     for i in range(n):
         stick.rho[i] = stiffness_alone(stick.W, i)
         stick.rho_all[i] = stiffness_together(stick.W, i)
         for a in range(3):
-            stick.static[3 * i + a, 3 * i + a] -= springs.own[i, a]
-    for i in range(3 * n):
-        for j in range(i + 1):
-            stick.inverse[i, j] = stick.inverse[j, i] = (inverse[i, j] + inverse[j, i]) / 2
+            stick.known[3 * i + a] = False
+            static[3 * i + a, 3 * i + a] -= springs.own[i, a]
+    factorize(stick.W, stick.factor)
+    divide(static, stick.factor, stick.static)
     for k in range(len(poses)):
         stick.poses[k], stick.angles[k] = poses[k], rims[k].angle
     stick.key[0], stick.key[1] = rigid, 1.0
+
+
+@njit
+def _find_inverse(stick, row):
+    """Find one row of the inverse unless it is known."""
+    if not stick.known[row]:
+        line = stick.inverse[row]
+        for j in range(len(line)):
+            line[j] = 1.0 if j == row else 0.0
+        solve_factored(stick.factor, line)
+        stick.known[row] = True
 
 
 @njit
@@ -114,10 +127,10 @@ def solve_sticking(stick, points, slack, active, after, tolerance, usable):
     for i in range(n):
         for a in range(3):
             r[3 * i + a] = best[3 * i + a] = after[i].force[a]
-            s[3 * i + a] = slack[i, a]
-    pulled = stick.inverse @ s
+            s[3 * i + a] = stuck[3 * i + a] = slack[i, a]
+    solve_factored(stick.factor, stuck)
     for j in range(3 * n):
-        stuck[j] = r[j] - pulled[j]
+        stuck[j] = r[j] - stuck[j]
     unknown, point, opened, turn = np.empty(3 * n, np.int64), np.empty(3 * n, np.int64), np.empty(n, np.bool_), np.empty((n, 5))
     for newton in range(most):
         count = 0
@@ -143,6 +156,8 @@ def solve_sticking(stick, points, slack, active, after, tolerance, usable):
                 count += 1
         if count > 3 * n // 2:
             return np.inf, newton
+        for u in range(count):
+            _find_inverse(stick, unknown[u])
         matrix, right = np.empty((count, count)), np.empty(count)
         u = 0
         while u < count:
@@ -157,7 +172,7 @@ def solve_sticking(stick, points, slack, active, after, tolerance, usable):
             right[u] = -(1 - a) * stuck[row] + b * stuck[row + 1] + x * stuck[row + 2]
             right[u + 1] = b * stuck[row] - (1 - d) * stuck[row + 1] + y * stuck[row + 2]
             for v in range(count):
-                k0, k1, k2 = stick.inverse[row, unknown[v]], stick.inverse[row + 1, unknown[v]], stick.inverse[row + 2, unknown[v]]
+                k0, k1, k2 = stick.inverse[row, unknown[v]], stick.inverse[row + 1, unknown[v]], stick.inverse[unknown[v], row + 2]
                 matrix[u, v] = (1 - a) * k0 - b * k1 - x * k2
                 matrix[u + 1, v] = -b * k0 + (1 - d) * k1 - y * k2
             rho = stick.rho_all[i]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import interpreted
+from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.problem import STICKS_STILL, begin_problem
@@ -49,10 +50,11 @@ class Stay:
 
     def to_keep(self, nodal) -> dict[str, np.ndarray]:
         """Arrays of a checkpoint with the operator found with `nodal`, so that an analysis goes on to the last digit as if it had not been interrupted; none of another."""
-        return {f"stick.{name}": values for name, values in self.stick._asdict().items()} if nodal is not None and self._nodal is nodal else {}
+        return {f"stick.{name}": values for name, values in arrays_of(self.stick).items()} if nodal is not None and self._nodal is nodal else {}
 
     def take(self, arrays: dict[str, np.ndarray]) -> None:
         """Take over the operator from the arrays of a checkpoint, if there is one."""
-        for name, values in self.stick._asdict().items():
-            if f"stick.{name}" in arrays:
+        own = arrays_of(self.stick)
+        if all(f"stick.{name}" in arrays for name in own):
+            for name, values in own.items():
                 values[...] = arrays[f"stick.{name}"]

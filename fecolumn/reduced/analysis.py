@@ -12,6 +12,7 @@ from fecolumn._compiled import compiled
 from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
+from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
@@ -177,10 +178,10 @@ class ReducedAnalysis(Analysis):
         self.write_history()
 
     def _arrays(self) -> dict[str, np.ndarray]:
-        """What a checkpoint keeps: with the stick operator, so that an analysis that was interrupted goes on to the last digit as if it had not been."""
+        """What a checkpoint keeps: with the stick operator and what is learnt of it, so that an analysis that was interrupted goes on to the last digit as if it had not been."""
         engine = self.engine
-        parts = {"motion": engine.motion, "stick": engine.work.stick}
-        arrays = {f"{part}.{name}": values for part, target in parts.items() for name, values in target._asdict().items()}
+        parts = {"motion": engine.motion, "stick": engine.work.stick, "secant": engine.work.secant}
+        arrays = {f"{part}.{name}": values for part, target in parts.items() for name, values in arrays_of(target).items()}
         return arrays | dict(ledger=engine.ledger, counts=engine.counts)
 
     def _take(self, saved: dict) -> None:

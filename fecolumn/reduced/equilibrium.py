@@ -30,17 +30,19 @@ from fecolumn.contact.stick import Stick, holds, is_worth, no_stick, same_points
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.reduced.elastic import COORDINATE, END, Elastic, START, find_all_elastic, find_elastic, find_on_master, find_position, locate_start, no_elastic
 from fecolumn.reduced.motion import Action, begin_frames, follow, no_action
+from fecolumn.reduced.secant import Secant, foresee, learn, no_secant
 from fecolumn.contact.pose import find_poses
 
 
 class Work(NamedTuple):
     """Room and memory of steps. points: (P,) of POINT in the step; before: (P,) of CONTACT, what the start brings to them; problem, stick: of
-    `contact`; action, elastic: of `reduced.motion`; poses: (2, ni) of POSE at START and END of a step; positions, early, late: (P, 3); places: (N, 3); marked, landing, turning: (P,) or (N,) masks."""
+    `contact`; secant: of `reduced.secant`; action, elastic: of `reduced.motion`; poses: (2, ni) of POSE at START and END of a step; positions, early, late: (P, 3); places: (N, 3); marked, landing, turning: (P,) or (N,) masks."""
 
     points: np.ndarray
     before: np.ndarray
     problem: Problem
     stick: Stick
+    secant: Secant
     action: Action
     elastic: Elastic
     poses: np.ndarray
@@ -57,7 +59,7 @@ def work_of(structure, points) -> Work:
     """For the points (P,) of a Structure."""
     n, nodes = len(points), len(structure.bodies.arms)
     bodies, modes = structure.squares.shape
-    return Work(points.copy(), np.zeros(n, CONTACT), room(n), no_stick(n, len(structure.interfaces)), no_action(modes, bodies, len(structure.interfaces), len(structure.links)), no_elastic(nodes, n),
+    return Work(points.copy(), np.zeros(n, CONTACT), room(n), no_stick(n, len(structure.interfaces)), no_secant(n), no_action(modes, bodies, len(structure.interfaces), len(structure.links)), no_elastic(nodes, n),
                 np.zeros((2, len(structure.interfaces)), POSE),
                 *(np.zeros((n, 3)) for _ in range(3)), np.zeros((nodes, 3)), np.zeros(nodes, bool), np.zeros(n, bool), np.zeros(n, bool))
 
@@ -175,7 +177,7 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
     Returns: a way to end.
     """
     interfaces, points, before, problem, elastic, poses = structure.interfaces, work.points, work.before, work.problem, work.elastic, work.poses
-    carrying = 0
+    carrying, foreseen = 0, False
     find_poses(interfaces, start.frames, start.rotation, poses[START])
     for i in range(len(points)):
         end.contact[i] = before[i]
@@ -200,7 +202,7 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
         counts[N_ITERATIONS] += 1
         if not follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action):
             return ITERATIONS_SPENT
-        if iteration == 1 and len(interfaces) > 1:
+        if iteration == 1 and len(interfaces) > 1 and not problem.flags[STICKS_STILL]:
             # the first forces found in the step bend the bodies: with the arms that these then have, else there would be one iteration more
             find_arms(structure, work, end)
             if not follow(structure, scheme, points, near_points(problem), start, free_center, free_modal, advance, elastic, end, work.action):
@@ -213,11 +215,16 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
                                          rims, poses[END], work.positions, iteration == 0, before, end.contact, counts)
         if answer != OK:
             return answer
+        if foreseen and iteration == 1:
+            learn(work.secant, points, problem.slack, end.contact)
         if residual <= 1.0:
             for i in range(len(points)):
                 end.contact[i].beyond = points[i].beyond != OVER
             end.whole[0].static = stored_energy(problem, points, interfaces, scheme.springs, before, end.contact)
             return OK
+        if iteration == 0 and problem.flags[STICKS_STILL]:
+            foresee(work.secant, problem.slack)
+            foreseen = True
         answer = find_forces(problem, points, interfaces, work.stick, end.contact, counts)
         if answer != OK:
             return answer

@@ -120,7 +120,7 @@ def test_standing_structure_keeps_its_stick_operator_through_an_interruption(tmp
     with pytest.raises(KeyboardInterrupt):
         rows("broken", stop=lambda: asked.append(0) or len(asked) == 30)
     with np.load(tmp_path / "broken" / "checkpoint.npz") as kept:
-        assert kept["extra.stick.key"][1] == 1.0 and np.abs(kept["extra.stick.inverse"]).max() > 0
+        assert kept["extra.stick.key"][1] == 1.0 and np.abs(kept["extra.stick.factor.values"]).max() > 0
     again = rows("broken")
     # found anew in each step instead
     monkeypatch.setattr(Stay, "note", lambda self, poses, rims: None)

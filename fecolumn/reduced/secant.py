@@ -1,0 +1,56 @@
+"""What the stick operator of feet that stand leaves undone, learnt from the step before.
+
+The operator is that of a place up to STICK_TURN away, so that its first forces in a step leave slips and gaps of 1e-4 of those at the beginning. From one step to the next these
+are much the same share of each other: added to the first ones, they let the first forces meet the laws (a secant of rank one, Broyden 1965). Whether they do is seen as ever.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn._compiled import njit
+from fecolumn.contact.tolerances import FULL_FRICTION
+
+
+class Secant(NamedTuple):
+    """begun: (P, 3) slips and gaps at the beginning of a step, left: those that the operator's forces for them would have left [m]; now, added: (P, 3) the same of the present step,
+    as far as they are known; known: (1,) whether begun and left are."""
+
+    begun: np.ndarray
+    left: np.ndarray
+    now: np.ndarray
+    added: np.ndarray
+    known: np.ndarray
+
+
+def no_secant(points: int) -> Secant:
+    return Secant(*(np.zeros((points, 3)) for _ in range(4)), np.zeros(1, bool))
+
+
+@njit
+def foresee(secant, slack):
+    """Add to slips and gaps (P, 3) at the beginning of a step, before its first forces are found, what these would leave."""
+    share = square = 0.0
+    for i in range(len(slack)):
+        for a in range(3):
+            share += slack[i, a] * secant.begun[i, a]
+            square += secant.begun[i, a] ** 2
+    share = share / square if secant.known[0] and square > 0.0 else 0.0
+    for i in range(len(slack)):
+        for a in range(3):
+            secant.now[i, a], secant.added[i, a] = slack[i, a], share * secant.left[i, a]
+            slack[i, a] += secant.added[i, a]
+
+
+@njit
+def learn(secant, points, slack, contact):
+    """Note what the first forces of the step, those of `contact` (P,), have left; nothing where points slip or open, whose slips and gaps are no error."""
+    secant.known[0] = True
+    for i in range(len(points)):
+        x, y, most = contact[i].force[0], contact[i].force[1], (1 - FULL_FRICTION) * points[i].friction * contact[i].force[2]
+        secant.known[0] &= contact[i].force[2] > 0.0 and x * x + y * y < most * most
+    for i in range(len(points)):
+        for a in range(3):
+            secant.begun[i, a], secant.left[i, a] = secant.now[i, a], secant.added[i, a] + slack[i, a]
