@@ -207,7 +207,7 @@ def _analyse(case, folder, file, quiet) -> int:
         if not has_figures(folder):
             history_figures(folder)
         print(f"{folder}: {peak_text(summary)}, {ending_text(summary)}; {summary['steps']} steps, "
-              f"{1e3 * summary['s_per_step']:.1f} ms/step, energy closure {summary['energy_closure_rel']:.1e}")
+              f"{1e3 * summary['s_per_step']:.2g} ms/step, energy closure {summary['energy_closure_rel']:.1e}")
     return 0
 
 
