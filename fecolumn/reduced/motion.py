@@ -10,6 +10,7 @@ from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.points import BASE, CONTACT
+from fecolumn.contact.pose import MASTER, SLAVE
 from fecolumn.contact.record import record
 from fecolumn.dynamics.links import TIE, pull_links
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
@@ -61,7 +62,8 @@ def at_rest(points: int, modes: int, bodies: int = 1, interfaces: int = 1, links
 class Action(NamedTuple):
     """What contact and links do to the bodies in a step, for the ledger: turn: (nb, 3) [rad] in a body's frame, moment: (nb, 3) [N m] there, conjugate to
     the turn; push: (nb, 3) force [N]; modal: (nb, m) forces on the modes; halfway: (nb, 3, 3) rotation in the middle of the step; resistance: (nb, 3) part of
-    the moment by which a rim resists to roll; frames: (ni, 3, 3) of the interfaces in the middle of the step; pulls: (nl, 3) forces of the links on their ends a [N]."""
+    the moment by which a rim resists to roll; frames: (ni, 3, 3) of the interfaces in the middle of the step; total: (ni, 3) sums of the forces on their slaves [N], spread: (ni, 2, 3, 3)
+    of the arms of slave and master times these forces [N m], in their frames; pulls: (nl, 3) forces of the links on their ends a [N]."""
 
     turn: np.ndarray
     moment: np.ndarray
@@ -70,12 +72,14 @@ class Action(NamedTuple):
     halfway: np.ndarray
     resistance: np.ndarray
     frames: np.ndarray
+    total: np.ndarray
+    spread: np.ndarray
     pulls: np.ndarray
 
 
 def no_action(modes: int, bodies: int = 1, interfaces: int = 1, links: int = 0) -> Action:
     return Action(*(np.zeros((bodies, 3)) for _ in range(3)), np.zeros((bodies, modes)), np.zeros((bodies, 3, 3)), np.zeros((bodies, 3)),
-                  np.tile(np.eye(3), (interfaces, 1, 1)), np.zeros((links, 3)))
+                  np.tile(np.eye(3), (interfaces, 1, 1)), np.zeros((interfaces, 3)), np.zeros((interfaces, 2, 3, 3)), np.zeros((links, 3)))
 
 
 @njit
@@ -141,12 +145,13 @@ def follow(structure, scheme, points, listed, start, free_center, free_modal, ad
         free_center: (nb, 3), free_modal: (nb, m): the end of the step without contact. advance: (nb, 3) dt times the spins at the start.
     """
     change = 0.0
+    _sum_forces(points, listed, end.contact, elastic, action)
     for sweep in range(SWEEPS):
         change = max(_turn_frames(structure, action), pull_links(structure.links, start.ties, start.frames, start.rotation, end.frames, end.rotation, scheme.dt, action.pulls))
         if sweep > 0 and change <= SETTLED:
             break
-        _carry_bodies(structure, scheme, points, listed, start, free_center, advance, elastic, end, action)
-    modal_forces(structure, points, listed, action.halfway, action.frames, end.contact, action.modal)
+        _carry_bodies(structure, scheme, start, free_center, advance, end, action)
+    _push_modes(structure, points, listed, end.contact, action)
     for b in range(len(start.frames)):
         for k in range(free_modal.shape[1]):
             end.modal[b, COORDINATE, k] = scheme.shrink[b, k] * (free_modal[b, k] + scheme.half * action.modal[b, k])
@@ -156,30 +161,46 @@ def follow(structure, scheme, points, listed, start, free_center, free_modal, ad
 
 
 @njit
-def _carry_bodies(structure, scheme, points, listed, start, free_center, advance, elastic, end, action):
+def _sum_forces(points, listed, contact, elastic, action):
+    """Sums of the forces of `contact` at the listed points (k,), interface by interface, in whose frames they are: they turn with these."""
+    action.total[:] = 0.0
+    action.spread[:] = 0.0
+    for i in listed:
+        if contact[i].force[2] <= 0.0:
+            continue
+        k, force = points[i].interface, contact[i].force
+        total, spread = action.total[k], action.spread[k]
+        for a in range(3):
+            total[a] += force[a]
+            arm = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
+            for c in range(3):
+                spread[SLAVE, a, c] += arm * force[c]
+        if points[i].master != BASE:
+            for a in range(3):
+                seat = (elastic.seat[START, i, a] + elastic.seat[END, i, a]) / 2
+                for c in range(3):
+                    spread[MASTER, a, c] -= seat * force[c]
+
+
+@njit
+def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
     """`follow`, with frames and links where they are, without modes."""
-    bodies, force, arm = structure.bodies.body, np.empty(3), np.empty(3)
+    bodies = structure.bodies.body
     spread = np.zeros((len(bodies), 3, 3))
     for b in range(len(bodies)):
         for a in range(3):
             action.push[b, a] = 0.0
-    for i in listed:
-        if end.contact[i].force[2] <= 0.0:
-            continue
-        _turned(action.frames, points[i], end.contact[i].force[0], end.contact[i].force[1], end.contact[i].force[2], force)
+    for k in range(len(structure.interfaces)):
+        Q, total = action.frames[k], action.total[k]
         for side in range(2):
-            b = points[i].master if side else points[i].slave
+            b, sign = structure.interfaces[k].master if side else structure.interfaces[k].slave, -1.0 if side else 1.0
             if b == BASE:
                 continue
-            for a in range(3):
-                if side:
-                    arm[a], force[a] = (elastic.seat[START, i, a] + elastic.seat[END, i, a]) / 2, -force[a]
-                else:
-                    arm[a] = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
-            for a in range(3):
-                for c in range(3):
-                    spread[b, a, c] += arm[a] * force[c]
-                action.push[b, a] += force[a]
+            for c in range(3):
+                action.push[b, c] += sign * (Q[c, 0] * total[0] + Q[c, 1] * total[1] + Q[c, 2] * total[2])
+                for a in range(3):
+                    along = action.spread[k, side, a]
+                    spread[b, a, c] += Q[c, 0] * along[0] + Q[c, 1] * along[1] + Q[c, 2] * along[2]
     for n in range(len(structure.links)):
         for side in range(2):
             b = structure.links[n].b if side else structure.links[n].a
@@ -199,42 +220,40 @@ def _carry_bodies(structure, scheme, points, listed, start, free_center, advance
 
 
 @njit
-def _turned(frames, point, x, y, z, target):
-    """target (3,): the force (x, y, z) on the slave of a point, in the table frame."""
-    if point.master == BASE:
-        target[0], target[1], target[2] = x, y, z
-        return
-    k = point.interface
-    for a in range(3):
-        target[a] = frames[k, a, 0] * x + frames[k, a, 1] * y + frames[k, a, 2] * z
-
-
-@njit
-def modal_forces(structure, points, listed, rotation, frames, contact, target):
-    """target (nb, m): what the forces of `contact` at the listed points (k,) do on the modes of the bodies turned by `rotation` (nb, 3, 3); frames: (ni, 3, 3) of the interfaces."""
+def _push_modes(structure, points, listed, contact, action):
+    """Find what the forces of `contact` at the listed points (k,) do on the modes of the bodies, turned as they are in the middle of the step."""
+    target = action.modal
     target[:] = 0.0
     if target.shape[1] == 0:
         return
-    force, few = np.empty(3), 2 * len(listed) <= len(points)
-    nodal = np.zeros((0 if few else len(structure.pushes), 3))
-    for i in listed:
-        if contact[i].force[2] <= 0.0:
-            continue
-        _turned(frames, points[i], contact[i].force[0], contact[i].force[1], contact[i].force[2], force)
+    few, turned = 2 * len(listed) <= len(points), np.empty((len(structure.interfaces), 2, 3, 3))
+    for k in range(len(structure.interfaces)):
         for side in range(2):
-            b, sign = points[i].master if side else points[i].slave, -1.0 if side else 1.0
+            b, sign = structure.interfaces[k].master if side else structure.interfaces[k].slave, -1.0 if side else 1.0
+            if b != BASE:
+                R, Q = action.halfway[b], action.frames[k]
+                for a in range(3):
+                    for c in range(3):
+                        turned[k, side, a, c] = sign * (R[0, a] * Q[0, c] + R[1, a] * Q[1, c] + R[2, a] * Q[2, c])
+    nodal, along = np.zeros((0 if few else len(structure.pushes), 3)), np.empty(3)
+    for i in listed:
+        force = contact[i].force
+        if force[2] <= 0.0:
+            continue
+        for side in range(2):
+            b, T = points[i].master if side else points[i].slave, turned[points[i].interface, side]
             if b == BASE:
                 continue
-            R = rotation[b]
+            for a in range(3):
+                along[a] = T[a, 0] * force[0] + T[a, 1] * force[1] + T[a, 2] * force[2]
             if few:
-                _add_modal(structure.pushes, points[i], side == 0, R, sign * force[0], sign * force[1], sign * force[2], target[b])
+                _add_modal(structure.pushes, points[i], side == 0, along[0], along[1], along[2], target[b])
                 continue
             # of whole feet: forces on their nodes first, then one product a body
-            for a in range(3):
-                along = sign * (R[0, a] * force[0] + R[1, a] * force[1] + R[2, a] * force[2])
-                for q in range(3 if side else points[i].count):
-                    node, w = points[i].below[q] if side else points[i].carriers[q], points[i].shares[q] if side else points[i].weights[q]
-                    nodal[node, a] += w * along
+            for q in range(3 if side else points[i].count):
+                node, w = points[i].below[q] if side else points[i].carriers[q], points[i].shares[q] if side else points[i].weights[q]
+                for a in range(3):
+                    nodal[node, a] += w * along[a]
     if few:
         return
     loads, flat = nodal.reshape(3 * len(nodal)), structure.pushes.reshape(3 * len(structure.pushes), target.shape[1])
@@ -244,15 +263,13 @@ def modal_forces(structure, points, listed, rotation, frames, contact, target):
 
 
 @njit
-def _add_modal(pushes, point, on, rotation, x, y, z, target):
-    """Add to target (m,) what the force (x, y, z) at a point of POINT does on the modes of its slave, `on`, or of its master."""
-    for a in range(3):
-        along = rotation[0, a] * x + rotation[1, a] * y + rotation[2, a] * z
-        for q in range(point.count if on else 3):
-            node, share = (point.carriers[q], point.weights[q] * along) if on else (point.below[q], point.shares[q] * along)
-            push = pushes[node, a]
-            for k in range(len(target)):
-                target[k] += share * push[k]
+def _add_modal(pushes, point, on, x, y, z, target):
+    """Add to target (m,) what the force (x, y, z) at a point of POINT, in the body's frame, does on the modes of its slave, `on`, or of its master."""
+    for q in range(point.count if on else 3):
+        node, share = (point.carriers[q], point.weights[q]) if on else (point.below[q], point.shares[q])
+        first, second, third = pushes[node, 0], pushes[node, 1], pushes[node, 2]
+        for k in range(len(target)):
+            target[k] += share * (x * first[k] + y * second[k] + z * third[k])
 
 
 @njit
@@ -285,10 +302,7 @@ def push_bodies(structure, scheme, points, arms, poses, impulses, motion):
             moment[2] += arm[0] * b1 - arm[1] * b0
             if len(jump) == 0:
                 continue
-            if on:
-                _add_modal(structure.pushes, points[i], True, R, p0, p1, p2, jump)
-            else:
-                _add_modal(structure.pushes, points[i], False, R, p0, p1, p2, jump)
+            _add_modal(structure.pushes, points[i], on, b0, b1, b2, jump)
         J = body.inverse_inertia
         for a in range(3):
             motion.frames[b].spin[a] += J[a, 0] * moment[0] + J[a, 1] * moment[1] + J[a, 2] * moment[2]
