@@ -1,8 +1,8 @@
-"""A foot that stays in its place: its compliance and the inverse are found once and serve as long as it does.
+"""A foot that stays in its place: its compliance and the factor of it are found once and serve as long as it does.
 
 While a structure stands, its foot stays where it is but for micrometres, so that the compliance of all its points is constant up to
-1e-4 of itself. Its inverse gives the forces of a wholly sticking foot by one product; points that slip or open are a small problem
-in their own slips, r = r_stuck + W^-1 s. Exact motion is checked by the iteration around it, see `contact.problem`.
+1e-4 of itself. Its factor gives the forces of a wholly sticking foot at once; points that slip or open are a small problem
+in their own slips, r = r_stuck + W^-1 s, for which the rows of the inverse are found that it takes. Exact motion is checked by the iteration around it, see `contact.problem`.
 """
 
 from __future__ import annotations
