@@ -15,18 +15,17 @@ from fecolumn.contact.tolerances import FULL_FRICTION
 
 
 class Secant(NamedTuple):
-    """begun: (P, 3) slips and gaps at the beginning of a step, left: those that the operator's forces for them would have left [m]; now, added: (P, 3) the same of the present step,
-    as far as they are known; known: (1,) whether begun and left are."""
+    """begun: (P, 3) slips and gaps at the beginning of a step, left: those that the operator's forces for them would have left [m]; share: (1,) of `left` foreseen last; known: (1,) whether
+    begun and left are of one step."""
 
     begun: np.ndarray
     left: np.ndarray
-    now: np.ndarray
-    added: np.ndarray
+    share: np.ndarray
     known: np.ndarray
 
 
 def no_secant(points: int) -> Secant:
-    return Secant(*(np.zeros((points, 3)) for _ in range(4)), np.zeros(1, bool))
+    return Secant(np.zeros((points, 3)), np.zeros((points, 3)), np.zeros(1), np.zeros(1, bool))
 
 
 @njit
@@ -37,11 +36,13 @@ def foresee(secant, slack):
         for a in range(3):
             share += slack[i, a] * secant.begun[i, a]
             square += secant.begun[i, a] ** 2
-    share = share / square if secant.known[0] and square > 0.0 else 0.0
+    secant.share[0] = share / square if secant.known[0] and square > 0.0 else 0.0
+    # until what these forces leave is learnt
+    secant.known[0] = False
     for i in range(len(slack)):
         for a in range(3):
-            secant.now[i, a], secant.added[i, a] = slack[i, a], share * secant.left[i, a]
-            slack[i, a] += secant.added[i, a]
+            secant.begun[i, a] = slack[i, a]
+            slack[i, a] += secant.share[0] * secant.left[i, a]
 
 
 @njit
@@ -51,6 +52,5 @@ def learn(secant, points, slack, contact):
     for i in range(len(points)):
         x, y, most = contact[i].force[0], contact[i].force[1], (1 - FULL_FRICTION) * points[i].friction * contact[i].force[2]
         secant.known[0] &= contact[i].force[2] > 0.0 and x * x + y * y < most * most
-    for i in range(len(points)):
         for a in range(3):
-            secant.begun[i, a], secant.left[i, a] = secant.now[i, a], secant.added[i, a] + slack[i, a]
+            secant.left[i, a] = secant.share[0] * secant.left[i, a] + slack[i, a]
