@@ -7,6 +7,7 @@ from coupled import CHAIN, FRAME, compliance
 from fecolumn.contact.blocks import eliminate, find_blocks
 from fecolumn.contact.friction import solve_contact
 
+
 @pytest.mark.parametrize("sizes, pairs", [([5, 4, 6, 5, 3], CHAIN), ([20, 5, 18, 15, 4], CHAIN), ([6, 5, 4, 6, 5, 4], FRAME), ([20, 16, 15, 17, 14, 19], FRAME),
                                           ([8, 9, 10], []), ([8, 9, 10], [(0, 1), (0, 2), (1, 2)])])
 def test_equations_in_blocks_are_solved_as_if_they_were_one(sizes, pairs):
