@@ -21,8 +21,9 @@ INTERFACE = record(("slave", "i8"), ("master", "i8"), ("width", "f8"), ("restitu
 
 #: What a rolling rim carries from step to step: angle of its lowest contact point [rad], nan while the foot touches with its nodes only; lift:
 #: height of it and its neighbours above the rim [m]. Of a foot that touches with balls: normal: (3,) of the master in the slave's frame for which its points were placed, 0 before they
-#: were; raised: height that they were given [m].
-RIM = record(("angle", "f8"), ("lift", "f8", 5), ("normal", "f8", 3), ("raised", "f8"))
+#: were; raised: height that they were given [m]. Of a joint with two sides: placed: whether its points were laid before; plain: whether they were the nodes of the
+#: slave; unused: whether no point of this interface takes part, as its slave is the master of a joint whose outline is not met.
+RIM = record(("angle", "f8"), ("lift", "f8", 5), ("normal", "f8", 3), ("raised", "f8"), ("placed", "?"), ("plain", "?"), ("unused", "?"))
 
 
 def interface_of(reference: np.ndarray, rim=None, restitution: float = 0.0, rolling: float = 0.0, pad=None, slave: int = 0, master: int = -1) -> np.ndarray:

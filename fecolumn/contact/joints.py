@@ -8,19 +8,23 @@ import numpy as np
 
 from fecolumn.contact.bodies import FACET, GOES_ON
 from fecolumn.contact.interface import interface_of
+from fecolumn.contact.outlines import OverlapBuilder
+from fecolumn.contact.overlap import Overlaps, no_overlaps
 from fecolumn.contact.points import BASE, UNPREPARED, node_points
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import SAME_PLACE
 
 
 class Joints(NamedTuple):
-    """points: (P,) of POINT; interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; facets: of FACET; names: of the interfaces, none of a single foot."""
+    """points: (P,) of POINT; interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; facets: of FACET; names: of the interfaces, none of a single foot;
+    overlaps: the joints of two sides."""
 
     points: np.ndarray
     interfaces: np.ndarray
     rim: np.ndarray
     facets: np.ndarray
     names: tuple[str, ...] = ()
+    overlaps: Overlaps = no_overlaps()
 
 
 def left_faces(names, points: np.ndarray) -> str:
@@ -44,7 +48,7 @@ def joint_on_base(arms: np.ndarray, friction: float, law: np.ndarray, rim: Rim |
 def joints_of(parts, joints) -> Joints:
     """Points and interfaces of the joints (`structures.model.Joint`) of parts (`structures.model.Part`), whose nodes come one after another."""
     first, facets, found = np.cumsum([0] + [len(part.model.arms) for part in parts]), np.zeros(0, FACET), {}
-    points, interfaces, rims = [], [], []
+    points, interfaces, rims, overlaps = [], [], [], OverlapBuilder()
     for k, joint in enumerate(joints):
         slave = parts[joint.slave].model
         touching = slave.surfaces[joint.slave_surface]
@@ -58,7 +62,7 @@ def joints_of(parts, joints) -> Joints:
             interface["foot"] += joint.ball.radius * outward
             interface["width"] = max(interface["width"][0], 2 * max(joint.ball.edge))
         interface["rim_first"] = sum(map(len, rims))
-        rims.append(sum(map(len, points)) + np.asarray(rim.nodes if rim else [], np.int64))
+        rims.append(np.asarray(rim.nodes if rim else [], np.int64))
         if joint.master != BASE:
             surface = parts[joint.master].model.surfaces[joint.master_surface]
             key = joint.master, joint.master_surface
@@ -78,7 +82,26 @@ def joints_of(parts, joints) -> Joints:
             own["arm"] += joint.ball.radius * outward
         points.append(own)
         interfaces.append(interface)
-    return Joints(np.concatenate(points), np.concatenate(interfaces), np.concatenate(rims), facets, tuple(joint.name for joint in joints))
+    for k, joint in enumerate(joints):
+        if joint.pair >= 0:
+            points[joint.pair], points[k] = overlaps.add(_side_of(parts, joints, joint.pair, joint.corners[1], interfaces, points),
+                                                         _side_of(parts, joints, k, joint.corners[0], interfaces, points))
+    firsts = np.cumsum([0] + [len(own) for own in points])
+    rim = np.concatenate([own + start for own, start in zip(rims, firsts)])
+    return Joints(np.concatenate(points), np.concatenate(interfaces), rim, facets, tuple(joint.name for joint in joints), overlaps.finish(firsts))
+
+
+def _side_of(parts, joints, k: int, corners: np.ndarray, interfaces, points) -> tuple:
+    """Interface k as `OverlapBuilder.add` takes it; corners: (n, 3) [m] of its slave's face from the centre of mass."""
+    body = parts[joints[k].slave].model
+    surface = body.surfaces[joints[k].slave_surface]
+    places = surface.plane(body.arms[surface.nodes])[:, :2]
+    circle = None
+    if interfaces[k]["rim_count"]:
+        away = np.linalg.norm(places - places.mean(axis=0), axis=1)
+        rim = places[away > away.max() * (1 - 1e-6)]
+        circle = rim.mean(axis=0), float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).mean())
+    return k, points[k], places, surface.plane(corners)[:, :2], circle
 
 
 def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:

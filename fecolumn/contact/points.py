@@ -9,17 +9,19 @@ from fecolumn.contact.record import record
 #: What a point carries from step to step: force of the master on the slave [N]; anchor: horizontal position at which it sticks [m]; relative: its
 #: position on the slave relative to the master's surface, the third the gap [m], `located`: whether that was found, else the point is
 #: somewhere above; indentation of a pad below it [m]; beyond: whether it was elsewhere than over the master's surface when it was last looked at.
-CONTACT = record(("force", "f8", 3), ("anchor", "f8", 2), ("relative", "f8", 3), ("indentation", "f8", 3), ("located", "?"), ("beyond", "?"))
+#: Of a joint with two sides: present: whether it took part; arm: (3,) [m] where it was on the slave, of a point of a rim how far it was moved off the rim.
+CONTACT = record(("force", "f8", 3), ("anchor", "f8", 2), ("relative", "f8", 3), ("indentation", "f8", 3), ("located", "?"), ("beyond", "?"),
+                 ("present", "?"), ("arm", "f8", 3))
 
 #: A point in a step. slave, master: bodies, -1 for the base; interface: to which it belongs. node: row of the slave's node in whose place it is; friction: coefficient;
 #: law: compliance of the contact law [m/N], springs: stiffness of a pad [N/m], each in x, y, z.
 #: carriers, weights: the slave's nodes that carry it, `count` of them; arm: from the slave's centre of mass in its frame [m]; lift: height given
 #: to it [m], rolls: whether it belongs to a contact that rolls on in this step, see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's compliance; facet: where on a moving master it was found last; beyond: OVER the master's surface in this step or where else; seat: its place there, from
 #: the master's centre of mass in its frame [m]. uneven: compliance [m/N] that a point
-#: between nodes lacks, see `compliance.even_out`.
+#: between nodes lacks, see `compliance.even_out`. idle: whether it takes no part in this step, see `contact.two_sided`.
 POINT = record(("slave", "i8"), ("master", "i8"), ("interface", "i8"), ("node", "i8"), ("friction", "f8"), ("law", "f8", 3), ("springs", "f8", 3), ("count", "i8"),
                   ("carriers", "i8", 4), ("weights", "f8", 4), ("arm", "f8", 3), ("lift", "f8"), ("rolls", "?"), ("below", "i8", 4), ("shares", "f8", 4),
-                  ("facet", "i8"), ("beyond", "i8"), ("seat", "f8", 3), ("uneven", "f8", (3, 3)))
+                  ("facet", "i8"), ("beyond", "i8"), ("seat", "f8", 3), ("uneven", "f8", (3, 3)), ("idle", "?"))
 
 #: The master of a point that stands on the base.
 BASE = -1

@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.arrays import put, put_points
 from fecolumn.contact.projection import ON, UNKNOWN, project
 from fecolumn.contact.compliance import assemble, even_out
 from fecolumn.contact.displacement import static_displacement
@@ -21,7 +20,7 @@ from fecolumn.contact.factor import multiply
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.newton import stiffness_alone
 from fecolumn.contact.pad import indent
-from fecolumn.contact.stick import find_stick, solve_sticking
+from fecolumn.contact.stick import find_stick, operator_of, solve_sticking
 from fecolumn.contact.tolerances import CLOSE, EXACT, NEAR, PENETRATION, SHARE, SHARP, SOLVED, SWEEPS_MOST, USABLE
 
 # Ways a step can end; FAR_BASE asks for more of the base's compliance, ROLLS_FAST for shorter steps, ENDED ends the analysis; OFF_PATCH: a point stands on a part of
@@ -35,8 +34,8 @@ N_COUNTS = 6
 class Problem(NamedTuple):
     """Room and memory of the contact problem of n points within a step.
 
-    near: (n,) points that are low or carry force, as many as the first of `count` (2,) says: those of which more than the place matters;
-    active: (n,) those that take part, `count[1]` of them; evened: (n,) those whose `uneven` is found.
+    near: (n,) points that are low or carry force, as many as the first of `count` (3,) says: those of which more than the place matters;
+    active: (n,) those that take part, `count[1]` of them; evened: (n,) those whose `uneven` is found. present: (n,) points that are not idle, `count[2]` of them.
     displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,) stiffness by which the laws are measured [N/m], allowed: (n,) by how
     much they may be violated [m].
     W: (9 n^2,) room for the compliance of the active points. flags: (3,) whether W is assembled, the foot stays where its stick operator
@@ -44,6 +43,7 @@ class Problem(NamedTuple):
     """
 
     near: np.ndarray
+    present: np.ndarray
     count: np.ndarray
     active: np.ndarray
     evened: np.ndarray
@@ -58,9 +58,12 @@ class Problem(NamedTuple):
 ASSEMBLED, STICKS_STILL, WORTH_STICK = range(3)
 
 
-def room(n: int) -> Problem:
-    """For n points."""
-    return Problem(np.zeros(n, np.int64), np.zeros(2, np.int64), *(np.zeros(n, bool) for _ in range(2)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
+def room(points: np.ndarray) -> Problem:
+    """For points (n,) of POINT."""
+    n, present = len(points), np.zeros(len(points), np.int64)
+    taking = np.flatnonzero(~points["idle"])
+    present[:len(taking)] = taking
+    return Problem(np.zeros(n, np.int64), present, np.array([0, 0, len(taking)]), *(np.zeros(n, bool) for _ in range(2)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
 
 
 @njit
@@ -72,10 +75,27 @@ def begin_problem(problem, holds_still, worth):
 
 
 @njit
+def list_present(problem, points, stick):
+    """List the points (P,) of POINT that are not idle; the stick operator of others holds no longer."""
+    count = 0
+    for i in range(len(points)):
+        if not points[i].idle:
+            problem.present[count] = i
+            count += 1
+    problem.count[2], stick.key[1] = count, 0.0
+
+
+@njit
+def present_points(problem):
+    """The points (k,) that are not idle."""
+    return problem.present[:problem.count[2]]
+
+
+@njit
 def mark_close(problem, points, interfaces, positions, before, after):
     """List the points that are low or carry force: those of which more than the place matters."""
     count, everyone = 0, problem.flags[STICKS_STILL]
-    for i in range(len(after)):
+    for i in present_points(problem):
         height = CLOSE * interfaces[points[i].interface].width
         close = everyone or positions[i, 2] < height or after[i].force[2] > 0 or before[i].force[2] > 0
         after[i].located = close
@@ -117,16 +137,16 @@ def find_residual(problem, bodies, base, points, interfaces, springs, dynamic, r
                 even_out(bodies, base, points, i, poses)
                 problem.evened[i] = True
     if problem.flags[WORTH_STICK]:
-        if 2 * len(listed) > len(after):
+        if 2 * len(listed) > problem.count[2]:
             problem.flags[WORTH_STICK] = False
-            if len(listed) == len(after):
+            if len(listed) == problem.count[2]:
                 for i in listed:
                     even_out(bodies, base, points, i, poses)
-                find_stick(stick, bodies, base, points, springs, dynamic, rigid, rims, poses)
+                find_stick(stick, bodies, base, points, listed, springs, dynamic, rigid, rims, poses)
                 counts[N_ASSEMBLED] += 1
                 problem.flags[STICKS_STILL] = sticks = True
     if sticks:
-        _displace_all(stick, after, problem.displaced)
+        _displace_all(stick, listed, after, problem.displaced)
     else:
         static_displacement(bodies, base, points, poses, after, listed, problem.displaced)
     changed, active = not problem.flags[ASSEMBLED], 0
@@ -142,7 +162,8 @@ def find_residual(problem, bodies, base, points, interfaces, springs, dynamic, r
     changed |= active != problem.count[1]
     problem.count[1] = active
     if sticks:
-        put(stick.rho, problem.rho)
+        for j in range(len(listed)):
+            problem.rho[listed[j]] = stick.rho[j]
     elif changed:
         _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, poses)
         counts[N_ASSEMBLED] += 1
@@ -183,15 +204,17 @@ def _active(problem):
 
 
 @njit
-def _displace_all(stick, after, target):
-    """target (n, 3): static displacement of all points by the stick operator."""
-    n = len(after)
-    forces, moved = np.empty(3 * n), np.empty(3 * n)
-    for i in range(n):
+def _displace_all(stick, listed, after, target):
+    """target (n, 3): static displacement of the points of the stick operator, the listed ones (k,)."""
+    k = len(listed)
+    forces, moved = np.empty(3 * k), np.empty(3 * k)
+    for j in range(k):
         for a in range(3):
-            forces[3 * i + a] = after[i].force[a]
+            forces[3 * j + a] = after[listed[j]].force[a]
     multiply(stick.static, forces, moved)
-    put_points(moved, target)
+    for j in range(k):
+        for a in range(3):
+            target[listed[j], a] = moved[3 * j + a]
 
 
 @njit
@@ -222,18 +245,25 @@ def find_forces(problem, points, interfaces, stick, after, counts):
         usable, tight = min(usable, USABLE * interfaces[points[i].interface].width), min(tight, problem.allowed[i])
     tight *= SHARP
     if sticks:
-        residual, newtons = solve_sticking(stick, points, problem.slack, problem.active, after, tight, usable)
+        residual, newtons = solve_sticking(stick, points, near_points(problem), problem.slack, problem.active, after, tight, usable)
         counts[N_CONTACT] += newtons
         if residual <= usable:
             return OK
     count = len(listed)
     W = problem.W[:9 * count * count].reshape(3 * count, 3 * count)
     if sticks:
+        near = near_points(problem)
+        whole, place = operator_of(stick, len(near)), np.empty(count, np.int64)
+        j = 0
+        for n in range(len(near)):
+            if problem.active[near[n]]:
+                place[j] = n
+                j += 1
         for i in range(count):
             for j in range(count):
                 for a in range(3):
                     for b in range(3):
-                        W[3 * i + a, 3 * j + b] = stick.W[3 * listed[i] + a, 3 * listed[j] + b]
+                        W[3 * i + a, 3 * j + b] = whole[3 * place[i] + a, 3 * place[j] + b]
     q, old, friction = np.empty((count, 3)), np.empty((count, 3)), np.empty(count)
     for j in range(count):
         friction[j] = points[listed[j]].friction
@@ -306,7 +336,7 @@ def solve_linear(problem, bodies, base, points, interfaces, springs, dynamic, el
             for a in range(3):
                 old[3 * j + a] = after[listed[j]].force[a] - old[3 * j + a]
         if sticks:
-            moved, static = stick.W @ old, np.empty(3 * k)
+            moved, static = operator_of(stick, k) @ old, np.empty(3 * k)
             multiply(stick.static, old, static)
             for j in range(3 * k):
                 moved[j] -= static[j]
@@ -314,5 +344,5 @@ def solve_linear(problem, bodies, base, points, interfaces, springs, dynamic, el
             moved = response @ old
         for j in range(k):
             for a in range(3):
-                positions[listed[j], a] += moved[3 * j + a] - (springs.own[j, a] * old[3 * j + a] if sticks else 0.0)
+                positions[listed[j], a] += moved[3 * j + a] - (springs.own[listed[j], a] * old[3 * j + a] if sticks else 0.0)
     return ITERATIONS_SPENT, np.inf

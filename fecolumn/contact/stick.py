@@ -22,8 +22,8 @@ from fecolumn.contact.tolerances import PAD_TURN, STICK_STAYS, STICK_TURN, STICK
 
 
 class Stick(NamedTuple):
-    """Compliance W of all points (3 n, 3 n) and its factor, and the static part without what the points give alone; inverse: (3 n, 3 n), of whose rows those known, (3 n,), are found;
-    rho, rho_all: (n,) stiffness of a point alone and with all others [N/m]; poses: (ni,) of POSE and angles: (ni,) of the rims for which they hold; key: (2,) length of the step, and
+    """Of k points that stand, room for n: compliance W (9 n^2,), see `operator_of`, and its factor, and the static part without what the points give alone; inverse: (3 n, 3 n), of whose
+    rows those known, (3 n,), are found, 3 k numbers each; rho, rho_all: (n,) stiffness of a point alone and with all others [N/m]; poses: (ni,) of POSE and angles: (ni,) of the rims for which they hold; key: (2,) length of the step, and
     1 once they are found."""
 
     W: np.ndarray
@@ -40,7 +40,13 @@ class Stick(NamedTuple):
 
 def no_stick(n: int, interfaces: int = 1) -> Stick:
     """Of n points, not found yet."""
-    return Stick(np.zeros((3 * n, 3 * n)), no_blocks(n), no_blocks(n), np.zeros((3 * n, 3 * n)), np.zeros(3 * n, bool), np.zeros(n), np.zeros(n), np.zeros(interfaces, POSE), np.zeros(interfaces), np.zeros(2))
+    return Stick(np.zeros(9 * n * n), no_blocks(n), no_blocks(n), np.zeros((3 * n, 3 * n)), np.zeros(3 * n, bool), np.zeros(n), np.zeros(n), np.zeros(interfaces, POSE), np.zeros(interfaces), np.zeros(2))
+
+
+@njit
+def operator_of(stick, k):
+    """Compliance (3 k, 3 k) of the k points that stand."""
+    return stick.W[:9 * k * k].reshape(3 * k, 3 * k)
 
 
 @njit
@@ -79,34 +85,33 @@ def is_worth(interface, pose, turn, way):
 
 
 @njit
-def find_stick(stick, bodies, base, points, springs, dynamic, rigid, rims, poses):
-    """Find the operator of feet of which all points stand; further arguments as of `compliance.assemble`."""
-    n = len(stick.rho)
-    everyone, arms, static = np.empty(n, np.int64), np.empty((n, 3)), np.empty((3 * n, 3 * n))
-    for i in range(n):
-        everyone[i] = i
+def find_stick(stick, bodies, base, points, listed, springs, dynamic, rigid, rims, poses):
+    """Find the operator of feet of which all points, the listed ones (k,), stand; further arguments as of `compliance.assemble`."""
+    k = len(listed)
+    arms, static, W = np.empty((len(points), 3)), np.empty((3 * k, 3 * k)), operator_of(stick, k)
+    for i in listed:
         for a in range(3):
             arms[i, a] = points[i].arm[a]
-    assemble(bodies, base, points, arms, everyone, poses, 0.0, bodies.static, 1.0, springs.own, static)
-    assemble(bodies, base, points, arms, everyone, poses, rigid, dynamic, 1.0, springs.own, stick.W)
-    for i in range(n):
-        stick.rho[i] = stiffness_alone(stick.W, i)
-        stick.rho_all[i] = stiffness_together(stick.W, i)
+    assemble(bodies, base, points, arms, listed, poses, 0.0, bodies.static, 1.0, springs.own, static)
+    assemble(bodies, base, points, arms, listed, poses, rigid, dynamic, 1.0, springs.own, W)
+    for j in range(k):
+        stick.rho[j] = stiffness_alone(W, j)
+        stick.rho_all[j] = stiffness_together(W, j)
         for a in range(3):
-            stick.known[3 * i + a] = False
-            static[3 * i + a, 3 * i + a] -= springs.own[i, a]
-    factorize(stick.W, stick.factor)
+            stick.known[3 * j + a] = False
+            static[3 * j + a, 3 * j + a] -= springs.own[listed[j], a]
+    factorize(W, stick.factor)
     divide(static, stick.factor, stick.static)
-    for k in range(len(poses)):
-        stick.poses[k], stick.angles[k] = poses[k], rims[k].angle
+    for j in range(len(poses)):
+        stick.poses[j], stick.angles[j] = poses[j], rims[j].angle
     stick.key[0], stick.key[1] = rigid, 1.0
 
 
 @njit
-def _find_inverse(stick, row):
-    """Find one row of the inverse unless it is known."""
+def _find_inverse(stick, row, count):
+    """Find one row of the inverse, of `count` numbers, unless it is known."""
     if not stick.known[row]:
-        line = stick.inverse[row]
+        line = stick.inverse[row, :count]
         for j in range(len(line)):
             line[j] = 1.0 if j == row else 0.0
         solve_factored(stick.factor, line)
@@ -114,20 +119,20 @@ def _find_inverse(stick, row):
 
 
 @njit
-def solve_sticking(stick, points, slack, active, after, tolerance, usable):
+def solve_sticking(stick, points, listed, slack, active, after, tolerance, usable):
     """Contact forces by semismooth Newton on the slips of the points that do not stick; as `newton.newton_step`.
 
     Args:
-        slack: (n, 3) slips and gaps [m] under the forces of `after`, which are replaced where the residual is `usable`. active: (n,) mask; the
+        listed: (k,) the points of the operator. slack: (n, 3) slips and gaps [m] under the forces of `after`, which are replaced where the residual is `usable`. active: (n,) mask; the
             others are open.
     Returns: residual of the laws [m], and Newton steps.
     """
-    n, most, newton = len(slack), 15, 0
+    n, most, newton = len(listed), 15, 0
     stuck, r, s, best, least = np.empty(3 * n), np.empty(3 * n), np.empty(3 * n), np.empty(3 * n), np.inf
     for i in range(n):
         for a in range(3):
-            r[3 * i + a] = best[3 * i + a] = after[i].force[a]
-            s[3 * i + a] = stuck[3 * i + a] = slack[i, a]
+            r[3 * i + a] = best[3 * i + a] = after[listed[i]].force[a]
+            s[3 * i + a] = stuck[3 * i + a] = slack[listed[i], a]
     solve_factored(stick.factor, stuck)
     for j in range(3 * n):
         stuck[j] = r[j] - stuck[j]
@@ -135,9 +140,9 @@ def solve_sticking(stick, points, slack, active, after, tolerance, usable):
     for newton in range(most):
         count = 0
         for i in range(n):
-            rho, mu = stick.rho_all[i], points[i].friction
+            rho, mu = stick.rho_all[i], points[listed[i]].friction
             normal = r[3 * i + 2] - rho * s[3 * i + 2]
-            opened[i] = not active[i] or normal <= 0
+            opened[i] = not active[listed[i]] or normal <= 0
             if opened[i]:
                 for a in range(3):
                     unknown[count], point[count] = 3 * i + a, -1
@@ -157,7 +162,7 @@ def solve_sticking(stick, points, slack, active, after, tolerance, usable):
         if count > 3 * n // 2:
             return np.inf, newton
         for u in range(count):
-            _find_inverse(stick, unknown[u])
+            _find_inverse(stick, unknown[u], 3 * n)
         matrix, right = np.empty((count, count)), np.empty(count)
         u = 0
         while u < count:
@@ -195,9 +200,9 @@ def solve_sticking(stick, points, slack, active, after, tolerance, usable):
             if opened[i]:
                 # zero but for rounding
                 r[3 * i] = r[3 * i + 1] = r[3 * i + 2] = 0.0
-                if not active[i]:
+                if not active[listed[i]]:
                     continue
-            worst = max(worst, law_error(r[3 * i], r[3 * i + 1], r[3 * i + 2], s[3 * i], s[3 * i + 1], s[3 * i + 2], stick.rho[i], points[i].friction))
+            worst = max(worst, law_error(r[3 * i], r[3 * i + 1], r[3 * i + 2], s[3 * i], s[3 * i + 1], s[3 * i + 2], stick.rho[i], points[listed[i]].friction))
         if worst < least:
             least = worst
             put(r, best)
@@ -206,5 +211,5 @@ def solve_sticking(stick, points, slack, active, after, tolerance, usable):
     if least <= usable:
         for i in range(n):
             for a in range(3):
-                after[i].force[a] = best[3 * i + a]
+                after[listed[i]].force[a] = best[3 * i + a]
     return least, newton + 1

@@ -115,6 +115,15 @@ REST_ITERATIONS, REST_PROGRESS = 50, 0.5
 #: would else lose their outline to the first slip.
 EDGE = 2e-3
 
+# --- Joints with two sides, over the larger side of the slave's face ----------------------------------------------------------------------------
+#: Outlines closer than this are one: of two equal faces the points are nodes of the slave. Far below any slide, far above rounding.
+SAME_OUTLINE = 1e-9
+#: Way beyond an outline within which a point stays with the body it belongs to, though it is laid on the edge exactly: while a structure stands, elastic shear
+#: moves outlines over one another by a hundredth of it, and points would change bodies in each step.
+OUTLINE_BAND = 1e-4
+#: Way of a corner of the region within a step in which it is still the same one; two points nearer than the second stand for one, of which the corner stays.
+SAME_CORNER, SAME_POINT = 0.05, 1e-3
+
 # --- Geometry and overturning -----------------------------------------------------------------------------------------------------------------
 #: Nodes are at the same place up to this share of the foot's width or the body's size: rounding of a mesh file.
 SAME_PLACE = 1e-9

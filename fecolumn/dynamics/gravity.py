@@ -63,14 +63,15 @@ def standing(system, tolerance: float = 1e-9) -> State:
 
     def proximal_step():
         nonlocal state, pulls, straight
-        stage = Stage(target=state.x, load=load, start=state.x, scale=1.0, before=state.contact, dt=np.inf, rotation=turned,
+        before, rims = interface.lay(state)
+        stage = Stage(target=state.x, load=load, start=state.x, scale=1.0, before=before, dt=np.inf, rotation=turned,
                       centers=column.centers(state.x) if links else None, ties=state.ties, turns=interface.foot.filtered)
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
         if outcome.stop is not Stop.CONVERGED:
             raise NoEquilibrium(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
         moved = column.max(np.abs(outcome.x - state.x).max(initial=0.0))
-        outcome.contact["anchor"] = state.contact["anchor"]
-        state = replace(state, x=outcome.x, internal=outcome.internal, strain=outcome.strain, rotation=outcome.rotation, contact=outcome.contact, static=outcome.static)
+        outcome.contact["anchor"] = before["anchor"]
+        state = replace(state, x=outcome.x, rims=rims, internal=outcome.internal, strain=outcome.strain, rotation=outcome.rotation, contact=outcome.contact, static=outcome.static)
         straight = sum(stage.untwisting(system, state.x, state.internal, state.rotation, state.rotation, state.forces, interface.load(state.forces, state.rotation)))
         if links:
             pulls, state.ties = links.pulls(stage, state.x, state.rotation), links.ties(column.centers(state.x), state.rotation)

@@ -15,9 +15,10 @@ from fecolumn.contact.joints import Joints, left_faces
 from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
-from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, near_points, room, solve_linear, stored_energy
+from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, list_present, near_points, room, solve_linear, stored_energy
 from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, poses_on_base
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
+from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.dynamics.cuts import Stop, StepFailed
 from fecolumn.dynamics.stay import Stay
@@ -69,7 +70,7 @@ class Interface:
         #: Rows of each body's surface nodes.
         self.rows = [slice(first, last) for first, last in zip(rows, rows[1:])]
         self.surface, self.counts = base_for_steps(base), np.zeros(N_COUNTS, np.int64)
-        self._problem = room(self.size)
+        self._problem, self.overlaps = room(self.points), joints.overlaps
         #: Of many bodies; a single foot's problem is small.
         self.stay = Stay(self.interfaces, self.size if self.moving else 0)
         #: Nodes and shares of the masters below the points at the start of the step.
@@ -249,25 +250,45 @@ class Interface:
         """
         before, rims, rolled = state.contact.copy(), state.rims.copy(), False
         now, then = self.poses(state.x, state.rotation), self.poses(state.x, halfway)
+        self._mark_unused(state.x, now, rims)
         for interface, rim, pose, turned in zip(self.interfaces, rims, now, then):
-            if interface["rim_count"]:
+            if interface["rim_count"] and not rim["unused"]:
                 rolled |= self._roll(interface, rim, pose, turned["turned"][SLAVE], state, before, rolls)
+        self._lay_points(state, now, before, rims)
         if self.moving:
             self.stay.note(now, rims)
         if self.moving or rolled:
             self.points["beyond"] = OVER
             positions = self.start_positions(state.x, state.rotation, now)
-            if (self.points["beyond"] == UNPREPARED).any():
+            taking = ~self.points["idle"]
+            if (self.points["beyond"][taking] == UNPREPARED).any():
                 raise StepFailed(Stop.OFF_PATCH, f"{Stop.OFF_PATCH.value}: {left_faces(self.joints.names, self.points)}")
             self._find_sunk(before, positions, now, state.rims, rims)
             before["beyond"] = self.points["beyond"] != OVER
             # one that was found by nothing but its place, or beyond an outline
             elsewhere = ~before["located"] | (self.points["master"] != BASE) & (before["relative"][:, 2] > CLOSE * self.interfaces["width"][self.points["interface"]])
             before["relative"][elsewhere] = positions[elsewhere]
-            before["anchor"][elsewhere], before["located"] = before["relative"][elsewhere, :2], True
+            before["anchor"][elsewhere], before["located"] = before["relative"][elsewhere, :2], taking
         else:
             self.positions(state.x, state.rotation, now)
         return before, rims, rolled
+
+    def lay(self, state) -> tuple[np.ndarray, np.ndarray]:
+        """What a State brings to its points, (P,) of CONTACT, and its rims, once the points of joints with two sides are laid."""
+        before, rims, poses = state.contact.copy(), state.rims.copy(), self.poses(state.x, state.rotation)
+        self._mark_unused(state.x, poses, rims)
+        self._lay_points(state, poses, before, rims)
+        return before, rims
+
+    def _mark_unused(self, x, poses, rims) -> None:
+        if len(self.overlaps.joints):
+            mark_unused(self.overlaps, self.interfaces, frames_at(self.column.centers(x)), poses, rims)
+
+    def _lay_points(self, state, poses, before, rims) -> None:
+        """Lay the points of joints with two sides."""
+        if len(self.overlaps.joints) and place_overlaps(self.overlaps, self.interfaces, self.joints.rim, self.arms, frames_at(self.column.centers(state.x)), poses,
+                                                        state.contact, rims, self.points, before):
+            interpreted(list_present)(self._problem, self.points, self.stay.stick)
 
     def _find_sunk(self, before, positions, poses, rims_before, rims) -> None:
         """As `reduced.equilibrium.find_sunk`; sunk points are put high above the surface."""

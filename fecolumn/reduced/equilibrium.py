@@ -22,6 +22,7 @@ from fecolumn.contact.problem import (
     find_residual,
     mark_close,
     near_points,
+    present_points,
     room,
     stored_energy,
 )
@@ -59,7 +60,7 @@ def work_of(structure, points) -> Work:
     """For the points (P,) of a Structure."""
     n, nodes = len(points), len(structure.bodies.arms)
     bodies, modes = structure.squares.shape
-    return Work(points.copy(), np.zeros(n, CONTACT), room(n), no_stick(n, len(structure.interfaces)), no_secant(n), no_action(modes, bodies, len(structure.interfaces), len(structure.links)), no_elastic(nodes, n),
+    return Work(points.copy(), np.zeros(n, CONTACT), room(points), no_stick(n, len(structure.interfaces)), no_secant(n), no_action(modes, bodies, len(structure.interfaces), len(structure.links)), no_elastic(nodes, n),
                 np.zeros((2, len(structure.interfaces)), POSE),
                 *(np.zeros((n, 3)) for _ in range(3)), np.zeros((nodes, 3)), np.zeros(nodes, bool), np.zeros(n, bool), np.zeros(n, bool))
 
@@ -86,7 +87,7 @@ def find_positions(structure, work, start, end):
     """Positions of the points at the END of the step, those of points too high to matter without their elastic displacement; whether all are over surfaces that are known."""
     interfaces, points, elastic, positions, poses = structure.interfaces, work.points, work.elastic, work.positions, work.poses[END]
     all_of_them, reach, known = work.problem.flags[STICKS_STILL], np.zeros(len(end.frames)), True
-    most = all_of_them or 2 * work.problem.count[0] > len(points)
+    most = all_of_them or 2 * work.problem.count[0] > work.problem.count[2]
     find_poses(interfaces, end.frames, end.rotation, poses)
     for b in range(len(end.frames)):
         for k in range(end.modal.shape[2]):
@@ -98,7 +99,7 @@ def find_positions(structure, work, start, end):
     turned, center = np.empty((len(interfaces), 3, 3)), np.empty((len(interfaces), 3))
     for k in range(len(interfaces)):
         _slave_in_frame(interfaces[k], poses[k], end, turned[k], center[k])
-    for i in range(len(points)):
+    for i in present_points(work.problem):
         point = points[i]
         k, x, y, z = point.interface, point.arm[0], point.arm[1], point.arm[2]
         for a in range(3):
@@ -126,7 +127,7 @@ def find_sunk(structure, base, work, start, rims):
     points, before, problem, poses, place = work.points, work.before, work.problem, work.poses[START], work.places[0]
     loaded = problem.count[0]
     count = loaded
-    for i in range(len(points)):
+    for i in present_points(problem):
         k = points[i].interface
         if not was_beyond(before[i], start.rims[k], rims[k]):
             continue
@@ -216,14 +217,14 @@ def equilibrate(structure, base, scheme, work, start, free_center, free_modal, a
         if answer != OK:
             return answer
         if foreseen and iteration == 1:
-            learn(work.secant, points, problem.slack, end.contact)
+            learn(work.secant, points, near_points(problem), problem.slack, end.contact)
         if residual <= 1.0:
-            for i in range(len(points)):
+            for i in present_points(problem):
                 end.contact[i].beyond = points[i].beyond != OVER
             end.whole[0].static = stored_energy(problem, points, interfaces, scheme.springs, before, end.contact)
             return OK
         if iteration == 0 and problem.flags[STICKS_STILL]:
-            foresee(work.secant, problem.slack)
+            foresee(work.secant, near_points(problem), problem.slack)
             foreseen = True
         answer = find_forces(problem, points, interfaces, work.stick, end.contact, counts)
         if answer != OK:

@@ -9,6 +9,7 @@ import numpy as np
 
 from fecolumn.contact.bodies import Bodies, node_matrix, one_body
 from fecolumn.contact.joints import joint_on_base
+from fecolumn.contact.overlap import Overlaps
 from fecolumn.contact.pad import Springs, springs_of
 from fecolumn.dynamics.links import LINK
 
@@ -57,7 +58,7 @@ class Structure(NamedTuple):
     pushes: (N, 3, m) F phi, by which contact forces drive modes and modes move the nodes. squares: (nb, m) w^2 [1/s2]; damping: (nb, m) [1/s]
     damping force on a mode over its rate, 2 zeta w.
     reach: (N,) [m/sqrt(J)] largest displacement of a node by modes that store the energy 1/2 J.
-    interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; links: (nl,) of LINK; gravity: (3,) [m/s2].
+    interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; overlaps: joints of two sides; links: (nl,) of LINK; gravity: (3,) [m/s2].
     """
 
     bodies: Bodies
@@ -67,6 +68,7 @@ class Structure(NamedTuple):
     reach: np.ndarray
     interfaces: np.ndarray
     rim: np.ndarray
+    overlaps: Overlaps
     links: np.ndarray
     gravity: np.ndarray
 
@@ -101,7 +103,7 @@ def structure_of(model: ColumnModel, hht, gravity, friction: float, law: np.ndar
     joint = joint_on_base(model.arms, friction, law, rim, restitution, rolling, pad)
     reach = np.sqrt((pushes**2 / squares).sum(axis=(1, 2)))
     structure = Structure(bodies, pushes, squares[None], 2 * damping_ratio * model.frequencies[None], reach,
-                          joint.interfaces, joint.rim, np.zeros(0, LINK), np.array(gravity, float))
+                          joint.interfaces, joint.rim, joint.overlaps, np.zeros(0, LINK), np.array(gravity, float))
     return structure, joint.points
 
 

@@ -41,7 +41,8 @@ from fecolumn.reduced.model import scheme, structure_of
 from fecolumn.reduced.elastic import COORDINATE, END, START
 from fecolumn.reduced.observe import ENERGY, lost, observe
 from fecolumn.contact.pose import SLAVE, find_poses, frames_at, poses_of
-from fecolumn.reduced.step import step
+from fecolumn.contact.two_sided import mark_unused
+from fecolumn.reduced.step import lay_points, step
 
 # step lengths from a whole step to its smallest part
 LENGTHS = PARTS.bit_length()
@@ -61,7 +62,7 @@ def to_make_at_once(structure, motion, dt, done):
     """As `rolling.part_of_step`, of the rims of a structure."""
     part = PARTS
     for k in range(len(structure.interfaces)):
-        if structure.interfaces[k].rim_count > 0:
+        if structure.interfaces[k].rim_count > 0 and not motion.rims[k].unused:
             x, y, u, v = way_down(structure.interfaces[k], motion)
             part = min(part, part_of_step(x, y, u, v, dt, done))
     return part
@@ -183,7 +184,9 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
         if structure.interfaces[k].ball > 0.0:
             lay_down(work.points, k)
             roll_balls(structure, k, work, motion, spare)
-    answer = equilibrate(structure, base, scheme, work, motion, fall, bent, still, motion.rims, spare, counts)
+    mark_unused(structure.overlaps, structure.interfaces, motion.frames, work.poses[START], spare.rims)
+    lay_points(structure, work, motion, spare)
+    answer = equilibrate(structure, base, scheme, work, motion, fall, bent, still, spare.rims, spare, counts)
     if answer == OK:
         spare.whole[0].static += end_links(structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt)[1]
     return answer

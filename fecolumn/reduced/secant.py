@@ -29,27 +29,27 @@ def no_secant(points: int) -> Secant:
 
 
 @njit
-def foresee(secant, slack):
-    """Add to slips and gaps (P, 3) at the beginning of a step, before its first forces are found, what these would leave."""
+def foresee(secant, listed, slack):
+    """Add to slips and gaps (P, 3) of the listed points (k,) at the beginning of a step, before its first forces are found, what these would leave."""
     share = square = 0.0
-    for i in range(len(slack)):
+    for i in listed:
         for a in range(3):
             share += slack[i, a] * secant.begun[i, a]
             square += secant.begun[i, a] ** 2
     secant.share[0] = share / square if secant.known[0] and square > 0.0 else 0.0
     # until what these forces leave is learnt
     secant.known[0] = False
-    for i in range(len(slack)):
+    for i in listed:
         for a in range(3):
             secant.begun[i, a] = slack[i, a]
             slack[i, a] += secant.share[0] * secant.left[i, a]
 
 
 @njit
-def learn(secant, points, slack, contact):
-    """Note what the first forces of the step, those of `contact` (P,), have left; nothing where points slip or open, whose slips and gaps are no error."""
+def learn(secant, points, listed, slack, contact):
+    """Note what the first forces of the step, those of `contact` (P,) at the listed points (k,), have left; nothing where points slip or open, whose slips and gaps are no error."""
     secant.known[0] = True
-    for i in range(len(points)):
+    for i in listed:
         x, y, most = contact[i].force[0], contact[i].force[1], (1 - FULL_FRICTION) * points[i].friction * contact[i].force[2]
         secant.known[0] &= contact[i].force[2] > 0.0 and x * x + y * y < most * most
         for a in range(3):

@@ -9,9 +9,10 @@ from fecolumn.contact.arrays import put
 from fecolumn.contact.ball import lay_down
 from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, touched, what_happens
-from fecolumn.contact.problem import N_IMPACTS, OK, near_points
+from fecolumn.contact.problem import N_IMPACTS, OK, list_present, near_points
 from fecolumn.contact.rolling import mark_rolling, plan_roll, roll_points, rolling_moment, stay
 from fecolumn.contact.tolerances import CREATED
+from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.contact.work import book_impulses, move_anchors
 from fecolumn.reduced.balls import roll_balls
 from fecolumn.reduced.equilibrium import equilibrate
@@ -63,14 +64,25 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
         work.before[i] = start.contact[i]
     for k in range(len(structure.interfaces)):
         end.rims[k] = start.rims[k]
+    mark_unused(structure.overlaps, structure.interfaces, start.frames, poses[START], end.rims)
+    for k in range(len(structure.interfaces)):
         n, first = structure.interfaces[k].rim_count, structure.interfaces[k].rim_first
         if structure.interfaces[k].ball > 0.0:
             lay_down(work.points, k)
-        if n > 0:
+        if n > 0 and not end.rims[k].unused:
             rolled |= _place_rim(structure, k, structure.rim[first:first + n], work, start, end, allowed)
         if structure.interfaces[k].ball > 0.0:
             roll_balls(structure, k, work, start, end)
+    lay_points(structure, work, start, end)
     return rolled
+
+
+@njit
+def lay_points(structure, work, start, end):
+    """Lay the points of joints with two sides."""
+    if place_overlaps(structure.overlaps, structure.interfaces, structure.rim, structure.bodies.arms, start.frames, work.poses[START], start.contact,
+                      end.rims, work.points, work.before):
+        list_present(work.problem, work.points, work.stick)
 
 
 @njit

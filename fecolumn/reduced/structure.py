@@ -43,7 +43,7 @@ def structure_of(model, hht, gravity) -> tuple[Structure, np.ndarray]:
         if joint.master != BASE:
             interface["reach"] = reach[first[joint.master] + parts[joint.master].model.surfaces[joint.master_surface].nodes].max()
     structure = Structure(Bodies(*whole[:4], joints.facets), np.ascontiguousarray(np.concatenate(pushes)), squares, damping, reach, joints.interfaces,
-                          joints.rim, links_of(model, hht), np.array(gravity, float))
+                          joints.rim, joints.overlaps, links_of(model, hht), np.array(gravity, float))
     return structure, joints.points
 
 

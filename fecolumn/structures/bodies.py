@@ -83,6 +83,8 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
         system = read_system(key, body, file)
         return Drawing(key, body, None, system, system.faces(), None, file)
     shape = shape_of(key, body, file, spots)
+    if getattr(body, "turned_deg", 0.0):
+        shape = dataclasses.replace(shape, mesh=dataclasses.replace(shape.mesh, points=_turned(shape.mesh.points, body.turned_deg)))
     faces = plane_faces(shape.mesh)
     if getattr(body, "foot_radius_m", None):
         shape, faces = domed(body, shape, faces)
@@ -94,3 +96,9 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
         except InputError as error:
             raise InputError(file, f"{key}.mass_kg", body.mass_kg, f"makes a density of {body.mass_kg / volume:.4g} kg/m3 in {volume:.4g} m3: {error.allowed}") from None
     return Drawing(key, body, shape, None, faces, material, file)
+
+
+def _turned(points: np.ndarray, angle: float) -> np.ndarray:
+    """Points (n, 3) [m] turned about the z axis by an angle [deg], those of quarters exactly."""
+    cosine, sine = (round(value, 15) for value in (np.cos(np.radians(angle)), np.sin(np.radians(angle))))
+    return points @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])

@@ -101,6 +101,7 @@ def identity(section) -> dict:
     table = section_table("", section)
     for key in FILES.get(table.get("kind", ""), ()):
         table[key] = content(table[key])
+    table.pop("between", None)  # a joint is told by slave and on, whichever way it was written
     return table
 
 
@@ -150,9 +151,29 @@ def _named(name: str, kind, tables, file, errors: list) -> dict:
             if name != "initial" and (set(key) & _TAKEN or not key or name == "bodies" and key == GROUND):
                 raise InputError(file, f"{name}.{key}", None, f'must be named by another word: not "{GROUND}", without blanks, dots, slashes and quotes')
             found[key] = _built(_kind_of(name, key, table, kind, file), table, file, f"{name}.{key}.")
+            if name == "interfaces":
+                found[key] = _between(found[key], file, f"{name}.{key}.")
         except InputError as error:
             errors.append(error)
     return found
+
+
+def _between(interface: Interface, file, prefix: str) -> Interface:
+    """The interface with its two bodies as slave and on."""
+    if interface.between:
+        if interface.slave or interface.on:
+            key = "slave" if interface.slave else "on"
+            raise InputError(file, prefix + key, getattr(interface, key), "must be left out beside between, which names both bodies")
+        if len(interface.between) != 2:
+            raise InputError(file, prefix + "between", list(interface.between), 'must be two names, such as ["drum", "capital"]')
+        bodies = sorted(interface.between, key=lambda one: one == GROUND)
+        if bodies[0] == GROUND:
+            raise InputError(file, prefix + "between", list(interface.between), "must name a body: the ground does not touch itself")
+        return dataclasses.replace(interface, between=(), slave=bodies[0], on=bodies[1])
+    for key in ("slave", "on"):
+        if not getattr(interface, key):
+            raise InputError(file, prefix + key, None, f'missing; or give {prefix}between = ["one body", "other body"] instead of slave and on')
+    return interface
 
 
 def _kind_of(name: str, key: str, table: dict, kind, file):

@@ -1,7 +1,9 @@
-"""Edges of what a body stands on, below the middle of its face: a slab that overhangs a block, a drum on a smaller one.
+"""The other side of a joint: the edge of what a body stands on, over which the body may come to stand or to slide.
 
-The contact points of an interface are nodes of its slave. Where the master's outline runs below the slave's face, the slave pivots on it, between its own nodes. The nodes of the
-outline are then contact points, too, of an interface with the roles exchanged, made here.
+The contact points of an interface are nodes of its slave. Where the master's outline bounds the region in which both
+faces overlap, the slave pivots on that edge: the points are then places of the master, of an interface with the roles
+exchanged, made here. Of convex faces, holes apart, the points are laid on the outline of that region at every step
+(`contact.two_sided`). Of others the nodes of the outline that run below the slave's face are points.
 """
 
 from __future__ import annotations
@@ -10,10 +12,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import ConvexHull, cKDTree
 
-from fecolumn.contact.tolerances import EDGE
-from fecolumn.structures.faces import Face, apart, over, triangles_of
+from fecolumn.contact.tolerances import EDGE, ROUND_NODES
+from fecolumn.structures.faces import SAME_PLANE, Face, apart, over, triangles_of
 from fecolumn.structures.feet import ball_of, foot_of
 from fecolumn.structures.meetings import Meeting, allowance_of, place_of
 from fecolumn.structures.patches import Patch, node_patch, whole_face
@@ -27,6 +29,7 @@ class Edge:
     """Outline of a face of `lower` below a face of `upper`, copies as of Meeting; points: (k, 3) [m] nodes of it in the drawing of lower.
 
     zones: of the upper face in which they are and may come, as of `meetings.zones_of`. avoided: (k, 3) [m] the points in the drawing of upper, where this needs none of its own.
+    corners: of convex faces, lists of the corners (n, 3) [m] of the outlines of the lower and of the upper face in their drawings, counter-clockwise seen from outside; else ().
     """
 
     interface: str
@@ -37,6 +40,7 @@ class Edge:
     points: np.ndarray
     zones: list[tuple[float, ...]]
     avoided: np.ndarray
+    corners: tuple[list, ...] = ()
 
 
 def edges_of(case, drawings, meetings: list[Meeting]) -> list[Edge]:
@@ -58,6 +62,9 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
     if ball_of(upper.body) and face is foot_of(upper.faces):
         return None
     shift, axes = place_of(case, meeting.master) - place_of(case, meeting.slave), face.axes[:, :2]
+    outlines = convex_outline(other), convex_outline(face)
+    if all(outline is not None for outline in outlines):
+        return _of_convex(case, meeting, other, face, outlines, lower.order, shift)
     triangles, sides = triangles_of(face.corners @ axes), face.outline @ axes
     size = np.ptp(triangles, axis=(0, 1)).max()
     # as far beyond its outline a face still holds a point
@@ -78,6 +85,47 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
         return None
     zones = [(*place, *place, allowance) for place in points[kept].tolist()]
     return Edge(meeting.interface, meeting.master, meeting.master_face, meeting.slave, meeting.slave_face, nodes[kept], zones, nodes[kept] + shift)
+
+
+def _of_convex(case, meeting: Meeting, other: Face, face: Face, outlines, order: int, shift: np.ndarray) -> Edge | None:
+    """As `_edge`, of convex faces: all nodes of the master's outline that the slave may reach, none where it cannot."""
+    axes, allowance = other.axes, allowance_of(case.interfaces[meeting.interface], face)
+    sides = np.stack([outlines[0], np.roll(outlines[0], -1, axis=0)], axis=1) @ axes[:, :2]
+    along = sides[:, 1] - sides[:, 0]
+    normals = np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1)[:, None]
+    reached = (outlines[1] - shift) @ axes[:, :2]
+    inside = -np.einsum("cia,ia->ci", reached[:, None] - sides[None, :, 0], normals).max(axis=1)
+    if inside.min() > allowance:
+        return None
+    whole = whole_face(other, order)
+    nodes = whole.positions[whole.outlines]
+    size = np.ptp(nodes, axis=0).max()
+    on = _distance(nodes @ axes[:, :2], sides) < EDGE * size
+    if len(outlines[0]) < ROUND_NODES:
+        # of a circle all nodes carry; of a polygon those that the slave's outline may come to, and the corners
+        region = triangles_of(face.corners @ axes[:, :2] - shift @ axes[:, :2])
+        on &= over(nodes @ axes[:, :2], region, 2 * allowance) | (cKDTree(outlines[0]).query(nodes)[0] < EDGE * size)
+    zones = [(*start, *end, allowance) for start, end in (face.outline @ face.axes[:, :2]).tolist()]
+    return Edge(meeting.interface, meeting.master, meeting.master_face, meeting.slave, meeting.slave_face, nodes[on], zones,
+                np.zeros((0, 3)), tuple(outline.tolist() for outline in outlines))
+
+
+def convex_outline(face: Face) -> np.ndarray | None:
+    """Corners (n, 3) [m] of the outer outline of a face, counter-clockwise seen from outside; None where it is not convex."""
+    axes, sides = face.axes, face.outline
+    plane = sides @ axes[:, :2]
+    size = np.ptp(plane, axis=(0, 1)).max()
+    hull = plane.reshape(-1, 2)[ConvexHull(plane.reshape(-1, 2)).vertices]
+    before, after = hull - np.roll(hull, 1, axis=0), np.roll(hull, -1, axis=0) - hull
+    turn = (before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]) / np.linalg.norm(before, axis=1) / np.linalg.norm(after, axis=1)
+    hull = hull[turn > _STRAIGHT]
+    around = np.stack([hull, np.roll(hull, -1, axis=0)], axis=1)
+    ends = np.stack([plane[:, 0], plane.mean(axis=1), plane[:, 1]], axis=1)
+    on = (apart(ends[:, :, None], around[None, None]).min(axis=2) < SAME_PLANE * size).all(axis=1)
+    covered = np.linalg.norm(plane[on, 1] - plane[on, 0], axis=1).sum()
+    if abs(covered - np.linalg.norm(around[:, 1] - around[:, 0], axis=1).sum()) > 1e-3 * size:
+        return None
+    return hull @ axes[:, :2].T + face.offset * face.normal
 
 
 def _corners(sides: np.ndarray) -> np.ndarray:

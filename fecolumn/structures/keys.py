@@ -87,6 +87,7 @@ class Block(Footed):
     length_m: float = parameter(doc="length along x", unit="m", above=0, high=100)
     width_m: float = parameter(doc="width along y", unit="m", above=0, high=100)
     height_m: float = parameter(doc="height along z", unit="m", above=0, high=1000)
+    turned_deg: float = parameter(0.0, doc="angle by which it is turned about the vertical through the middle of its foot, from x to y", unit="deg", low=-360, high=360, since="0.7")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,6 +106,7 @@ class Meshed(Solid):
 
     kind: str = parameter("mesh", doc="what the body is", choices=("mesh",))
     mesh_file: str = parameter(doc="mesh of 8-node bricks or of tetrahedra in any format meshio reads, lengths in metres, z up")
+    turned_deg: float = parameter(0.0, doc="angle by which it is turned about the vertical through the middle of its foot, from x to y", unit="deg", low=-360, high=360, since="0.7")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,10 +146,11 @@ FILES = {"mesh": ("mesh_file",), "matrices": ("mass_file", "stiffness_file", "no
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Interface(Section):
-    """Where one body stands on another or on the ground: faces that coincide at the start; copies each with each."""
+    """A joint: faces of two bodies, or of a body and the ground, that coincide at the start; copies each with each. Which body comes first decides nothing."""
 
-    slave: str = parameter(doc="body whose nodes are the contact points: of a column and a slab the column, of two blocks the upper one")
-    on: str = parameter(doc='body that it touches, or "ground"; the same body where copies stand on one another')
+    between: tuple[str, ...] = parameter((), doc='the two bodies that touch, or a body and "ground", as in ["drum", "capital"]; the same body twice where copies stand on one another')
+    slave: str = parameter("", doc="instead of between: one of the two bodies")
+    on: str = parameter("", doc='instead of between: the other body, or "ground"')
     friction_coefficient: float | None = parameter(None, doc="Coulomb friction coefficient; left out: that of [contact]", low=0, high=10)
     law: str | None = parameter(None, doc="contact formulation; left out: that of [contact]", choices=("augmented_lagrange", "penalty"))
     penalty_factor: float | None = parameter(None, doc="penalty stiffness per area as a multiple of E / element size of the slave; left out: that of [contact]", above=0, high=1e9)

@@ -19,13 +19,18 @@ from fecolumn.structures.patches import Patch, master_patch, slave_patch
 
 @dataclass(frozen=True)
 class Contact:
-    """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the copy), None of the ground."""
+    """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the copy), None of the ground.
+
+    pair, corners: as of `model.Joint`, place among the contacts and corners [m] in the drawings of the bodies, of plain lists.
+    """
 
     interface: str
     slave: tuple[str, int]
     slave_surface: str
     master: tuple[str, int] | None
     master_surface: str | None
+    pair: int = -1
+    corners: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -63,7 +68,10 @@ def layout_of(case, file) -> Layout:
         contacts.append(Contact(meeting.interface, meeting.slave, slave, meeting.master, master))
     for edge in edges:
         slave = _surface_name(drawings[edge.lower[0]].faces, edge.lower_face, "edge")
-        contacts.append(Contact(edge.interface, edge.lower, slave, edge.upper, _surface_name(drawings[edge.upper[0]].faces, edge.upper_face, "master")))
+        pair = next((k for k, one in enumerate(meetings) if (one.slave, one.slave_face, one.master, one.master_face) ==
+                     (edge.upper, edge.upper_face, edge.lower, edge.lower_face)), -1) if edge.corners else -1
+        contacts.append(Contact(edge.interface, edge.lower, slave, edge.upper, _surface_name(drawings[edge.upper[0]].faces, edge.upper_face, "master"),
+                                pair, edge.corners))
     return Layout(drawings, patches, tuple(contacts))
 
 
@@ -96,7 +104,8 @@ def _touching(case, body: str, one: Drawing, meetings: list[Meeting], edges: lis
         drawn, name = one.faces[face], _surface_name(one.faces, face, "slave")
         if name == "foot" and getattr(one.body, "foot_radius_m", None):
             drawn = dataclasses.replace(drawn, corners=lifted(one.body, drawn.corners))
-        avoided = [edge.avoided for edge in edges if edge.upper[0] == body and edge.upper_face == face]
+        # of a joint with two sides the nodes below are no points of their own until the slave has slid
+        avoided = [edge.avoided for edge in edges if not edge.corners and edge.upper[0] == body and edge.upper_face == face]
         found[name] = slave_patch(drawn, one.order, interior, np.concatenate(avoided) if avoided else None)
     for face in sorted({edge.lower_face for edge in edges if edge.lower[0] == body}):
         points = [edge.points for edge in edges if edge.lower[0] == body and edge.lower_face == face]

@@ -8,11 +8,14 @@ import numpy as np
 
 from fecolumn.schema import InputError
 from fecolumn.structures.faces import SAME_PLANE, Face, over, triangles_of
+from fecolumn.structures.feet import ball_of
 from fecolumn.structures.keys import GROUND
 from fecolumn.structures.patches import plane_box
 
 # Over the slave's width: what faces a body across a smaller gap was meant to touch it
 _NEAR = 0.05
+# Over the area of a face: two faces are equal
+_SAME_AREA = 1e-6
 # Cosine from which faces look at one another
 _OPPOSITE = 1e-5
 # Shares of an element face's corners in a point of it that no regular grid has
@@ -130,10 +133,31 @@ def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list
             if not _overlap(face, corners, other):
                 continue
             if abs(gap) <= SAME_PLANE * width:
-                found.append(Meeting(name, slave, number, master, other_number))
+                found.append(_meeting(case, name, (slave, number, face), (master, other_number, other)))
             else:
                 gaps.append((gap, width, number))
     return found, gaps
+
+
+def _meeting(case, name: str, one, other) -> Meeting:
+    """The meeting of two faces, each (copy, number, Face): the slave is the smaller one, of equal ones the upper.
+
+    Which body an interface names first decides nothing, so that the same structure moves alike however it is written.
+    """
+    (copy, number, face), (other_copy, other_number, other_face) = one, other
+    larger = face.area - other_face.area
+    if abs(larger) <= _SAME_AREA * face.area:
+        larger = face.normal[2] if abs(face.normal[2]) > _OPPOSITE else copy > other_copy
+    if _is_ball(case, copy, face) or _is_ball(case, other_copy, other_face):
+        larger = _is_ball(case, other_copy, other_face)
+    if larger > 0:
+        return Meeting(name, other_copy, other_number, copy, number)
+    return Meeting(name, copy, number, other_copy, other_number)
+
+
+def _is_ball(case, copy, face: Face) -> bool:
+    """Whether a face is a foot that touches with balls: only a slave can."""
+    return ball_of(case.bodies[copy[0]]) is not None and face.normal[2] < -1 + 1e-9
 
 
 def _is_upper(face: Face, slave, master) -> bool:

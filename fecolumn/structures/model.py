@@ -147,6 +147,9 @@ class Joint:
     friction: Coulomb's coefficient. law: (k, 3) [m/N] compliance of the contact law at each point, zero for a rigid interface.
     round: whether the slave's outer outline is a round rim, on which it rolls. restitution: velocity after over before an impact.
     ball: of a slave whose foot is not flat.
+    pair, corners: of a joint with the roles exchanged, by which a joint has two sides: place of the joint that it belongs to, -1 of
+        others; (n, 3), (m, 3) [m] corners of the outlines of the slave's and the master's face from the centres of mass,
+        counter-clockwise seen from outside.
     """
 
     name: str
@@ -159,6 +162,8 @@ class Joint:
     round: bool
     restitution: float
     ball: Ball | None = None
+    pair: int = -1
+    corners: tuple[np.ndarray, ...] = ()
 
 
 @dataclass(frozen=True)

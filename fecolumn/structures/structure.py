@@ -166,6 +166,7 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
     own = {key: getattr(keys, key) for key in ("friction_coefficient", "law", "penalty_factor", "restitution")}
     contact_keys = dataclasses.replace(case.contact, **{key: value for key, value in own.items() if value is not None})
     surface = model.surfaces[contact["slave_surface"]]
+    corners = tuple(np.array(own) - bodies[of[0]].center for own, of in zip(contact["corners"], (contact["slave"], master)))
     if contact_keys.law == "penalty" and body not in sizes:
         raise InputError(file, f"interfaces.{name}.law", contact_keys.law, f'must be augmented_lagrange where the slave, "{body}", has no elements')
     youngs = 0.0 if body not in sizes else material_of(case.bodies[body], case.materials).youngs_modulus_pa
@@ -176,7 +177,7 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
     where = GROUND if master is None else case.names_of(master[0])[master[1]]
     shown = f"{name}, edge" if contact["slave_surface"].endswith(", edge") else name
     return Joint(f"{shown}: {title} on {where}", places[body, number], contact["slave_surface"], models.GROUND if master is None else places[tuple(master)],
-                 contact["master_surface"], contact_keys.friction_coefficient, law, round_rim, contact_keys.restitution, ball)
+                 contact["master_surface"], contact_keys.friction_coefficient, law, round_rim, contact_keys.restitution, ball, contact["pair"], corners)
 
 
 def _with_hertz(case, joints, standing, copies) -> list[Joint]:
