@@ -11,7 +11,7 @@ from fecolumn import _dolfinx
 #: Solves with one load in less than half the time of MUMPS, but on a single rank alone
 _OF_ONE_RANK = "cholmod" if PETSc.Sys.hasExternalPackage("suitesparse") else "mumps"
 # that a matrix is not definite is raised; it need not be printed besides
-PETSc.Options().setValue("mat_cholmod_print", 1)
+PETSc.Options().setValue("mat_cholmod_print", 0)
 
 
 class Factor:
