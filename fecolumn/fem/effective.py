@@ -10,8 +10,8 @@ from fecolumn import _dolfinx
 
 #: Solves with one load in less than half the time of MUMPS, but on a single rank alone
 _OF_ONE_RANK = "cholmod" if PETSc.Sys.hasExternalPackage("suitesparse") else "mumps"
-# that a matrix is not definite is raised; it need not be printed besides
-PETSc.Options().setValue("mat_cholmod_print", 0)
+# Messages of CHOLMOD
+_SAYS = "mat_cholmod_print"
 
 
 class Factor:
@@ -71,11 +71,17 @@ def _solver(matrix: PETSc.Mat, package: str, definite: bool) -> PETSc.KSP:
     preconditioner = solver.getPC()
     preconditioner.setType("cholesky")
     preconditioner.setFactorSolverType(package)
+    options = PETSc.Options()
+    # that a matrix is not definite is raised; it need not be printed besides
+    options.setValue(_SAYS, 0)
     try:
         solver.setUp()
     except PETSc.Error:
         solver.destroy()
         raise
+    finally:
+        # one that is left and was not read is reported at the end
+        options.delValue(_SAYS)
     return solver
 
 
