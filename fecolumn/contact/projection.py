@@ -45,7 +45,8 @@ def project(base, positions, listed, points):
     """Find the base's nodes under those of the listed points (k,) at positions (n, 3) that stand on it: ON, OFF its top, or UNKNOWN compliance.
 
     Bilinear interpolation on the facet vertically below: the top's slope under load is about 1e-5 rad and changes gap and cone by 1e-5 of themselves.
-    An unbounded base is moved along with the middle of the points on it by whole squares.
+    An unbounded base is moved along with the middle of the points on it by whole squares. A point that is beyond the edge by rounding, or by the first slip of
+    a foot as wide as its plate, stands on the edge.
     """
     answer, dx, dy, count = ON, 0.0, 0.0, 0
     if base.square > 0:
@@ -57,8 +58,9 @@ def project(base, positions, listed, points):
     for i in listed:
         if points[i].master != BASE:
             continue
-        x, y = positions[i, 0] - dx, positions[i, 1] - dy
-        if not (base.x[0] <= x <= base.x[-1] and base.y[0] <= y <= base.y[-1]):
+        x, far_x = _within(base.x, positions[i, 0] - dx)
+        y, far_y = _within(base.y, positions[i, 1] - dy)
+        if far_x or far_y:
             return OFF
         a, b = _cell(base.x, x), _cell(base.y, y)
         s, t = (x - base.x[a]) / (base.x[a + 1] - base.x[a]), (y - base.y[b]) / (base.y[b + 1] - base.y[b])
@@ -69,6 +71,15 @@ def project(base, positions, listed, points):
             if slot < 0:
                 answer = UNKNOWN
     return answer
+
+
+@njit
+def _within(lines, x):
+    """The place nearest to x from the first to the last of the grid lines [m], and whether x is farther from it than EDGE of the last brick there."""
+    nearest = min(max(x, lines[0]), lines[-1])
+    brick = lines[1] - lines[0] if x < lines[0] else lines[-1] - lines[-2]
+    # not `>`: a place that is not a number is on no base
+    return nearest, not abs(x - nearest) <= EDGE * brick
 
 
 @njit

@@ -112,7 +112,7 @@ REST_ITERATIONS, REST_PROGRESS = 50, 0.5
 
 # --- Bodies that stand on moving ones -----------------------------------------------------------------------------------------------------------
 #: Way beyond the outline of a surface, over the width of the foot on it, within which a point still stands on it: feet as wide as what they stand on
-#: would else lose their outline to the first slip.
+#: would else lose their outline to the first slip. On a base plate over the width of its last brick.
 EDGE = 2e-3
 
 # --- Joints with two sides, over the larger side of the slave's face ----------------------------------------------------------------------------

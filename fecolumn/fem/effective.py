@@ -10,21 +10,27 @@ from fecolumn import _dolfinx
 
 #: Solves with one load in less than half the time of MUMPS, but on a single rank alone
 _OF_ONE_RANK = "cholmod" if PETSc.Sys.hasExternalPackage("suitesparse") else "mumps"
+# Messages of CHOLMOD
+_SAYS = "mat_cholmod_print"
 
 
 class Factor:
-    """Cholesky factor (CHOLMOD, of several ranks MUMPS) of a symmetric positive definite matrix of a body; the matrix is taken over."""
+    """Factor of a symmetric matrix of a body, which is taken over: Cholesky by CHOLMOD, on several ranks by MUMPS.
 
-    def __init__(self, body, matrix: PETSc.Mat):
+    Args:
+        definite: whether the matrix is positive definite beyond doubt. That of a strained body need not be, where an iteration is far from its answer: it is factored
+            as L D L^T by MUMPS where Cholesky fails, and at once on several ranks.
+    """
+
+    def __init__(self, body, matrix: PETSc.Mat, definite: bool = True):
         self.body, self._matrix = body, body.constraint.pinned(matrix)
-        self._matrix.setOption(PETSc.Mat.Option.SPD, True)
-        self._solver = PETSc.KSP().create(body.comm)
-        self._solver.setOperators(self._matrix)
-        self._solver.setType("preonly")
-        preconditioner = self._solver.getPC()
-        preconditioner.setType("cholesky")
-        preconditioner.setFactorSolverType(_OF_ONE_RANK if body.comm.size == 1 else "mumps")
-        self._solver.setUp()
+        alone = body.comm.size == 1
+        try:
+            self._solver = _solver(self._matrix, _OF_ONE_RANK if alone else "mumps", definite or alone)
+        except PETSc.Error:
+            if definite:
+                raise
+            self._solver = _solver(self._matrix, "mumps", False)
         self._release = _dolfinx.release_with(self, self._solver, self._matrix)
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
@@ -56,13 +62,36 @@ class Factor:
         self._release()
 
 
+def _solver(matrix: PETSc.Mat, package: str, definite: bool) -> PETSc.KSP:
+    """Direct solver with a symmetric matrix, factored."""
+    matrix.setOption(PETSc.Mat.Option.SPD, definite)
+    solver = PETSc.KSP().create(matrix.comm)
+    solver.setOperators(matrix)
+    solver.setType("preonly")
+    preconditioner = solver.getPC()
+    preconditioner.setType("cholesky")
+    preconditioner.setFactorSolverType(package)
+    options = PETSc.Options()
+    # that a matrix is not definite is raised; it need not be printed besides
+    options.setValue(_SAYS, 0)
+    try:
+        solver.setUp()
+    except PETSc.Error:
+        solver.destroy()
+        raise
+    finally:
+        # one that is left and was not read is reported at the end
+        options.delValue(_SAYS)
+    return solver
+
+
 def effective_factor(body, mass_factor: float, stiffness_factor: float, stiffness: PETSc.Mat | None = None) -> Factor:
     """Factor of mass_factor M + stiffness_factor K, with the body's reference stiffness unless another is given."""
     matrix = (stiffness or body.stiffness).copy()
     matrix.scale(stiffness_factor)
     if mass_factor:
         matrix.axpy(mass_factor, body.mass, structure=PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
-    return Factor(body, matrix)
+    return Factor(body, matrix, definite=stiffness is None)
 
 
 def unit_loads(body, nodes) -> np.ndarray:

@@ -53,6 +53,8 @@ class Panel:
         self.scene_size = width, height
 
     def _place_strips(self, figure) -> None:
+        from matplotlib.patches import Rectangle
+
         strips = self.frames.result.strips(self.frames.times)
         left, bottom, width, height = _STRIPS
         gap = 0.048
@@ -61,7 +63,8 @@ class Panel:
         for row, strip in enumerate(strips):
             axes = figure.add_axes([left, bottom + (len(strips) - 1 - row) * (each + gap), width, each])
             draw_strip(axes, strip, last=row == len(strips) - 1)
-            veil = axes.axvspan(0, 1, zorder=3, animated=True, **_VEIL)
+            # of what `axvspan` draws the kind depends on matplotlib's version
+            veil = axes.add_artist(Rectangle((0, 0), 1, 1, transform=axes.get_xaxis_transform(), zorder=3, animated=True, **_VEIL))
             cursor = axes.axvline(0, color=BLACK, linewidth=0.8, zorder=4, animated=True)
             self._cursors.append((axes, veil, cursor))
         self._end = strips[0].time[-1]
@@ -101,7 +104,7 @@ class Panel:
         renderer = self._canvas.get_renderer()
         for axes, veil, cursor in self._cursors:
             cursor.set_xdata([frame.time, frame.time])
-            veil.set_xy([(frame.time, 0), (frame.time, 1), (self._end, 1), (self._end, 0), (frame.time, 0)])
+            veil.set(x=frame.time, width=self._end - frame.time)
             axes.draw_artist(veil)
             axes.draw_artist(cursor)
         first, last = np.searchsorted(self.frames.result.time, [self.frames.times[0] - 1e-9, frame.time + 1e-9])

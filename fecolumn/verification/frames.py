@@ -34,7 +34,6 @@ of 1 um/s does not grow in this window.
 
 from __future__ import annotations
 
-import copy
 from dataclasses import replace
 
 import numpy as np
@@ -42,11 +41,10 @@ from mpi4py import MPI
 
 from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.dynamics.interface import Interface
-from fecolumn.dynamics.stepper import Stepper
 from fecolumn.post.style import LINES
 from fecolumn.verification import FULL
-from fecolumn.verification.models import AMPLITUDES, TONES, column_case, column_system, shaking
+from fecolumn.verification.models import column_case, column_system, shaking
+from fecolumn.verification.moving_base import InertialTrial, by_hht, exact_path, hht_path, on_exact_path
 from fecolumn.verification.result import Result, Row
 from fecolumn.verification.trial import RigidRocking, Trial, begin, solver_drift
 
@@ -55,102 +53,6 @@ QUIET_STEPS = 50
 DISTURBANCE = 1e-6  # m/s
 # of the ledger; the work of a moving base is not told apart by them
 LOSSES = ("friction", "impact", "contact")
-
-
-class MovingInterface(Interface):
-    """Contact with a base that moves: the column's motion is absolute, contact sees it relative to the base.
-
-    Attributes:
-        position: (3,) of the base at the end of the step, first: (3,) at its start [m].
-        known_velocities: pairs of the column's velocity array and the base's velocity (3,) at the same time [m/s]; the last one is the
-            end of the step.
-    """
-
-    def __init__(self, still: Interface):
-        super().__init__(still.column, still.foot, still.base, still.joints, still.laws)
-        self.position, self.first, self.known_velocities = np.zeros(3), np.zeros(3), []
-
-    def begin_step(self, *args):
-        end, self.position = self.position, self.first
-        try:
-            return super().begin_step(*args)
-        finally:
-            self.position = end
-
-    def positions(self, x, *args):
-        return super().positions(x, *args) - self.position
-
-    def velocities(self, v, *args):
-        base = next((base for known, base in self.known_velocities if known is v), self.known_velocities[-1][1])
-        return super().velocities(v, *args) - base
-
-
-class MovingStepper(Stepper):
-    """Stepper that judges contact by its work relative to the base, which moves by `moved` (3,) [m] in the step."""
-
-    moved = np.zeros(3)
-
-    def _book(self, start, before, after, *rest):
-        return super()._book(start, before, after, *rest) - float(after.forces.sum(axis=0) @ self.moved)
-
-
-class InertialTrial:
-    """An analysis in the inertial frame on a base that moves along a path.
-
-    Attributes:
-        trial: Trial of the absolute motion; its ledger has no base work. work: of the base so far [J].
-    """
-
-    def __init__(self, system, start):
-        moving = copy.copy(system)
-        moving.interface = MovingInterface(system.interface)
-        self.trial = Trial(moving, start)
-        self.trial.stepper = MovingStepper(moving, self.trial.ledger)
-        self.work = 0.0
-
-    def shake(self, positions, velocities) -> np.ndarray:
-        """Displacements (n, 2, 3) [m] of top and foot relative to the base on its path (n, 3), (n, 3) [m, m/s] from rest at 0."""
-        system, relative = self.trial.system, []
-        base = np.zeros(3), np.zeros(3)
-        for position, velocity in zip(positions, velocities):
-            before = self.trial.state
-            system.interface.position, system.interface.first, self.trial.stepper.moved = position, base[0], position - base[0]
-            system.interface.known_velocities = [(before.v, base[1]), (None, velocity)]
-            relative.append(self.trial.shake([np.zeros(3)])[0] - position)
-            if self.trial.stepper.record.cuts:
-                raise RuntimeError(f"t = {before.time:g} s: the step was cut, and the base's place within it is not known")
-            self._book(before, self.trial.state, position - base[0], velocity)
-            base = position, velocity
-        return np.array(relative)
-
-    def _book(self, before, after, moved, velocity) -> None:
-        """Work of the base in a step: contact forces on its displacement, impact impulses on its velocity."""
-        system, hht = self.trial.system, self.trial.system.hht
-        free = before.v + hht.dt * ((1 - hht.gamma) * before.a + hht.gamma * after.a + after.contact_a)
-        impulse = np.einsum("cna,na->c", system.column.unit_loads, after.v - free)
-        self.work += float(after.forces.sum(axis=0) @ moved + velocity @ impulse)
-
-
-def hht_path(hht, accelerations) -> tuple[np.ndarray, np.ndarray]:
-    """Positions and velocities (n, 3) of the base under accelerations (n, 3), from rest, by the formulas of HHT."""
-    given = np.vstack([np.zeros(3), accelerations])
-    blended = (1 + hht.alpha) * given[1:] - hht.alpha * given[:-1]
-    blended = np.vstack([np.zeros(3), blended])
-    velocities = np.cumsum(hht.dt * ((1 - hht.gamma) * blended[:-1] + hht.gamma * blended[1:]), axis=0)
-    slopes = np.vstack([np.zeros(3), velocities[:-1]])
-    return np.cumsum(hht.dt * slopes + hht.dt**2 * ((0.5 - hht.beta) * blended[:-1] + hht.beta * blended[1:]), axis=0), velocities
-
-
-def exact_path(times) -> tuple[np.ndarray, np.ndarray]:
-    """Positions and velocities (n, 3) of the base in `shaking`, from rest."""
-    times = np.asarray(times)[:, None]
-    return (sum(sign * AMPLITUDES / tone**2 * (1 - np.cos(tone * times)) for sign, tone in TONES),
-            sum(sign * AMPLITUDES / tone * np.sin(tone * times) for sign, tone in TONES))
-
-
-def on_exact_path(system, start, times) -> np.ndarray:
-    """Displacements (n, 2, 3) [m] of top and foot relative to the base that moves on its exact path."""
-    return InertialTrial(system, lambda _: start.copy()).shake(*exact_path(times))
 
 
 def turned_system(turn, engine: str, **tables):
@@ -181,18 +83,18 @@ def run(engine: str, long: bool) -> Result:
         result.rows.append(Row(f"{name}: path of top and foot [m]", 0.0, difference.max(), tolerance, scale=largest))
 
     if engine in FULL:  # compiled steps know no moving base
-        inertial = InertialTrial(system, standing)
-        relative = inertial.shake(*hht_path(system.hht, motion))
+        inertial = InertialTrial(system, standing, by_hht)
+        relative = inertial.shake(motion)
         compare("base moving", relative)
         result.rows += energies(table, inertial, drift[-1])
         damped = column_system(engine, integration={"alpha_hht": -0.2})
         still = Trial(damped)
-        compare("base moving, alpha -0.2", InertialTrial(damped, lambda _: still.start.copy()).shake(*hht_path(damped.hht, motion)),
-                against=still.shake(motion))
+        compare("base moving, alpha -0.2", InertialTrial(damped, lambda _: still.start.copy(), by_hht).shake(motion), against=still.shake(motion))
         coarse = Trial(column_system(engine, integration={"dt_s": 2 * system.hht.dt}))
-        double = np.linalg.norm(on_exact_path(coarse.system, coarse.start, times[1::2]) - coarse.shake(motion[1::2]), axis=2).max()
+        exact = InertialTrial(coarse.system, lambda _: coarse.start.copy(), on_exact_path).shake(motion[1::2])
+        double = np.linalg.norm(exact - coarse.shake(motion[1::2]), axis=2).max()
         off = [np.linalg.norm(exact - stepped, axis=1).max() for exact, stepped in zip(exact_path(times), hht_path(system.hht, motion))]
-        compare("base moving on its exact path", on_exact_path(system, table.start, times),
+        compare("base moving on its exact path", InertialTrial(system, standing, on_exact_path).shake(motion),
                 (off[1] * times[-1] + 2 * off[0]) * np.cosh(RigidRocking(system).p * times[-1]) / largest)
         result.rows[-1] = replace(result.rows[-1], order=float(np.log2(double / result.rows[-1].computed)))
 

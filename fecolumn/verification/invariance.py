@@ -116,21 +116,23 @@ def on_ranks(engine: str, n: int, motion) -> np.ndarray:
 def resumed(engine: str, motion, parts: int) -> np.ndarray:
     """Path of the top (steps + 1, 3) [m] of an analysis in one part, or in two by Ctrl-C at half."""
     with tempfile.TemporaryDirectory() as folder:
-        # fields at half: what is written must not matter either, and the reduced engine looks for Ctrl-C where it writes
-        case, out = read_case(_case_file(Path(folder), engine, motion, {"output": {"fields_every_s": STEPS // 2 * DT}})), Path(folder) / "out"
+        # fields and states at half: what is written must not matter either, and the reduced engine looks for Ctrl-C wherever it writes
+        half = len(motion) // 2
+        case, out = read_case(_case_file(Path(folder), engine, motion, {"output": dict.fromkeys(("fields_every_s", "states_every_s"), half * DT)})), Path(folder) / "out"
         if parts == 2:
             with contextlib.suppress(KeyboardInterrupt):
                 simulation.run(case, out, comm=MPI.COMM_SELF, quiet=True, stop=lambda: True)
-            if len(read_history(out / "history.h5")["u_top"]) != STEPS // 2 + 1:
-                raise RuntimeError("the analysis was not interrupted at half")
+            if (made := len(read_history(out / "history.h5")["u_top"]) - 1) != half:
+                raise RuntimeError(f"the analysis was interrupted after {made} steps, not at half of {len(motion)}")
         simulation.run(case, out, comm=MPI.COMM_SELF, quiet=True)
         return read_history(out / "history.h5")["u_top"]
 
 
 def _case_file(folder: Path, engine: str, motion, more=None) -> Path:
-    rows = [f"{t:.17g},{a[0]:.17g},{a[1]:.17g}\n" for t, a in zip([0.0, *TIMES], [np.zeros(3), *motion])]
+    times = DT * np.arange(len(motion) + 1)
+    rows = [f"{t:.17g},{a[0]:.17g},{a[1]:.17g}\n" for t, a in zip(times, [np.zeros(3), *motion])]
     (folder / "motion.csv").write_text("time [s],ax [m/s2],ay [m/s2]\n" + "".join(rows))
-    tables = merge(merge(COARSE, more or {}), {"integration": {"kinematics" if engine in FULL else "engine": engine, "dt_s": DT, "duration_s": TIMES[-1]},
+    tables = merge(merge(COARSE, more or {}), {"integration": {"kinematics" if engine in FULL else "engine": engine, "dt_s": DT, "duration_s": times[-1]},
                                                "motion": {"source": "motion.csv"}})
     del tables["title"]
     lines = [line for name, table in tables.items()

@@ -96,6 +96,19 @@ def lines(finding: Finding) -> str:
     return "\n".join(text)
 
 
+def count(findings) -> str:
+    """How many rows hold and how many cases do not, after the names of what does not hold, one a line."""
+    wrong, rows = [finding for finding in findings if not finding.ok], [row for finding in findings for row in finding.rows]
+    names = [f"{finding.case}, {finding.engine}: {what}" for finding in wrong for what in _wrong(finding)]
+    told = ["does not hold:", *(f"  {name}" for name in names)] if wrong else []
+    return "\n".join([*told, f"{sum(row.ok for row in rows)} of {len(rows)} rows hold, {len(wrong)} of {len(findings)} cases do not"])
+
+
+def _wrong(finding: Finding) -> list[str]:
+    """The quantities of a finding that do not hold, or how it failed."""
+    return [finding.failure.splitlines()[0]] if finding.failure else [row.quantity for row in finding.rows if not row.ok]
+
+
 def _csv(findings) -> str:
     text = io.StringIO()
     writer = csv.writer(text)

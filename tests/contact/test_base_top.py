@@ -29,6 +29,23 @@ def test_point_beyond_the_edge_matters_only_where_it_is_wanted(top):
     assert project(base, positions, np.array([0, 1]), points) == OFF
 
 
+@pytest.mark.parametrize("x, y", [(-0.3, 0.0), (-0.3, 0.4), (0.25, 0.0), (0.25, 0.4), (-0.2, 0.4)])
+def test_point_beyond_the_edge_by_rounding_stands_on_the_edge(top, x, y):
+    """By less than 2e-3 of the brick there, as a foot that is as wide as its plate; by more it is off, and so is a place that is not a number."""
+    base, points = base_of(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36))), node_points(np.zeros((1, 3)), 0.5)
+    outwards = np.array([[np.sign(x + 0.2), np.sign(y - 0.2), 0.0]])
+
+    def at(way):
+        answer = project(base, np.array([[x, y, 0.0]]) + way * outwards, np.array([0]), points)
+        return answer, points["below"].copy(), points["shares"].copy()
+
+    _, below, shares = at(0.0)
+    for way in (1e-17, 1e-9, 1.9e-4):
+        answer, nodes, weights = at(way)
+        assert answer == ON and (nodes == below).all() and (weights == shares).all()
+    assert at(7e-4)[0] == at(np.nan)[0] == OFF
+
+
 def test_point_on_another_body_needs_no_base_below_it(top):
     base = base_of(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36)))
     points = node_points(np.zeros((1, 3)), 0.5, master=1)

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from small_block import block, centre, trial
 
 from fecolumn import simulation
+from fecolumn.dynamics.gravity import standing
 from fecolumn.verification.models import column_case, column_system
 from fecolumn.verification.trial import begin
 
@@ -16,10 +18,10 @@ def test_both_engines_stand_slide_and_lift_alike_on_a_pad():
     system = column_system("corotated", **STOUT, base={"kind": "pad", "stiffness_n_m3": 5e7, "damping_ratio": 0.1}, integration={"dt_s": 1e-3})
     ends = []
     for engine in ("corotated", "rigid"):
-        trial = begin(engine, system)
+        one = begin(engine, system)
         for k in range(1, 41):
-            trial.step([9.0 * np.sin(60e-3 * k), 4.0 * np.sin(45e-3 * k), 0.0])
-        ends.append((trial.top(), trial.state.contact["indentation"], trial.energy()))
+            one.step([9.0 * np.sin(60e-3 * k), 4.0 * np.sin(45e-3 * k), 0.0])
+        ends.append((one.top(), one.state.contact["indentation"], one.energy()))
     (top, sunk, energy), (rigid_top, rigid_sunk, rigid_energy) = ends
     assert np.linalg.norm(top) > 1e-3 and np.ptp(sunk[:, 2]) > 1e-5
     np.testing.assert_allclose(top, rigid_top, atol=2e-3 * np.linalg.norm(top))
@@ -54,3 +56,12 @@ def test_foot_that_passes_the_edge_within_one_long_step_has_slid_off(engine, tmp
                        initial={"velocity_m_s": [-2.0, 0.0, 0.0]}, contact={"friction_coefficient": 0.05}, integration={"duration_s": 0.1, "dt_s": 12.5e-3})
     summary = simulation.run(case, tmp_path / "out", quiet=True)
     assert summary["outcome"] == "slid off" and summary["slid_off_time_s"] == pytest.approx(0.0125)
+
+
+@pytest.mark.parametrize("engine", ["corotated", "rigid"])
+def test_block_as_wide_as_its_plate_stands_on_it(engine):
+    """Corner over corner: rounding, and what the block spreads under its weight, are no way off the plate."""
+    one = trial(engine, block(0.3, 0.9, plate=(0.15, 0.15)), standing)
+    for _ in range(5):
+        state = one.step()
+    assert state.forces[:, 2].sum() == pytest.approx(one.system.weight, rel=1e-6) and centre(one)[2] == pytest.approx(0.45, abs=1e-6)

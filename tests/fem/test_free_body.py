@@ -29,8 +29,9 @@ def bar(request):
     width, height, material, frequency = BARS[request.param]
     side = np.array([-width / 2, width / 2])
     body = Body(MPI.COMM_SELF, box(side, side, np.linspace(0, height, 7)), material, order=2)
-    stiffness, mass = (matrix.copy().convert(PETSc.Mat.Type.DENSE).getDenseArray() for matrix in (body.stiffness, body.mass))
-    return body, *eigh(stiffness, mass), frequency
+    # the arrays are those of the matrices, and go with them
+    dense = [matrix.copy().convert(PETSc.Mat.Type.DENSE) for matrix in (body.stiffness, body.mass)]
+    return body, *eigh(*(matrix.getDenseArray() for matrix in dense)), frequency
 
 
 def _compliance(body, values, modes):

@@ -67,3 +67,16 @@ def test_one_load_and_many_at_once_have_the_same_solution_and_leave_no_residual(
     both = factor.solve(np.stack([loads, -2 * loads]))
     assert both[0] == pytest.approx(solution, abs=1e-12 * np.abs(solution).max())
     assert both[1] == pytest.approx(-2 * solution, abs=2e-12 * np.abs(solution).max())
+
+
+def test_a_tangent_that_is_not_definite_is_factored_too(tied_body):
+    """As that of a strained body, where an iteration is far from its answer: K less as much inertia as its lowest elastic modes have."""
+    from fecolumn.fem.effective import effective_factor
+    from fecolumn.fem.modes import free_modes
+
+    between = -np.mean((2 * np.pi * free_modes(tied_body, 9).frequencies[6:9]) ** 2)
+    factor = effective_factor(tied_body, between, 1.0, tied_body.stiffness)
+    loads = tied_body.apply(tied_body.mass, np.random.default_rng(7).normal(size=(tied_body.n_owned, 3)))
+    for solution, load in ((factor.solve(loads), loads), (factor.solve(np.stack([loads, -loads]))[1], -loads)):
+        residual = between * tied_body.momentum(solution) + tied_body.apply(tied_body.stiffness, solution) - load
+        assert np.abs(residual).max() < 1e-9 * np.abs(load).max()

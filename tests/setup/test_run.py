@@ -98,6 +98,13 @@ def test_the_browser_of_the_tests_is_asked_for_by_pytest_alone(tmp_path):
     assert "chromium-driver" in asked.read_text()
 
 
+@pytest.mark.parametrize("chosen, code, last", [(["tests/fem/test_step_kernels.py", "-k", "nearest or mirrored"], 0, "4 passed, 0 failed"),
+                                                (["tests/no_such_test.py"], 1, "0 passed, 1 failed")])
+def test_the_test_command_of_every_change_ends_with_a_count(chosen, code, last):
+    report = subprocess.run([ROOT / ".ci" / "run", "-n", "0", "-p", "no:cacheprovider", *chosen], capture_output=True, text=True, check=False)
+    assert report.returncode == code and report.stdout.splitlines()[-1] == last
+
+
 @pytest.mark.skipif(not shutil.which("shellcheck"), reason="shellcheck is not installed")
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.name)
 def test_scripts_pass_shellcheck(script):

@@ -8,12 +8,13 @@ import pytest
 
 from fecolumn.case import GRAVITY
 from fecolumn.dynamics.gravity import standing
-from fecolumn.verification.models import column_system
+from fecolumn.verification.models import column_system, shaking
+from fecolumn.verification.moving_base import InertialTrial, by_hht
 from fecolumn.verification.rocking import leaning, rocked
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.sliding import FRICTION, RESISTANCE, block, centre
-from fecolumn.verification.trial import RigidRocking, begin
-from fecolumn.verification.wobbling import impact_allowance, roll
+from fecolumn.verification.trial import RigidRocking, Trial, begin, solver_drift
+from fecolumn.verification.wobbling import impact_allowance, roll, rolling
 
 ENGINES = ("corotated", "reduced", "rigid")
 # a stout tube a thousand times as stiff as steel, its rim of 12 nodes, that does not slip
@@ -131,6 +132,20 @@ def test_rolling_on_the_round_rim_goes_on_steadily_and_loses_nothing(on_circle, 
     assert one["loss"] == pytest.approx(0.0, abs=turn**3)
     assert one["rate"] == pytest.approx(one["steady"], rel=turn**2 / 12)
     assert one["polygon_loss"] > 100 * turn**3
+
+
+def test_a_tube_rolls_alike_on_a_base_that_moves_and_under_its_inertia_forces(on_circle):
+    """Twice as far a step, which is then made in parts: the base is in each of them where it is at that time, and the base's work is what the ledgers differ by."""
+    system, rim, spin, _ = on_circle
+    system = tube(2 * system.hht.dt)
+    times = system.hht.dt * np.arange(1, 11)
+    table, inertial = Trial(system, rolling(rim, TILT, spin)), InertialTrial(system, rolling(rim, TILT, spin), by_hht)
+    before = inertial.trial.mechanical()
+    off = np.linalg.norm(inertial.shake(shaking(times)) - table.shake(shaking(times)), axis=2).max()
+    assert off < solver_drift(system, times)[-1] * times[-1]
+    assert inertial.trial.stepper.record.parts == table.stepper.record.parts >= 10
+    lost = sum(table.energy()[name] for name in ("friction", "impact", "contact"))
+    assert inertial.work == pytest.approx(inertial.trial.mechanical() - before - lost, rel=1e-6)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
