@@ -18,8 +18,9 @@ from fecolumn.case import (FULL_ORDER_KEYS, DEFAULT, MOST_STEPS, Contact, Initia
                            section_table)
 from fecolumn.content import content
 from fecolumn.files import is_file
+from fecolumn.paths import OF_BODIES as FILES
 from fecolumn.schema import InputError, build, meant, merge, nested, stated
-from fecolumn.structures.keys import FILES, GROUND, KINDS, Interface, LinkKeys, Placed, Storeys
+from fecolumn.structures.keys import GROUND, KINDS, Interface, LinkKeys, Placed, Storeys
 
 #: Tables of tables by name, and the class of each.
 NAMED = {"bodies": Placed, "materials": Material, "interfaces": Interface, "links": LinkKeys, "initial": Initial}

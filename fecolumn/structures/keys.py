@@ -138,8 +138,6 @@ class Matrices(Placed):
 
 #: Class of the keys by kind of body.
 KINDS = {"tube": Tube, "cylinder": Cylinder, "block": Block, "plate": Plate, "slab": Plate, "mesh": Meshed, "storeys": Storeys, "matrices": Matrices}
-#: Keys that name files, by kind.
-FILES = {"mesh": ("mesh_file",), "matrices": ("mass_file", "stiffness_file", "nodes_file")}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
