@@ -62,9 +62,13 @@ class OfStructure:
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
         if fallen != FELL:
             return super().ending(fallen, rotation)
+        return Ending(SLID_OFF, f'"{self._lowest()}" has fallen past the ground, z = 0, at {self.history.last()["time"]:.3f} s')
+
+    def _lowest(self) -> str:
+        """Name of the body whose centre of mass is lowest now."""
         last = self.history.last()
         heights = {part.name: part.center[2] + float(last[f"body/{part.name}/displacement"][2]) for part in standing_of(self.case, self.structure)}
-        return Ending(SLID_OFF, f'"{min(heights, key=heights.get)}" has fallen past the ground, z = 0, at {last["time"]:.3f} s')
+        return min(heights, key=heights.get)
 
     def finish(self, ending, dofs: int, record, factorizations: int) -> dict:
         from fecolumn.atomic import write_json
@@ -72,6 +76,9 @@ class OfStructure:
 
         summary = super().finish(ending, dofs, record, factorizations)
         summary |= peaks(self.history.arrays(), self.structure)
+        if summary["slid_off"]:
+            way = self.history.last()[f"body/{self._lowest()}/displacement"]
+            summary["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
         if self.comm.rank == 0:
             write_json(self.folder / NAME, summary)
         return summary

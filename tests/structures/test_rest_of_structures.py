@@ -55,6 +55,7 @@ def test_a_block_thrown_beside_the_other_falls_past_the_ground_and_ends_the_anal
     summary = run(structure(**tables, motion=_rested(tmp_path)), tmp_path / "out", quiet=True)
     assert summary["outcome"] == "slid off" and summary["slid_off"] and not summary["overturned"] and summary["u_max_censored"]
     assert summary["ended_by"].startswith('"upper" has fallen past the ground, z = 0, at ')
+    assert summary["slid_off_direction_deg"] == pytest.approx(0.0, abs=1e-3)
     # it leaves the edge with its centre, after 0.3 m and more
     assert math.sqrt(2.2 / GRAVITY) < summary["slid_off_time_s"] < math.sqrt(2.2 / GRAVITY) + 0.15
 
