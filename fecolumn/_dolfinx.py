@@ -15,6 +15,8 @@ import ufl  # noqa: E402
 from dolfinx import fem, mesh  # noqa: E402
 from petsc4py import PETSc  # noqa: E402
 
+from fecolumn import _form_compiler  # noqa: E402, F401
+
 logging.captureWarnings(False)
 
 VERSION = tuple(int(n) for n in dolfinx.__version__.split(".")[:2])

@@ -32,7 +32,7 @@ class Analysis:
         motion_steps: until the motion is over. until_rest: whether the analysis ends when the column is at rest.
         history: rows so far. stepping_s, earlier_s: wall time of steps, and of earlier runs [s].
         code: version and sources that the result is of; of an analysis that went on from other code's checkpoint, both sources.
-        stance, top_arm: of `dynamics.overturning`; standing_j: mechanical energy in gravity equilibrium [J]; the engine sets these three.
+        stance, top_arm: of `dynamics.overturning`; standing_j: mechanical energy in gravity equilibrium, where nothing moves [J]; the engine sets these three.
     """
 
     def __init__(self, case, folder, comm, file, quiet):
@@ -99,9 +99,8 @@ class Analysis:
 
     @property
     def rest_j(self) -> float:
-        """Mechanical energy at which the analysis ends as the column is at rest [J]; -inf where it goes on."""
-        asked = self.until_rest and self.step >= self.motion_steps
-        return self.standing_j + REST_SHARE * self.barrier_j if asked else -np.inf
+        """Energy left at which the analysis ends as the column is at rest [J]; -inf where it goes on."""
+        return REST_SHARE * self.barrier_j if self.until_rest and self.step >= self.motion_steps else -np.inf
 
     @property
     def cpu_s(self) -> float | None:
@@ -198,9 +197,10 @@ class Analysis:
             self.history.write(self.folder / "history.h5", attributes, every)
 
     def energy_left(self) -> float:
-        """Mechanical energy above that of gravity equilibrium now [J]."""
+        """Mechanical energy above that of gravity equilibrium now [J]; of what has come lower than that, its kinetic energy."""
         rows = self.history.last()
-        return max(0.0, float(sum(rows[f"energy/{term}"] for term in ("kinetic", "strain", "gravity"))) - self.standing_j)
+        kinetic, strain, gravity = (float(rows[f"energy/{term}"]) for term in ("kinetic", "strain", "gravity"))
+        return max(0.0, kinetic, kinetic + strain + gravity - self.standing_j)
 
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
         """How the analysis ends, from the answer of `overturning.fallen` and the last rotation (3, 3)."""

@@ -13,6 +13,8 @@ from pathlib import Path
 
 from fecolumn.content import content
 from fecolumn.model_keys import check_model
+from fecolumn.paths import OF_SECTIONS as FILES
+from fecolumn.paths import absolute
 from fecolumn.schema import InputError, Section, build, merge, nested, parameter, read_toml, stated
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
@@ -252,8 +254,6 @@ PAD_KEYS = "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"
 FULL_ORDER_KEYS = "tolerance", "max_iterations"
 DEFAULT = {field.name: field.default for field in dataclasses.fields(Integration)}
 _YOUNGER = {field.name for field in dataclasses.fields(Case) if field.metadata.get("since")}
-# keys that may name files
-FILES = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
 
 
 def section_table(name: str, section) -> dict | None:
@@ -286,11 +286,8 @@ def digest(texts: dict[str, str]) -> str:
 def located(name: str, section, file):
     """A section of a case with its relative paths taken from the folder of `file`."""
     folder = Path(file).resolve().parent
-    found = {}
-    for key in FILES.get(name, ()) if section else ():
-        source = getattr(section, key)
-        if source and ":" not in source and not Path(source).is_absolute():
-            found[key] = str(folder / source)
+    given = {key: getattr(section, key) for key in FILES.get(name, ()) if section}
+    found = {key: path for key, source in given.items() if (path := absolute(source, folder)) != source}
     return dataclasses.replace(section, **found) if found else section
 
 

@@ -34,11 +34,17 @@ def ending_text(summary: dict) -> str:
         return f"{SLID_OFF} ({summary['ended_by']})"
     text = f"{summary.get('outcome', 'standing')}, residual slide {1e3 * summary['residual_slide_m']:.3f} mm"
     if summary.get("outcome") == STILL_ROCKING:
-        text = (f"{STILL_ROCKING} at {summary['duration_s']:.3f} s with {summary['energy_left_j']:.3g} J of the "
-                f"{summary['energy_to_overturn_j']:.3g} J to overturn")
+        text = f"{STILL_ROCKING} at {summary['duration_s']:.3f} s with {energy_text(summary['energy_left_j'], summary['energy_to_overturn_j'])}"
     if summary.get("motion_cut_at_s") is not None:
         text += f"; the motion was cut at {summary['motion_cut_at_s']:g} s, by integration.duration_s"
     return text
+
+
+def energy_text(left: float, barrier: float) -> str:
+    """Energy left [J] beside that which overturns a column, or the weakest part of a structure, slowly [J]: what moves may have more, and all of a structure has."""
+    if left <= barrier:
+        return f"{left:.3g} J of the {barrier:.3g} J to overturn"
+    return f"{left:.3g} J" + (f", more than the {barrier:.3g} J that overturn it slowly" if barrier else "")
 
 
 def cut_short(summaries) -> str:

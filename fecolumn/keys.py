@@ -88,7 +88,7 @@ def _model_sections() -> dict[str, type]:
 def _of_structures() -> list[Table]:
     """Tables of a structure's case beside those that it has in common with a column's."""
     from fecolumn.case import Cap, Flange, Initial, Material
-    from fecolumn.structures.keys import KINDS, Footed, Interface, LinkKeys, Placed, Solid, Stuff
+    from fecolumn.structures.keys import KINDS, Footed, Interface, LinkKeys, Mesh, Placed, Solid, Stuff
 
     def own(kind):
         return Table("bodies.NAME", _sentence(kind), tuple(key for key in _keys(kind, skip=("flange", "cap")) if key.name in kind.__annotations__), "structure")
@@ -96,7 +96,7 @@ def _of_structures() -> list[Table]:
     top = Key("observed", "", "text", "none", 'body, or "BODY.MARK", whose displacement is u_top, such as "building.floor 2"; left out: the highest body\'s top')
     bodies = [own(kind) for kind in (Placed, Stuff, Solid, Footed, *dict.fromkeys(KINDS.values()))]
     others = {"bodies.NAME.flange": Flange, "bodies.NAME.cap": Cap, "materials.NAME": Material, "interfaces.NAME": Interface, "links.NAME": LinkKeys,
-              "initial.NAME": Initial}
+              "initial.NAME": Initial, "mesh": Mesh}
     return [Table("", "A structure of bodies: its tables, and [contact], [integration], [motion], [overturn], [output] as above.", (top,), "structure"), *bodies,
             *(Table(name, _sentence(kind), _keys(kind), "structure") for name, kind in others.items())]
 

@@ -15,6 +15,7 @@ import typing
 from pathlib import Path
 
 from fecolumn.files import Unreadable, read_bytes
+from fecolumn.paths import taken_over
 
 # A case has three levels; a file with more than these is damaged, and would exhaust the stack
 _DEEPEST = 20
@@ -241,7 +242,10 @@ def build(section, table, file, prefix: str = ""):
 
 
 def read_toml(path, _heirs: tuple[Path, ...] = ()) -> dict:
-    """Tables of a TOML file; `extends = "other.toml"` is read first and overridden key by key, or by `section = false` as a whole."""
+    """Tables of a TOML file; `extends = "other.toml"` is read first and overridden key by key, or by `section = false` as a whole.
+
+    Paths are relative to the file that states them: of a file in another folder they come absolute.
+    """
     path = Path(path)
     tables = _tables(path)
     parent = tables.pop("extends", None)
@@ -255,7 +259,9 @@ def read_toml(path, _heirs: tuple[Path, ...] = ()) -> dict:
         raise InputError(path, "extends", parent, f"goes in a circle: {circle}" if len(heirs) > 1 else "a file may not extend itself")
     if len(heirs) >= _LONGEST_CHAIN:
         raise InputError(path, "extends", parent, f"at most {_LONGEST_CHAIN} files may extend one another")
-    return merge(read_toml(path.parent / parent, heirs), tables)
+    other = path.parent / parent
+    inherited = read_toml(other, heirs)
+    return merge(inherited if _same(other.parent, path.parent) else taken_over(inherited, other), tables)
 
 
 def _same(one: Path, other: Path) -> bool:

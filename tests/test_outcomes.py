@@ -13,6 +13,7 @@ from fecolumn import simulation
 from fecolumn.analysis import energy_closure
 from fecolumn.case import case_from_tables, read_case, read_toml
 from fecolumn.cli import main
+from fecolumn.ending import ending_text
 from fecolumn.schema import InputError, merge
 
 DRUM = {
@@ -94,6 +95,42 @@ def test_ceiling_ends_a_free_vibration_that_goes_on_and_on(tmp_path):
     summary = simulation.run(drum(motion=motion), tmp_path / "out", quiet=True)
     assert summary["outcome"] == "still rocking" and "motion.rest_ceiling_s = 0.25 s" in summary["ended_by"]
     assert summary["duration_s"] == pytest.approx(0.45, abs=0.002) and summary["energy_left_j"] > 0
+
+
+def test_a_column_that_starts_with_a_spin_is_not_at_rest_and_its_energy_is_left(tmp_path):
+    """Pushed over its edge with half the energy that overturns it: so much is left on the way up, whatever becomes kinetic, strain and potential energy."""
+    spinning = drum(initial={"spin_rad_s": [0.0, 0.55, 0.0]}, integration={"duration_s": 0.3})
+    summary = simulation.run(spinning, tmp_path / "out", quiet=True)
+    with h5py.File(tmp_path / "out" / "history.h5") as history:
+        begun = history["energy/kinetic"][0]
+    assert 0.3 * summary["energy_to_overturn_j"] < begun < 0.7 * summary["energy_to_overturn_j"]
+    assert summary["outcome"] == "still rocking" and summary["tilt_max_rad"] > 0.05
+    assert summary["energy_left_j"] == pytest.approx(begun, rel=0.02)
+
+
+@pytest.mark.parametrize("start, flight_s", [({"spin_rad_s": [0.0, 0.55, 0.0]}, 0.5), ({"velocity_m_s": [0.0, 0.0, 1.0]}, 2 / 9.80665)], ids=["spin", "thrown up"])
+def test_free_vibration_of_a_column_that_starts_moving_ends_at_rest_and_not_before(start, flight_s, tmp_path):
+    motion = {"source": pulse(tmp_path / "none.csv", 0.0, 0.0, 0.0, 0.1)}
+    summary = simulation.run(drum(motion=motion | {"free_vibration_s": "rest"}, initial=start), tmp_path / "rest", quiet=True)
+    assert summary["outcome"] == "at rest" and summary["duration_s"] > flight_s - 1e-3
+    assert 0 <= summary["energy_left_j"] <= 1e-3 * summary["energy_to_overturn_j"]
+    longer = simulation.run(drum(motion=motion | {"free_vibration_s": summary["duration_s"] + 1.0}, initial=start), tmp_path / "long", quiet=True)
+    assert longer["u_max_m"] == pytest.approx(summary["u_max_m"], abs=1e-9) and longer["tilt_max_rad"] == pytest.approx(summary["tilt_max_rad"], abs=1e-9)
+
+
+def test_a_column_in_free_flight_is_not_at_rest_and_one_that_lands_beside_its_base_slides_off(tmp_path):
+    flying = simulation.run(drum(initial={"velocity_m_s": [0.0, 0.0, 3.0]}, integration={"duration_s": 0.2}), tmp_path / "up", quiet=True)
+    weight = flying["energy_to_overturn_j"] / (math.hypot(0.25, 0.8) - 0.8)  # N, but for the polygon's edges
+    assert flying["outcome"] == "still rocking" and flying["energy_left_j"] == pytest.approx(weight / 9.80665 * 4.5, rel=0.1)
+    thrown = simulation.run(drum(initial={"velocity_m_s": [3.0, 0.0, 4.0]}, integration={"duration_s": 2.0}), tmp_path / "away", quiet=True)
+    assert thrown["outcome"] == "slid off" and thrown["slid_off_time_s"] == pytest.approx(2 * 4.0 / 9.80665, abs=2e-3)
+
+
+def test_energy_left_is_told_beside_that_which_overturns():
+    rocking = {"overturned": False, "outcome": "still rocking", "duration_s": 1.0, "residual_slide_m": 0.0, "motion_cut_at_s": None}
+    told = [ending_text(rocking | {"energy_left_j": left, "energy_to_overturn_j": barrier}) for left, barrier in ((5.0, 12.0), (3810.0, 1760.0), (7.0, 0.0))]
+    assert told == ["still rocking at 1.000 s with 5 J of the 12 J to overturn", "still rocking at 1.000 s with 3.81e+03 J, more than the 1.76e+03 J that overturn it slowly",
+                    "still rocking at 1.000 s with 7 J"]
 
 
 def test_free_vibration_is_a_number_or_rest():

@@ -96,8 +96,12 @@ class FullAnalysis(Analysis):
         state, extra = read_state(arrays, self.system)
         start = float(extra["start"])
         work, record = dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True)), Record(*extra["record"].tolist())
+        points, kept = self.system.interface.points, extra["points"]
+        if kept.shape != points.shape or not np.can_cast(kept.dtype, points.dtype, "equiv"):
+            raise ValueError("points do not fit")
         self.resumed(extra)
         self.system.interface.stay.take(extra)
+        points[...] = kept
         self.state, self.ledger.start, self.ledger.work, self.stepper.record = state, start, work, record
 
     def _fields(self):
@@ -133,7 +137,7 @@ class FullAnalysis(Analysis):
                 self.stepping_s += time.perf_counter() - began
                 measures = self._note(self.stepper.record.iterations - before)
                 fallen = self.observer.fallen(self.state, measures, self.steepest(self.step))
-                over = fallen != STANDS or self.energy_left() + self.standing_j <= self.rest_j
+                over = fallen != STANDS or self.energy_left() <= self.rest_j
                 progress.show(self.step, measures, self.stepper.record)
                 if self.fields and self.step % self.field_steps == 0:
                     self._write_fields()
@@ -169,7 +173,7 @@ class FullAnalysis(Analysis):
         from fecolumn.dynamics.checkpoint import write_checkpoint
 
         extra = self.to_resume() | dict(start=self.ledger.start, work=list(self.ledger.work.values()),
-                                        record=dataclasses.astuple(self.stepper.record))
+                                        record=dataclasses.astuple(self.stepper.record), points=self.system.interface.points)
         extra |= self.system.interface.stay.to_keep(self.system.of_step().nodal)
         write_checkpoint(self.folder / CHECKPOINT, self.system, self.state, extra)
         self.write_history()

@@ -37,8 +37,8 @@ from fecolumn._compiled import njit
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import ROUND_CORNERS, STICKS
 
-# Answers of `fallen`
-STANDS, NO_RETURN, CAPPED = range(3)
+# Answers of `fallen`, and what one of many bodies is that is below the ground, on which it has no face to stand
+STANDS, NO_RETURN, CAPPED, FELL = range(4)
 
 
 class Stance(NamedTuple):
@@ -67,7 +67,7 @@ def stance(arms: np.ndarray, inertia: np.ndarray, weight: float, friction: float
         plane = plane.mean(axis=0) + rim.radius * np.column_stack([np.cos(angles), np.sin(angles)])
     corners = plane[ConvexHull(plane).vertices]
     depth = float(-np.mean(np.asarray(arms)[:, 2]))
-    return Stance(np.ascontiguousarray(corners), depth, float(np.arctan2(_weakest(corners)[0], depth)),
+    return Stance(np.ascontiguousarray(corners), depth, float(np.arctan2(weakest(corners)[0], depth)),
                   np.ascontiguousarray(inertia, float), float(weight), float(friction), float(cap) if cap > 0 else np.inf)
 
 
@@ -76,7 +76,7 @@ def never_alone(inertia: np.ndarray, weight: float, cap: float) -> Stance:
     return Stance(np.zeros((1, 2)), 1.0, np.inf, np.ascontiguousarray(inertia, float), float(weight), 0.0, float(cap) if cap > 0 else np.inf)
 
 
-def _weakest(corners: np.ndarray) -> tuple[float, np.ndarray]:
+def weakest(corners: np.ndarray) -> tuple[float, np.ndarray]:
     """Distance [m] of the nearest edge from the centre of mass, and its outward normal (2,)."""
     edges = np.roll(corners, -1, axis=0) - corners
     normals = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
@@ -87,13 +87,13 @@ def _weakest(corners: np.ndarray) -> tuple[float, np.ndarray]:
 
 def barrier(stance: Stance) -> float:
     """Energy [J] that lifts the column from upright onto its nearest edge: what it takes to overturn it slowly, 0 if it cannot stand."""
-    distance = _weakest(stance.corners)[0]
+    distance = weakest(stance.corners)[0]
     return stance.weight * (np.hypot(distance, stance.depth) - stance.depth) if distance > 0 else 0.0
 
 
 def critical_displacement(stance: Stance, top_arm: np.ndarray) -> float:
     """Horizontal displacement [m] of a point at `top_arm` (3,) from the centre of mass when the rigid column leans by its critical tilt."""
-    distance, normal = _weakest(stance.corners)
+    distance, normal = weakest(stance.corners)
     across, up = top_arm[:2] @ normal - distance, top_arm[2] + stance.depth
     return float(across * (np.cos(stance.critical) - 1) + up * np.sin(stance.critical))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from typing import NoReturn
 
 from fecolumn.case import Case
 from fecolumn.mesh.base_plate import base_counts
@@ -126,17 +127,28 @@ def refuse_too_large(case: Case, file) -> None:
     dofs = {key: sum(found.dofs.get(part, 0) for part in parts) for key, parts in _KEYS.items() if not (case.column.mesh_file and UPPER in parts)}
     if case.column.mesh_file and found.dofs[UPPER] > max(dofs.values()):
         raise InputError(file, "column.mesh_file", case.column.mesh_file, f"{too_many}; take a coarser mesh, or a higher mesh.limit_dofs")
-    # the key whose bricks, made larger, take most away
-    key = min(dofs, key=lambda key: _with(case, key, _HUGE).all_dofs)
-    name = key.partition(".")[2]
-    low, high = getattr(case.mesh, name), _HUGE
-    if _with(case, key, high).all_dofs > limit:
-        raise InputError(file, key, low, f"{too_many}; make all sizes of [mesh] larger, or mesh.limit_dofs")
+    sizes = {key: (getattr(case.mesh, key.partition(".")[2]), _HUGE) for key in dofs}
+    refuse_sizes(file, sizes, lambda key, value: _with(case, key, value).all_dofs, limit, too_many, "all sizes of [mesh]")
+
+
+def refuse_sizes(file, sizes: dict[str, tuple[float, float]], dofs_with, limit: int, too_many: str, others: str) -> NoReturn:
+    """Refuse a mesh, naming the size that makes it too large and one that would fit.
+
+    Args:
+        sizes: by key the size that is taken and the largest that may be [m]. dofs_with: function of a key and its size that returns degrees of freedom.
+        too_many: how many there are, in words. others: what else is to be made larger where no size of one key fits.
+    """
+    # the key whose elements, made larger, take most away
+    key = min(sizes, key=lambda key: dofs_with(key, sizes[key][1]))
+    stated, high = sizes[key]
+    low = stated
+    if dofs_with(key, high) > limit:
+        raise InputError(file, key, stated, f"{too_many}; make {others} larger, or mesh.limit_dofs")
     for _ in range(60):
         middle = math.sqrt(low * high)
-        low, high = (low, middle) if _with(case, key, middle).all_dofs <= limit else (middle, high)
-    fits = math.ceil(high * 10 ** (2 - math.floor(math.log10(high)))) / 10 ** (2 - math.floor(math.log10(high)))
-    raise InputError(file, key, getattr(case.mesh, name), f"{too_many}; {fits:g} m would fit, or raise mesh.limit_dofs")
+        low, high = (low, middle) if dofs_with(key, middle) <= limit else (middle, high)
+    unit = 10 ** (2 - math.floor(math.log10(high)))
+    raise InputError(file, key, stated, f"{too_many}; {min(math.ceil(high * unit) / unit, sizes[key][1]):g} m would fit, or raise mesh.limit_dofs")
 
 
 def _with(case: Case, key: str, value: float) -> Estimate:

@@ -69,7 +69,7 @@ class ReducedAnalysis(Analysis):
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
-            self.standing_j = standing_energy(case, self.model, self.base) if case.initial.tilt_rad else self.engine.mechanical()
+            self.standing_j = standing_energy(case, self.model, self.base) if case.initial.tilt_rad else self.engine.potential()
             self.engine.motion.whole["ground"] = self.ground(0)
             self._note(self.engine.row()[None])
             self._keep()
@@ -145,7 +145,7 @@ class ReducedAnalysis(Analysis):
         grounds, steepest = np.array([self.ground(k) for k in steps]), np.array([self.steepest(k) for k in steps])
         failure, over = None, False
         try:
-            over = engine.advance(grounds, steepest, self.rest_j)[1]
+            over = engine.advance(grounds, steepest, (self.standing_j, self.rest_j))[1]
         except Exception as error:  # of the disk, of memory, of the steps
             failure = error
         self._note(engine.made)
@@ -178,11 +178,11 @@ class ReducedAnalysis(Analysis):
         self.write_history()
 
     def _arrays(self) -> dict[str, np.ndarray]:
-        """What a checkpoint keeps: with the stick operator and what is learnt of it, so that an analysis that was interrupted goes on to the last digit as if it had not been."""
+        """What a checkpoint keeps: with the points, the stick operator and what is learnt of it, so that an analysis that was interrupted goes on to the last digit as if it had not been."""
         engine = self.engine
         parts = {"motion": engine.motion, "stick": engine.work.stick, "secant": engine.work.secant}
         arrays = {f"{part}.{name}": values for part, target in parts.items() for name, values in arrays_of(target).items()}
-        return arrays | dict(ledger=engine.ledger, counts=engine.counts)
+        return arrays | dict(points=engine.work.points, ledger=engine.ledger, counts=engine.counts)
 
     def _take(self, saved: dict) -> None:
         targets = self._arrays()

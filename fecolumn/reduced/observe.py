@@ -11,7 +11,7 @@ from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.record import record
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.dynamics.overturning import CAPPED, NO_RETURN, STANDS, Stance, fallen, stance
+from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, Stance, fallen, stance
 from fecolumn.reduced.ledger import kinetic, strain, weight_energy
 from fecolumn.reduced.elastic import COORDINATE
 from fecolumn.contact.pose import find_poses
@@ -136,10 +136,12 @@ def _observe_all(structure, points, poses, eye, motion, row):
 
 @njit
 def lost(eye, motion, row, steepest):
-    """As `overturning.fallen`, of a motion and its row."""
+    """As `overturning.fallen`, of a motion and its row; FELL where one of many bodies has fallen past the ground, z = 0."""
     top = np.hypot(row[1], row[2])
     if len(eye.limits):
         for b in range(len(eye.limits)):
+            if motion.frames[b].center[2] < 0.0:
+                return FELL
             if row[WIDTH + 4 * b + 3] > eye.limits[b]:
                 return NO_RETURN
         return CAPPED if top >= eye.stance.cap else STANDS

@@ -46,15 +46,15 @@ from fecolumn.reduced.step import lay_points, step
 
 # step lengths from a whole step to its smallest part
 LENGTHS = PARTS.bit_length()
-# of the halves of a step, whose end alone counts: nothing is past returning
-_NO_END = np.array([np.inf])
+# of the halves of a step, whose end alone counts: nothing is past returning, nothing at rest
+_NO_END, _NO_REST = np.array([np.inf]), (0.0, -np.inf)
 _STOPS = {CONTACT_FAILED: Stop.CONTACT, IMPACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.ITERATIONS, OFF_BASE: Stop.OFF_BASE, OFF_PATCH: Stop.OFF_PATCH}
 
 
 @njit
 def ended(eye, motion, row, steepest, rest):
-    """Whether the column is lost or at rest after a step."""
-    return lost(eye, motion, row, steepest) != STANDS or row[ENERGY] + row[ENERGY + 1] + row[ENERGY + 2] <= rest
+    """Whether the column is lost or at rest after a step; rest: as of `Engine.advance`."""
+    return lost(eye, motion, row, steepest) != STANDS or max(row[ENERGY], row[ENERGY] + row[ENERGY + 1] + row[ENERGY + 2] - rest[0]) <= rest[1]
 
 
 @njit
@@ -102,7 +102,7 @@ def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, s
     """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, eye.width) are filled.
 
     schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are still to be made, for which ROLLS_FAST asks. kept: room for
-    a Motion. steepest: (k,) as of `overturning.fallen` after each step. rest: mechanical energy [J] at which the column is at rest; -inf not to ask.
+    a Motion. steepest: (k,) as of `overturning.fallen` after each step. rest: as of `Engine.advance`.
 
     Without any step to make: the row of `motion` where there is one to fill, else one proximal step of the first scheme towards gravity equilibrium, from
     `motion` to `spare`; see `start.standing`. They are here because each function that Python calls is compiled with all it calls.
@@ -255,7 +255,7 @@ class Engine:
         """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way to end."""
         return advance(*self._arguments((scheme,) * LENGTHS, motion, end))[1]
 
-    def _arguments(self, schemes, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=-np.inf, rows=None) -> tuple:
+    def _arguments(self, schemes, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=_NO_REST, rows=None) -> tuple:
         rows = np.empty((0, self.eye.width)) if rows is None else rows
         return (self.structure, self.surface, schemes, self.work, self.eye, motion, spare, self.kept, grounds, steepest, rest, rows, self.ledger, self.counts)
 
@@ -274,17 +274,22 @@ class Engine:
         """Kinetic, strain and gravity energy now [J]."""
         return float(self.row()[ENERGY:ENERGY + 3].sum())
 
+    def potential(self) -> float:
+        """Strain and gravity energy now [J]."""
+        return float(self.row()[ENERGY + 1:ENERGY + 3].sum())
+
     def fallen(self, steepest: float) -> int:
         """As `overturning.fallen`, now; steepest: tangent of the steepest inclination of apparent gravity to come."""
         return interpreted(lost)(self.eye, self.motion, self.row(), steepest)
 
-    def advance(self, grounds: np.ndarray, steepest: np.ndarray | None = None, rest: float = -np.inf) -> tuple[np.ndarray, bool]:
+    def advance(self, grounds: np.ndarray, steepest: np.ndarray | None = None, rest: tuple[float, float] = _NO_REST) -> tuple[np.ndarray, bool]:
         """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k', eye.width) and whether the column is lost or at rest.
 
         Args:
             grounds: (k, 3).
             steepest: (k,) as of `overturning.steepest_to_come`; of these grounds alone unless given.
-            rest: mechanical energy at which the column is at rest, and the steps end [J].
+            rest: mechanical energy in gravity equilibrium, and what may be left above it of a column at rest, which ends the steps [J]; never more than
+                that is kinetic, for what has come to stand lower has less potential energy. -inf not to ask.
 
         Raises:
             StepFailed: no convergence after max_cuts halvings, or the column left the base; the motion is that before the step, the
@@ -309,7 +314,8 @@ class Engine:
                 rows[done] = self.row()
                 done += 1
                 self.made = rows[:done]
-                if self.fallen(steepest[done - 1]) != STANDS or rows[done - 1, ENERGY:ENERGY + 3].sum() <= rest:
+                kinetic, strain, gravity = rows[done - 1, ENERGY:ENERGY + 3]
+                if self.fallen(steepest[done - 1]) != STANDS or max(kinetic, kinetic + strain + gravity - rest[0]) <= rest[1]:
                     return rows[:done], True
         return rows, False
 
@@ -328,7 +334,7 @@ class Engine:
         motions.copy(self.motion, saved)
 
         def take(_, target, hht):
-            while (answer := self._steps(hht, target[None], row, _NO_END, -np.inf)[1]) == FAR_BASE:
+            while (answer := self._steps(hht, target[None], row, _NO_END, _NO_REST)[1]) == FAR_BASE:
                 self.extend_base(self.spare)
             if answer not in (OK, ENDED):
                 raise StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))

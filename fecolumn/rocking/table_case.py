@@ -19,7 +19,7 @@ from fecolumn.rocking.model import TABLES, Model, engine_of, model_class
 from fecolumn.schema import InputError, Section, build, merge, nested, parameter, stated
 
 #: Tables of a structure of [bodies] that a model of the same file passes over
-OF_BODIES = ("bodies", "materials", "interfaces", "links", "contact", "observed")
+OF_BODIES = ("bodies", "materials", "interfaces", "links", "contact", "observed", "mesh")
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,9 @@ import numpy as np
 
 from fecolumn._compiled import compiled
 from fecolumn.analysis import Analysis
+from fecolumn.dynamics.gravity import NoEquilibrium
+from fecolumn.dynamics.overturning import FELL
+from fecolumn.ending import SLID_OFF, Ending
 from fecolumn.reduced.analysis import ReducedAnalysis
 from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_MARK
 from fecolumn.reduced.run import advance
@@ -47,13 +50,25 @@ class OfStructure:
         return self._barrier_j
 
     def limits(self) -> dict:
-        """Of the summary: the least tilt of a body at which it would overturn by itself; of a structure no displacement is known beyond which it falls."""
-        return dict(critical_tilt_rad=min(foot.critical for foot in stances(self.structure, standing_of(self.case, self.structure)).values()), u_critical_m=None)
+        """Of the summary: the least tilt of a body at which it would overturn by itself, None where none stands so; of a structure no displacement is known beyond which it falls."""
+        tilts = [foot.critical for foot in stances(self.structure, standing_of(self.case, self.structure)).values()]
+        return dict(critical_tilt_rad=min(tilts, default=None), u_critical_m=None)
 
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
         tilts = {part.name: float(last[f"body/{part.name}/tilt"]) for part in self.structure.parts}
         name = max(tilts, key=tilts.get)
         return f'"{name}" has tilted by {tilts[name]:.3g} rad, limit {LOST:.3g} rad'
+
+    def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
+        if fallen != FELL:
+            return super().ending(fallen, rotation)
+        return Ending(SLID_OFF, f'"{self._lowest()}" has fallen past the ground, z = 0, at {self.history.last()["time"]:.3f} s')
+
+    def _lowest(self) -> str:
+        """Name of the body whose centre of mass is lowest now."""
+        last = self.history.last()
+        heights = {part.name: part.center[2] + float(last[f"body/{part.name}/displacement"][2]) for part in standing_of(self.case, self.structure)}
+        return min(heights, key=heights.get)
 
     def finish(self, ending, dofs: int, record, factorizations: int) -> dict:
         from fecolumn.atomic import write_json
@@ -61,6 +76,9 @@ class OfStructure:
 
         summary = super().finish(ending, dofs, record, factorizations)
         summary |= peaks(self.history.arrays(), self.structure)
+        if summary["slid_off"]:
+            way = self.history.last()[f"body/{self._lowest()}/displacement"]
+            summary["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
         if self.comm.rank == 0:
             write_json(self.folder / NAME, summary)
         return summary
@@ -83,10 +101,17 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
-            self.standing_j = engine_of(case, upright(case, self.structure), file).mechanical() if leans(self.structure) else self.engine.mechanical()
+            self.standing_j = self._standing_energy(file) if leans(self.structure) else self.engine.potential()
             self.engine.motion.whole["ground"] = self.ground(0)
             self._note(self.engine.row()[None])
             self._keep()
+
+    def _standing_energy(self, file) -> float:
+        """As `reduced.analysis.standing_energy`."""
+        try:
+            return engine_of(self.case, upright(self.case, self.structure), file).mechanical()
+        except NoEquilibrium:
+            return 0.0
 
     def _bodies(self) -> tuple:
         return [part.model for part in self.structure.parts], [part.name for part in self.structure.parts]

@@ -8,59 +8,93 @@ from dataclasses import replace
 import numpy as np
 
 from fecolumn.case import GRAVITY, Initial
+from fecolumn.dynamics import overturning
 from fecolumn.dynamics.overturning import Stance, stance
 from fecolumn.schema import InputError
 from fecolumn.structures.feet import edge_points
-from fecolumn.structures.model import StructureModel
-from fecolumn.structures.place import Standing, placed, touching
+from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.place import Standing, placed, supports_of, touching
 
 # Directions [deg] in which a body is leaned; the least energy is in that of its weakest edge
 _DIRECTIONS = (0.0, 90.0, 180.0, 270.0)
+# Over the width of what is under several bodies: supports at other heights are no common foot
+_LEVEL = 1e-3
 
 
 def stances(structure: StructureModel, standing: list[Standing]) -> dict[int, Stance]:
-    """Stance, each by itself, of the parts that stand on a face below them; standing: the parts upright."""
+    """Stance, each by itself, of the parts that can stand on what is below them; standing: the parts upright.
+
+    A part stands over all that it touches below: an architrave over the heads of its columns.
+    """
     found = {}
-    for joint in structure.joints:
-        model = standing[joint.slave].model
-        if model.surfaces[joint.slave_surface].normal[2] < -math.sqrt(0.5):
-            found[joint.slave] = stance(_footing(structure, standing, joint), model.inertia, model.mass * GRAVITY, joint.friction, 0.0)
+    for place, below in enumerate(supports_of(standing, list(structure.joints))):
+        if joints := [joint for _, between in below for joint in between if _is_level(standing, joint)]:
+            model = standing[place].model
+            one = _stance_of([place], joints, standing, model.inertia, min(joint.friction for joint in joints))
+            if one is not None and one.critical > 0:
+                found[place] = one
     return found
 
 
-def _footing(structure: StructureModel, standing: list[Standing], joint) -> np.ndarray:
-    """Points (n, 3) [m] from the slave's centre of mass over which it tips: of its foot, of the edge of a dome, or of what is narrower than the foot that stands on it."""
+def _is_level(standing: list[Standing], joint) -> bool:
+    """Whether a body stands on the faces of a joint, rather than beside them."""
+    return abs(standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]) > math.sqrt(0.5)
+
+
+def _stance_of(places: list[int], joints: list, standing: list[Standing], inertia: np.ndarray, friction: float) -> Stance | None:
+    """Stance of parts that move as one rigid body on `joints`; None where what is below them is not level, or no area."""
+    masses = np.array([standing[place].model.mass for place in places])
+    center = masses @ np.array([standing[place].center for place in places]) / masses.sum()
+    arms = np.concatenate([_footing(standing, joint) for joint in joints]) - center
+    width = np.ptp(arms[:, :2], axis=0)
+    if np.linalg.matrix_rank(arms[:, :2] - arms[0, :2], 1e-9 * width.max()) < 2 or np.ptp(arms[:, 2]) > _LEVEL * width.max():
+        return None
+    return stance(arms, inertia, masses.sum() * GRAVITY, friction, 0.0)
+
+
+def _footing(standing: list[Standing], joint) -> np.ndarray:
+    """Points (n, 3) [m] where the bodies of a joint touch, over which the upper one tips; of a dome on its edge."""
     slave = standing[joint.slave]
-    surface = slave.model.surfaces[joint.slave_surface]
-    arms = slave.model.arms[surface.nodes]
+    arms = slave.model.arms[slave.model.surfaces[joint.slave_surface].nodes]
     if joint.ball and joint.ball.is_dome:
-        return arms[0] + edge_points(joint.ball)
-    below = [other for other in structure.joints if (other.slave, other.master) == (joint.master, joint.slave)]
-    if not below:
-        return arms
-    own = [slave.center + arms[touching(standing, joint)]]
-    for other in below:
-        part = standing[other.slave]
-        own.append(part.center + part.model.arms[part.model.surfaces[other.slave_surface].nodes[touching(standing, other)]])
-    return np.concatenate(own) - slave.center
+        return slave.center + arms[0] + edge_points(joint.ball)
+    return slave.center + arms[touching(standing, joint)]
 
 
 def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
-    """Least energy [J] that leans a part by its own critical tilt, with all that then stands on it, over what it has upright.
+    """Least energy [J] that overturns any part of a structure slowly, over what it has upright; 0 where no part stands by itself.
 
-    Where a part cannot lean alone, as a column of a frame, all of its model lean.
+    Of each part the least of three ways: it leans by its own critical tilt, and all that stands on it is carried along upright; it leans as one rigid body
+    with all that stands on it; or all parts of its model lean, as the columns of a frame.
     """
-    lifts, upright = [], [replace(part, start=None) for part in standing]
-    for place, foot in stances(structure, standing).items():
+    joints, alone, lifts = list(structure.joints), stances(structure, standing), []
+    upright = [replace(part, start=None) for part in standing]
+    for place, foot in alone.items():
         alike = [k for k, part in enumerate(standing) if part.model is standing[place].model]
-        for direction in _DIRECTIONS:
-            start = Initial(tilt_rad=min(max(foot.critical, 0.0), 1.5), direction_deg=direction)
+        weakest = math.degrees(math.atan2(*overturning.weakest(foot.corners)[1][::-1]))
+        for direction in (*_DIRECTIONS, weakest):
+            start = Initial(tilt_rad=min(foot.critical, 1.5), direction_deg=direction)
             for leaning in ([place], alike):
                 trial = [replace(part, start=start) if k in leaning else part for k, part in enumerate(upright)]
                 try:
-                    there = placed(trial, list(structure.joints), "")
+                    there = placed(trial, joints, "")
                 except InputError:
                     continue
                 lifts.append(sum(part.model.mass * GRAVITY * (now.center[2] - part.center[2]) for part, now in zip(upright, there)))
                 break
-    return max(0.0, float(min(lifts, default=0.0)))
+    lifts += [overturning.barrier(one) for one in _together(standing, joints)]
+    return float(min((lift for lift in lifts if lift > 0), default=0.0))
+
+
+def _together(standing: list[Standing], joints: list) -> list[Stance]:
+    """Stances of each part as one rigid body with all that stands on it, wherever these can stand together."""
+    supports, found = supports_of(standing, joints), []
+    for place in range(len(standing)):
+        moved, before = {place}, 0
+        while len(moved) > before:
+            before = len(moved)
+            moved |= {upper for upper, below in enumerate(supports) if any(one in moved for one, _ in below)}
+        under = [joint for upper in moved for below, between in supports[upper] if below == GROUND or below not in moved for joint in between if _is_level(standing, joint)]
+        if under and (one := _stance_of(sorted(moved), under, standing, np.eye(3), 0.0)):
+            found.append(one)
+    return found

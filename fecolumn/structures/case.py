@@ -18,13 +18,16 @@ from fecolumn.case import (FULL_ORDER_KEYS, DEFAULT, MOST_STEPS, Contact, Initia
                            section_table)
 from fecolumn.content import content
 from fecolumn.files import is_file
+from fecolumn.paths import OF_BODIES as FILES
 from fecolumn.schema import InputError, build, meant, merge, nested, stated
-from fecolumn.structures.keys import FILES, GROUND, KINDS, Interface, LinkKeys, Placed, Storeys
+from fecolumn.structures.keys import GROUND, KINDS, Interface, LinkKeys, Mesh, Placed, Storeys
 
 #: Tables of tables by name, and the class of each.
 NAMED = {"bodies": Placed, "materials": Material, "interfaces": Interface, "links": LinkKeys, "initial": Initial}
 #: Sections that a structure's case has in common with a column's.
-COMMON = {"contact": Contact, "integration": Integration, "motion": Motion, "overturn": Overturn, "output": Output}
+COMMON = {"contact": Contact, "integration": Integration, "motion": Motion, "overturn": Overturn, "output": Output, "mesh": Mesh}
+# of which no number depends
+_IDLE = ("output", "mesh")
 #: What holds where a structure's case says nothing else: a step takes all modes of all bodies.
 DEFAULTS = {"integration": {"engine": "reduced", "n_modes": 30}}
 # Characters of a name that stand for something else in dotted keys, and in names of copies and marks
@@ -47,12 +50,13 @@ class StructureCase:
     title: str = ""
     observed: str = ""
     motion: Motion | None = None
+    mesh: Mesh = Mesh()
 
     @property
     def id(self) -> str:
         """Twelve hexadecimal digits that name everything but title and output cadence; motions and meshes count by content."""
         tables = {name: {key: identity(section) for key, section in getattr(self, name).items()} for name in NAMED}
-        tables |= {name: section_table(name, getattr(self, name)) for name in COMMON if name != "output"}
+        tables |= {name: section_table(name, getattr(self, name)) for name in COMMON if name not in _IDLE}
         text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
 
@@ -218,6 +222,8 @@ def check(case: StructureCase, file) -> None:
         check_link(f"links.{name}", link, refuse)
         if link.to != GROUND and len(case.meant_by(link.to)[1]) > 1:
             refuse(f"links.{name}.to", link.to, f'must be one of its copies, such as "{case.names_of(link.to)[0]}"')
+        if link.to != GROUND and (own := case.meant_by(link.body))[0] == (other := case.meant_by(link.to))[0] and other[1][0] in own[1]:
+            refuse(f"links.{name}.to", link.to, f'must be another body than links.{name}.body = "{link.body}": a link from a body to itself does nothing')
     for name, start in case.initial.items():
         _check_name(case, f"initial.{name}", name, refuse, ground=False)
         for key in ("velocity_m_s", "spin_rad_s"):

@@ -35,6 +35,18 @@ def check_points(name: str, patches, file) -> None:
                          "make its elements larger, or contact.interior_points or allowance_m of the interface smaller")
 
 
+def check_meetings(case, meetings, file) -> None:
+    """Refuse a joint that is stated twice, in one direction or in each: its points would be there twice, and each carry half the force."""
+    stated = {}
+    for meeting in meetings:
+        faces = frozenset({(meeting.slave, meeting.slave_face), (meeting.master, meeting.master_face)})
+        first = stated.setdefault(faces, meeting.interface)
+        if first != meeting.interface:
+            names = ["the ground" if copy is None else f'"{case.names_of(copy[0])[copy[1]]}"' for copy in (meeting.slave, meeting.master)]
+            raise InputError(file, f"interfaces.{meeting.interface}", None, f"states the joint of interfaces.{first} again: the same faces of {' and '.join(names)}; "
+                             "leave one of the two out")
+
+
 def check_layout(case, layout, file) -> None:
     """Refuse copies without a path to the ground, and those that overlap."""
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]

@@ -138,10 +138,15 @@ class Matrices(Placed):
     nodes_file: str = parameter(doc=".npz with the arrays dofs (n, 3), rows of the matrices for x, y, z of each contact node counted from 0, and coordinates (n, 3) [m], if wanted triangles (t, 3) of its faces; or text with these six numbers a line")
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mesh(Section):
+    """How large the meshes of a structure may be; sizes of elements are those of its bodies."""
+
+    limit_dofs: int = parameter(500_000, doc="degrees of freedom of all different bodies together above which their meshes are refused before they are built; with engine = \"full\" of all copies", low=100, high=10**9, counts=False, since="0.7")
+
+
 #: Class of the keys by kind of body.
 KINDS = {"tube": Tube, "cylinder": Cylinder, "block": Block, "plate": Plate, "slab": Plate, "mesh": Meshed, "storeys": Storeys, "matrices": Matrices}
-#: Keys that name files, by kind.
-FILES = {"mesh": ("mesh_file",), "matrices": ("mass_file", "stiffness_file", "nodes_file")}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,12 +9,14 @@ import numpy as np
 
 from fecolumn.schema import InputError
 from fecolumn.structures.bodies import Drawing, drawing
+from fecolumn.structures.check import check_meetings
 from fecolumn.structures.edges import Edge, edge_patch, edges_of
 from fecolumn.structures.faces import Face
 from fecolumn.structures.feet import ball_of, lifted
 from fecolumn.structures.keys import Plate, Storeys
 from fecolumn.structures.meetings import Meeting, meetings_of, place_of, zones_of
 from fecolumn.structures.patches import Patch, master_patch, slave_patch
+from fecolumn.structures.size import refuse_too_large
 
 
 @dataclass(frozen=True)
@@ -48,12 +50,15 @@ def layout_of(case, file) -> Layout:
     Raises:
         InputError: bodies that do not touch as the interfaces say, or cannot be meshed.
     """
+    refuse_too_large(case, file)
     drawings = {name: drawing(case, name, file) for name in case.bodies}
     meetings = meetings_of(case, {name: one.faces for name, one in drawings.items()}, file)
     spots = _spots(case, drawings, meetings)
     if spots:
+        refuse_too_large(case, file, spots)
         drawings |= {name: drawing(case, name, file, places) for name, places in spots.items()}
         meetings = meetings_of(case, {name: one.faces for name, one in drawings.items()}, file)
+    check_meetings(case, meetings, file)
     for meeting in meetings:
         if meeting.master and ball_of(case.bodies[meeting.master[0]]) and _surface_name(drawings[meeting.master[0]].faces, meeting.master_face, "slave") == "foot":
             raise InputError(file, f"interfaces.{meeting.interface}.on", case.interfaces[meeting.interface].on, f'must be the slave: the foot of "{meeting.master[0]}" is not flat')

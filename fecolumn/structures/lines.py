@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.mesh.base_plate import growing_steps
+from fecolumn.mesh.base_plate import growing_count, growing_steps
 from fecolumn.mesh.column import divisions
 
 
@@ -15,6 +15,11 @@ def fine_at_ends(length: float, fine: float, coarse: float) -> np.ndarray:
     half = np.concatenate([[fine], growing_steps(length / 2 - fine, fine, coarse)])
     line = np.concatenate([[0.0], np.cumsum(np.concatenate([half, half[::-1]]))])
     return line * (length / line[-1])
+
+
+def count_at_ends(length: float, fine: float, coarse: float) -> int:
+    """Steps of `fine_at_ends`, told without making them."""
+    return max(2, divisions(length, fine)) if length <= 3 * fine else 2 + 2 * growing_count(length / 2 - fine, fine, coarse)
 
 
 def fine_at_spots(length: float, spots, coarse: float) -> np.ndarray:
@@ -34,6 +39,18 @@ def fine_at_spots(length: float, spots, coarse: float) -> np.ndarray:
         line += list(line[-1] + np.cumsum(steps) * ((length / 2 - line[-1]) / steps.sum()))
     line[-1] = length / 2
     return np.array(line)
+
+
+def count_at_spots(length: float, spots, coarse: float) -> int:
+    """Steps of `fine_at_spots`, told without making them."""
+    count, end = 0, -length / 2
+    for low, high, fine in _joined(spots, length):
+        if low > end:
+            count += 2 * growing_count((low - end) / 2, fine, coarse) if count else growing_count(low - end, fine, coarse)
+        count, end, last = count + divisions(high - low, fine), high, fine
+    if end < length / 2:
+        count += growing_count(length / 2 - end, last, coarse) if count else divisions(length, coarse)
+    return count
 
 
 def _between(low: float, high: float, fine: float, coarse: float, from_spot: bool) -> np.ndarray:

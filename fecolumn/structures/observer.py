@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, poses_of
-from fecolumn.dynamics.overturning import CAPPED, NO_RETURN, STANDS, never_alone
+from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, never_alone
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.reduced.structure import LOST
 
@@ -57,7 +57,9 @@ class StructureObserver:
         return one.shares @ one.body.gather(one.top, x[self.system.column.rows[b]]) - (part.center + part.model.marks["top"][0])
 
     def fallen(self, state, measures: dict, steepest: float) -> int:
-        """As `overturning.fallen`: lost where any body has tilted by LOST."""
+        """As `reduced.observe.lost`: lost where any body has fallen past the ground, or tilted by LOST."""
+        if any(center[2] + measures[f"body/{part.name}/displacement"][2] < 0 for center, part in zip(self._centers, self.structure.parts)):
+            return FELL
         if any(measures[f"body/{part.name}/tilt"] > LOST for part in self.structure.parts):
             return NO_RETURN
         return CAPPED if np.hypot(*measures["u_top"][:2]) >= self.stance.cap else STANDS

@@ -15,7 +15,7 @@ from fecolumn.mesh.section import Annulus, Disc
 from fecolumn.mesh.tie import Tie, adjust, tie
 from fecolumn.schema import InputError
 from fecolumn.structures.keys import Block, Meshed, Plate, Storeys, Tube
-from fecolumn.structures.lines import fine_at_ends, fine_at_spots
+from fecolumn.structures.lines import count_at_ends, count_at_spots, fine_at_ends, fine_at_spots
 
 # Elements around a round body, and along the geometric mean of a block's sides
 AROUND, ALONG = 24, 8
@@ -65,6 +65,33 @@ def element_size(body) -> float:
     return math.pi * (body.outer_diameter_m - (body.wall_m if isinstance(body, Tube) else 0.0)) / AROUND
 
 
+def counts_of(key: str, body, file, spots=()) -> tuple[int, int]:
+    """Elements and nodes of the mesh that `shape_of` makes, told without making it; arguments as there."""
+    if isinstance(body, Meshed):
+        shape = _own(key, body, file)
+        return len(shape.mesh.cells), own_mesh(body.mesh_file).counts(shape.order)[0]
+    if isinstance(body, (Plate, Storeys)):
+        coarse, lines = _plate_lines(body, spots)
+        grids = [tuple(count_at_spots(length, line, coarse) for length, line in zip((body.length_m, body.width_m), lines)) + (divisions(body.thickness_m, coarse),)]
+        return _counts(grids, (), _plate_order(body))
+    size = element_size(body)
+    if isinstance(body, Block):
+        return _counts([(divisions(body.length_m, size), divisions(body.width_m, size), count_at_ends(body.height_m, size, _coarse_size(body, size)))], (),
+                       body.element_order or 1)
+    planes, layers = _planes(body, size), [count_at_ends(body.height_m, size, _coarse_size(body, size))]
+    if body.flange:
+        layers.append(_flange_layers(body, size))
+    cap = body.cap
+    return _counts([[divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m)]] if cap else [], zip(planes, layers), body.element_order or 1)
+
+
+def _counts(grids, swept, order: int) -> tuple[int, int]:
+    """Elements and nodes of grids (elements along x, y, z) and of sections swept in layers."""
+    swept = list(swept)
+    return (sum(math.prod(grid) for grid in grids) + sum(plane.n_cells * layers for plane, layers in swept),
+            sum(math.prod(order * n + 1 for n in grid) for grid in grids) + sum(plane.n_nodes(order) * (order * layers + 1) for plane, layers in swept))
+
+
 def _own(key: str, body: Meshed, file) -> Shape:
     try:
         own = own_mesh(body.mesh_file)
@@ -77,37 +104,59 @@ def _own(key: str, body: Meshed, file) -> Shape:
 
 def _plate(body: Plate | Storeys, spots) -> Shape:
     """Tensor grid, fine where other bodies meet it, one layer of second order through the thickness unless it is thick."""
-    coarse = getattr(body, "coarse_size_m", None) or max(element_size(body), max(body.length_m, body.width_m) / ACROSS)
-    own = body.element_size_m
-    x, y = (fine_at_spots(length, [(spot[2 * axis], spot[2 * axis + 1], own or spot[4]) for spot in spots], coarse)
-            for axis, length in enumerate((body.length_m, body.width_m)))
+    coarse, lines = _plate_lines(body, spots)
+    x, y = (fine_at_spots(length, line, coarse) for length, line in zip((body.length_m, body.width_m), lines))
     z = np.linspace(0.0, body.thickness_m, divisions(body.thickness_m, coarse) + 1)
-    rigid = isinstance(body, Storeys) or body.rigid
-    return Shape(swept_grid(x, y, z, UPPER), (), 1 if rigid else body.element_order or 2, min([own or spot[4] for spot in spots], default=coarse))
+    return Shape(swept_grid(x, y, z, UPPER), (), _plate_order(body), min([size for _, _, size in lines[0]], default=coarse))
+
+
+def _plate_lines(body: Plate | Storeys, spots) -> tuple[float, list]:
+    """Coarse element size [m] of a plate, and its spots along x and y as `lines.fine_at_spots` takes them."""
+    coarse = getattr(body, "coarse_size_m", None) or max(element_size(body), max(body.length_m, body.width_m) / ACROSS)
+    return coarse, [[(spot[2 * axis], spot[2 * axis + 1], body.element_size_m or spot[4]) for spot in spots] for axis in range(2)]
+
+
+def _plate_order(body: Plate | Storeys) -> int:
+    return 1 if isinstance(body, Storeys) or body.rigid else body.element_order or 2
 
 
 def _block(body: Block) -> Shape:
     size = element_size(body)
     x, y = (np.linspace(-side / 2, side / 2, divisions(side, size) + 1) for side in (body.length_m, body.width_m))
-    z = fine_at_ends(body.height_m, size, body.coarse_size_m or max(size, _LONG * min(body.length_m, body.width_m)))
+    z = fine_at_ends(body.height_m, size, _coarse_size(body, size))
     return Shape(swept_grid(x, y, z, UPPER), (), body.element_order or 1, size)
+
+
+def _coarse_size(body, size: float) -> float:
+    """Largest element size [m] away from the ends of a block, tube or cylinder."""
+    return body.coarse_size_m or max(size, _LONG * (min(body.length_m, body.width_m) if isinstance(body, Block) else body.outer_diameter_m))
+
+
+def _planes(body, size: float) -> list[Annulus | Disc]:
+    """Sections of a round body, and of its flange if it has one."""
+    radius, wall = body.outer_diameter_m / 2, getattr(body, "wall_m", None)
+    n_around = 4 * max(3, round(2 * math.pi * (radius - (wall or 0.0) / 2) / (4 * size)))
+    planes = [Annulus(radius - wall, radius, n_around, divisions(wall, size)) if wall else Disc(radius, n_around, divisions(radius / 2, size))]
+    if body.flange:
+        outer, inner = body.flange.outer_diameter_m / 2, body.flange.inner_diameter_m / 2
+        n_flange = 4 * max(3, round(2 * math.pi * outer / (4 * size)))
+        planes.append(Annulus(inner, outer, n_flange, divisions(outer - inner, size)) if inner else Disc(outer, n_flange, divisions(outer / 2, size)))
+    return planes
+
+
+def _flange_layers(body, size: float) -> int:
+    return max(2, divisions(body.flange.thickness_m, size))
 
 
 def _round(key: str, body, file) -> Shape:
     """Tube or cylinder, on its flange and below its cap if it has them, tied; element sizes are those of the body's ends."""
     size = element_size(body)
-    radius, wall = body.outer_diameter_m / 2, getattr(body, "wall_m", None)
-    n_around = 4 * max(3, round(2 * math.pi * (radius - (wall or 0.0) / 2) / (4 * size)))
-    plane = Annulus(radius - wall, radius, n_around, divisions(wall, size)) if wall else Disc(radius, n_around, divisions(radius / 2, size))
-    levels = fine_at_ends(body.height_m, size, body.coarse_size_m or max(size, 2 * _LONG * radius))
+    planes = _planes(body, size)
+    levels = fine_at_ends(body.height_m, size, _coarse_size(body, size))
     seat = body.flange.thickness_m if body.flange else 0.0
-    parts, planes, joints = [_swept(plane, seat + levels, UPPER, (not body.flange, not body.cap))], [plane], []
+    parts, joints = [_swept(planes[0], seat + levels, UPPER, (not body.flange, not body.cap))], []
     if body.flange:
-        outer, inner = body.flange.outer_diameter_m / 2, body.flange.inner_diameter_m / 2
-        n_flange = 4 * max(3, round(2 * math.pi * outer / (4 * size)))
-        ring = Annulus(inner, outer, n_flange, divisions(outer - inner, size)) if inner else Disc(outer, n_flange, divisions(outer / 2, size))
-        parts.insert(0, _swept(ring, np.linspace(0.0, seat, max(2, divisions(seat, size)) + 1), FLANGE, (True, False)))
-        planes.append(ring)
+        parts.insert(0, _swept(planes[1], np.linspace(0.0, seat, _flange_layers(body, size) + 1), FLANGE, (True, False)))
         joints.append((FLANGE, seat, f"{key}.flange, {key}.element_size_m"))
     if body.cap:
         top = seat + body.height_m

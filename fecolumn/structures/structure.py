@@ -21,6 +21,7 @@ from fecolumn.structures.keys import GROUND, Matrices, Storeys
 from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
 from fecolumn.structures.place import Standing, loads, placed
+from fecolumn.structures.size import size_of
 from fecolumn.structures.store import KEPT_MODES, keep_body, keep_layout, kept_body, kept_layout, key_of
 
 # Keys of a body that no operator has
@@ -51,6 +52,7 @@ def _layout(case, file, say) -> dict:
     key = key_of(_geometry(case))
     found = kept_layout(key)
     if found is None:
+        say(f"meshing {len(case.bodies)} different bodies, at least {size_of(case, file)}")
         found = keep_models(case, layout_of(case, file), file, say)
         keep_layout(key, found)
     return found

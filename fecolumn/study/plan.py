@@ -20,12 +20,12 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.case import FILES, SECTIONS, Case, case_from_tables, check_duration, digest, finished, located, section_text
+from fecolumn.case import SECTIONS, Case, case_from_tables, check_duration, digest, finished, located, section_text
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
+from fecolumn.paths import taken_over
 from fecolumn.rocking.model import TABLES
 from fecolumn.schema import InputError, build, merge, nested, read_toml, shown
-from fecolumn.structures.keys import FILES as BODY_FILES
 from fecolumn.study.axes import Factor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
 
@@ -147,19 +147,7 @@ def _case_tables(case, path: Path) -> dict:
         raise InputError(path, "case" if own is None else "case.extends", case if own is None else parent,
                          "must be the path of a case file, relative to this file")
     own = {key: value for key, value in own.items() if key != "extends"}
-    return merge(_located(read_toml(path.parent / parent), path.parent / parent), own) if parent else own
-
-
-def _located(tables: dict, file: Path) -> dict:
-    """`tables` with the paths that `file` states made absolute, so that another file may take them over."""
-    for section, key in ((section, key) for section, keys in FILES.items() for key in keys):
-        value = tables[section].get(key) if isinstance(tables.get(section), dict) else None
-        if isinstance(value, str) and value and ":" not in value:
-            tables = merge(tables, {section: {key: str((file.resolve().parent / value))}})
-    for name, key in ((name, key) for name, body in tables.get("bodies", {}).items() if isinstance(body, dict) for key in BODY_FILES.get(body.get("kind"), ())):
-        if isinstance(value := tables["bodies"][name].get(key), str):
-            tables = merge(tables, {"bodies": {name: {key: str(file.resolve().parent / value)}}})
-    return tables
+    return merge(taken_over(read_toml(path.parent / parent), path.parent / parent), own) if parent else own
 
 
 class _Maker:

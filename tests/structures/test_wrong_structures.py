@@ -47,7 +47,14 @@ WRONG = [
     (stack(bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], modes=0, at_m=[0, 0, 0.8]))), "bodies.upper.modes", '"upper" their springs and no inertia'),
     (stack(bodies=dict(upper=STOREYS | dict(at_m=[0, 0, 0.8]))), "bodies.upper.floor_masses_kg", "floors = 3 numbers"),
     (stack(observed="lower.floor 1"), "observed", "no such mark"),
-    (stack(interfaces=dict(joint=dict(law="penalty"), foot=dict(slave="lower", on="upper"))), "interfaces", "no contact path"),
+    (stack(interfaces=dict(joint=False, foot=dict(slave="lower", on="upper"))), "interfaces", "no contact path"),
+    # one joint stated twice: in each direction, by another name, and of one copy beside all of them
+    (stack(interfaces=dict(again=dict(slave="lower", on="upper"))), "interfaces.again", 'the joint of interfaces.joint again: the same faces of "lower" and "upper"'),
+    (stack(interfaces=dict(again=dict(slave="upper", on="lower", friction_coefficient=0.1))), "interfaces.again", 'the joint of interfaces.joint again: the same faces of "upper" and "lower"'),
+    (stack(interfaces=dict(again=dict(slave="lower", on="ground"))), "interfaces.again", 'the joint of interfaces.foot again: the same faces of "lower" and the ground'),
+    (frame(interfaces=dict(again=dict(slave="column 2", on="slab"))), "interfaces.again", 'the joint of interfaces.heads again: the same faces of "column 2" and "slab"'),
+    (stack(links=dict(tie=LINK | dict(to="upper"))), "links.tie.to", "another body than links.tie.body"),
+    (frame(links=dict(tie=LINK | dict(body="column", to="column 2", point_m=[0, 0, 1.4], to_point_m=[0, 0, 0.4]))), "links.tie.to", "another body than links.tie.body"),
 ]
 
 
