@@ -185,7 +185,7 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
             roll_balls(structure, k, work, motion, spare)
     answer = equilibrate(structure, base, scheme, work, motion, fall, bent, still, motion.rims, spare, counts)
     if answer == OK:
-        spare.whole[0].static += end_links(structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt)[1]
+        spare.whole[0].static += end_links(structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt)[0]
     return answer
 
 
