@@ -92,7 +92,13 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
         return best, 0.0, 0, 0
     rho, blocks = stiffnesses(W, False), find_blocks(W)
     if near:
-        best, least, iterations = newton_steps(W, blocks, q, friction, start, tolerance, stiffnesses(W, True), rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        together, softest = stiffnesses(W, True), 1 / rho.min()
+        for give in (0.0, tolerances.NEAR_GIVE * softest):
+            if least > tolerance:
+                forces, residual, made = newton_steps(W, blocks, q, friction, start, tolerance, together, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+                iterations += made
+                if residual < least:
+                    best, least = forces, residual
     if least <= tolerance:
         return best, least, iterations, others
     # few of many points carry: those that do without friction, and those that sink where these do
@@ -261,7 +267,7 @@ def solve_contact(W, q, mu, start, tolerance: float = 1e-12, sweeps: int = toler
         start: (n, 3) [N] first guess.
         tolerance: residual at convergence [m].
 
-    Semismooth Newton, stick and slip judged by the stiffness of all points together. Where its active set cycles, the points that press without
+    Semismooth Newton, stick and slip judged by the stiffness of all points together, again with a little give where W proves singular. Where its active set cycles, the points that press without
     friction, and those that sink where these carry, are a smaller problem: Newton from there, an interior point and, should they fail, Gauss-Seidel
     sweeps and slower ways; at last the points are taken in one by one. The residual returned
     is the true one: the caller decides what to do with a solution that has not converged.

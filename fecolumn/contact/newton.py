@@ -8,11 +8,12 @@ from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
 from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate, solve_columns
 from fecolumn.contact.coulomb import slips_and_gaps, violation
+from fecolumn.contact.tolerances import SINGULAR
 
 
 @njit
 def newton_steps(W, blocks, q, friction, start, tolerance, rho, rho_alone, give, most, patience):
-    """Newton steps until the tolerance is met, or the residual has not fallen for more than `patience`: best forces, residual, steps made."""
+    """Newton steps until the tolerance is met, or the residual has not fallen for more than `patience`, or without `give` W proves singular: best forces, residual, steps made."""
     forces, least, stalled, made = start, np.inf, 0, 0
     best = start
     while True:
@@ -21,7 +22,7 @@ def newton_steps(W, blocks, q, friction, start, tolerance, rho, rho_alone, give,
         stalled += 1
         if residual < least:
             best, least, stalled = forces, residual, 0
-        if residual <= tolerance or stalled > patience or made == most:
+        if residual <= tolerance or stalled > patience or made == most or give == 0.0 and not residual <= SINGULAR * least:
             break
         forces, regular = newton_step(W, blocks, q, forces, relative, friction, rho, give)
         if not regular:

@@ -37,6 +37,9 @@ FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 8, 4, 60
 #: Compliance against a change of force in a Newton step from inside, over the softest point's own: forces that W leaves open stay, others converge by
 #: this over their own compliance in a step.
 GIVE = 1e-9
+#: The same from a good guess, where Newton without it fails; growth of the residual in a step at which it has: slips that depend on one another make W singular, as the
+#: three at a node of two bodies beside each other on the ground, and forces without any bound then leave them as they are.
+NEAR_GIVE, SINGULAR = 1e-7, 1e6
 #: The same of the proximal point, its Newton steps and those without a better residual: stiff bodies in many contacts, whose forces W hardly
 #: tells apart (1e-6), need some fifty.
 HELD_GIVE, HELD_STEPS, HELD_STALLED = 1e-4, 200, 60

@@ -6,17 +6,18 @@ import numpy as np
 
 #: State terms, then accumulated terms, in the order they are written.
 TERMS = ("kinetic", "strain", "gravity", "base_work", "friction", "impact", "contact", "algorithmic", "damping", "rolling",
-         "closure")
+         "links", "closure")
 
 
 class Ledger:
     """Energy in the table frame [J].
 
-    kinetic + strain + gravity = start + base_work + friction + impact + contact + algorithmic + damping + rolling + closure
+    kinetic + strain + gravity = start + base_work + friction + impact + contact + algorithmic + damping + rolling + links + closure
 
     base_work is the work of the base motion's inertia forces; friction, impact, contact, algorithmic (HHT), damping (of elastic
-    modes, and the dashpots of a pad) and rolling (resistance of the rim) are what these add, so a loss is negative. Each is computed from forces and displacements of the step, independent of the state's
-    energy; closure is what is left over, the error of solver and bookkeeping.
+    modes, and the dashpots of a pad), rolling (resistance of the rim) and links (their yielding, breaking and dashpots) are what these add, so a loss is
+    negative. Each is computed from forces and displacements of the step, independent of the state's energy; closure is what is left over, the error of solver
+    and bookkeeping.
     """
 
     def __init__(self, system):

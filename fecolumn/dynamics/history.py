@@ -11,8 +11,9 @@ from fecolumn.dynamics.energy import TERMS
 
 UNITS = {"time": "s", "u_top": "m", "tilt": "rad", "twist": "rad", "slide": "m", "contact_force": "N",
          "active_nodes": "-", "penetration": "m", "ground": "m/s2", "iterations": "-", "theta_x": "rad", "theta_y": "rad"}
-#: Of columns of a structure's bodies, interfaces, marks and storeys, by the last word of their names.
-UNITS_OF_PARTS = {"displacement": "m", "tilt": "rad", "rise": "m", "slide": "m", "force": "N", "drift": "m", "shear": "N"}
+#: Of columns of a structure's bodies, interfaces, marks, storeys and links, by the last word of their names.
+UNITS_OF_PARTS = {"displacement": "m", "tilt": "rad", "rise": "m", "slide": "m", "force": "N", "drift": "m", "shear": "N",
+                  "tension": "N", "elongation": "m", "yielded": "m", "work": "J", "broken": "-"}
 MEANING = {"u_top": "displacement of the top's centre relative to the base", "slide": "horizontal displacement of the foot's centre",
            "tilt": "angle of the column's axis to the vertical", "twist": "rotation about the vertical",
            "contact_force": "force of the base on the column", "active_nodes": "foot nodes in contact",

@@ -32,7 +32,9 @@ class Linkage:
     def stored(self, state) -> float:
         """Strain energy [J] of the links at rest in a State, whose ties become those of the links at rest."""
         before, frames = state.ties.copy(), frames_at(self._column.centers(state.x))
-        return end_links(self.links, frames, state.rotation, before, state.ties, np.inf)[1]
+        kept, _ = end_links(self.links, frames, state.rotation, before, state.ties, np.inf)
+        state.ties["work"] = 0.0  # what they lose on the way there is not of the motion
+        return kept
 
     def ties(self, centers: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """Ties (nl,) of TIE of links that have not been loaded, of bodies with centres of mass (nb, 3) [m] turned by (nb, 3, 3)."""

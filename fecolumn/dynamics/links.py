@@ -11,11 +11,12 @@ from fecolumn.contact.record import record
 
 #: A link from body a to body b, -1 for the ground: arm_a, arm_b: (3,) of its ends from the centres of mass in the bodies' frames, in the table frame on the
 #: ground [m]; length: unstressed [m]; play: way at either side of it without force [m]; stiffness [N/m]; damping [N s/m]; pulls, pushes: whether it can;
-#: yields: force at which it flows, breaks: at which it fails [N], infinite where it does not.
+#: yields: force at which it flows [N]; breaks: elongation beyond its play [m] at which it fails; infinite where it does not.
 LINK = record(("a", "i8"), ("b", "i8"), ("arm_a", "f8", 3), ("arm_b", "f8", 3), ("length", "f8"), ("play", "f8"), ("stiffness", "f8"), ("damping", "f8"),
               ("pulls", "?"), ("pushes", "?"), ("yields", "f8"), ("breaks", "f8"))
-#: What a link carries from step to step: its length now and the part of it that has flowed [m], force [N], pull > 0; whether it is broken.
-TIE = record(("length", "f8"), ("flowed", "f8"), ("force", "f8"), ("broken", "?"))
+#: What a link carries from step to step: its length now and the part of it that has flowed [m]; force [N], pull > 0, a dashpot's part of it the mean over the
+#: step; work: energy that its dashpot, yielding and breaking have taken [J]; whether it is broken.
+TIE = record(("length", "f8"), ("flowed", "f8"), ("force", "f8"), ("work", "f8"), ("broken", "?"))
 # Share of a change of the links' forces that the motion within a step may answer at once: beyond it the step is too long for the links
 STIFFEST = 0.5
 
@@ -34,7 +35,8 @@ def links_of(model, hht) -> np.ndarray:
         held = link.slack + link.prestress / link.stiffness if link.prestress else 0.0
         row["a"], row["b"], row["arm_a"], row["arm_b"] = link.a, link.b, link.arm_a, link.arm_b
         row["length"], row["play"], row["stiffness"], row["damping"] = length - held, link.slack, link.stiffness, link.damping
-        row["pulls"], row["pushes"], row["yields"], row["breaks"] = link.pulls, link.pushes, link.yield_n, link.breaking_n
+        row["pulls"], row["pushes"], row["yields"] = link.pulls, link.pushes, link.yield_n
+        row["breaks"] = link.breaking_n / link.stiffness if link.stiffness else np.inf
     bodies = [(part.model.mass, part.model.inertia, part.center, part.rotation) for part in model.parts]
 
     def answered(dt):
@@ -113,16 +115,23 @@ def _stretch(link, tie, length):
 
 
 @njit
-def stored(link, tie, length):
-    """Strain energy [J]."""
-    return 0.0 if tie.broken else link.stiffness * _stretch(link, tie, length) ** 2 / 2
+def _flowing(link, stretch):
+    """Part of a stretch [m] that flows: what is beyond the force at which the link yields. It yields both ways, as far as it pulls and pushes."""
+    force = link.stiffness * stretch
+    return np.sign(force) * (abs(force) - link.yields) / link.stiffness if abs(force) > link.yields else 0.0
+
+
+@njit
+def _flow_work(link, flow):
+    """Work [J] that a flow [m] takes."""
+    return link.yields * abs(flow) if flow != 0.0 else 0.0
 
 
 @njit
 def pull(link, tie, begin, way, length, dt, target):
     """target (3,): force [N] of a link on its end a within a step, on b the opposite; the elastic force and that of the dashpot.
 
-    A discrete gradient (Gonzalez 1996): its work is the loss of strain energy exactly, the dashpot's c (l1 - l0)^2 / dt.
+    A discrete gradient (Gonzalez 1996): its work is the loss of strain energy and what flows times the force at which it does, exactly; the dashpot's c (l1 - l0)^2 / dt.
 
     Args:
         begin, way: (3,) from a to b at the start and at the end of the step [m]. length: at the end [m]; tie.length is that at the start.
@@ -130,11 +139,14 @@ def pull(link, tie, begin, way, length, dt, target):
     before, elastic, rate = tie.length, 0.0, (length - tie.length) / dt
     if not tie.broken:
         s0, s1 = _stretch(link, tie, before), _stretch(link, tie, length)
-        change = length - before
-        if s0 != 0.0 and s1 != 0.0 or abs(change) <= 1e-12 * link.length:
-            elastic = link.stiffness * (s0 + s1) / 2
-        else:
-            elastic = link.stiffness * (s1**2 - s0**2) / (2 * change)
+        flow, change = _flowing(link, s1), length - before
+        s1 -= flow
+        first, last = link.stiffness * s0, link.stiffness * s1
+        elastic = (first + last) / 2
+        if (flow != 0.0 or s0 * s1 <= 0.0) and abs(change) > 1e-12 * link.length:
+            elastic = (elastic * (s1 - s0) + _flow_work(link, flow)) / change
+            # a mean of the forces on the way, but for rounding
+            elastic = min(max(elastic, min(first, last)), max(first, last))
     total = elastic + (0.0 if tie.broken else link.damping * rate)
     for a in range(3):
         # without length at both ends of the step it has no direction, and no force
@@ -159,27 +171,27 @@ def pull_links(links, ties, frames, rotation, later_frames, later_rotation, dt, 
 
 @njit
 def end_links(links, frames, rotation, before, after, dt):
-    """Carry ties (nl,) on to the end of a step: energy that their dashpots have taken, strain energy at its end, energy that they lose by flowing and breaking [J]."""
-    taken = kept = lost = 0.0
+    """Carry ties (nl,) on to the end of a step: strain energy at its end, energy that their dashpots, yielding and breaking have taken in it [J]."""
+    kept = taken = 0.0
     way = np.empty(3)
     for n in range(len(links)):
         link, tie, new = links[n], before[n], after[n]
         length = span(link, frames, rotation, way)
-        new.flowed, new.broken, new.length = tie.flowed, tie.broken, length
+        new.flowed, new.broken, new.length, new.work, new.force = tie.flowed, tie.broken, length, tie.work, 0.0
         if tie.broken:
-            new.force = 0.0
             continue
-        if np.isfinite(dt):
-            taken += link.damping * (length - tie.length) ** 2 / dt
-        held = stored(link, tie, length)
-        force = link.stiffness * _stretch(link, tie, length)
-        if abs(force) > link.breaks:
-            new.broken, force = True, 0.0
-        elif abs(force) > link.yields:
-            new.flowed += np.sign(force) * (abs(force) - link.yields) / link.stiffness
-            force = np.sign(force) * link.yields
-        new.force = force
-        now = stored(link, new, length)
-        kept += now
-        lost += held - now
-    return taken, kept, lost
+        stretch, viscous = _stretch(link, tie, length), link.damping * (length - tie.length) / dt
+        flow = _flowing(link, stretch)
+        held = link.stiffness * (stretch - flow) ** 2 / 2
+        lost = viscous * (length - tie.length) + _flow_work(link, flow)
+        new.flowed += flow
+        # of one that yields the elongation at which it would have the breaking force, had it not
+        if stretch != 0.0 and abs(stretch + tie.flowed) > link.breaks:
+            new.broken = True
+            lost += held
+        else:
+            new.force = link.stiffness * (stretch - flow) + viscous
+            kept += held
+        new.work += lost
+        taken += lost
+    return kept, taken

@@ -178,14 +178,14 @@ class Stepper:
         shaken = column.sum(column.unit_loads.reshape(3, -1) @ step.ravel())
         damping = -column.dot(step, damped) / 2 if self.system.damping else 0.0
         rolling = column.dot(step, resisted) if self.system.resistance else 0.0
-        dashed = lost = 0.0
+        taken = 0.0
         if self.system.links:
-            dashed, tied, lost = end_links(self.system.links.links, frames_at(column.centers(after.x)), after.rotation, start.ties, after.ties, hht.dt)
+            tied, taken = end_links(self.system.links.links, frames_at(column.centers(after.x)), after.rotation, start.ties, after.ties, hht.dt)
             after.static += tied
-        contact = column.dot(step, worked) - rolling + after.static - start.static + lost + dashed
+        contact = column.dot(step, worked) - rolling + after.static - start.static + taken
         friction, landed, dashpots = losses(interface.points, interface.interfaces, springs, interface.near, before, after.contact)
         self.ledger.add(base_work=-np.dot((start.ground + after.ground) / 2, shaken), algorithmic=algorithmic - damping,
-                        friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots - dashed - lost, rolling=rolling)
+                        friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots, rolling=rolling, links=-taken)
         return contact
 
     def _collide(self, start, before, after, hht, springs, contact_work, booked) -> None:

@@ -13,7 +13,7 @@ _MOVED = {"kinetic": ("kinetic", VERMILION, "-"), "gravity": ("gravity potential
 _STRAIN = {"strain": ("strain", ORANGE, "-")}
 _LOST = {"friction": ("sliding friction", GREEN, "-"), "impact": ("impacts", PURPLE, "-"), "algorithmic": ("numerical damping (HHT)", SKY, "-."),
          "contact": ("contact between impacts", ORANGE, "--"), "damping": ("damping of modes", BLUE, ":"),
-         "rolling": ("rolling resistance", VERMILION, ":")}
+         "rolling": ("rolling resistance", VERMILION, ":"), "links": ("links: yielding, dashpots", BLACK, "-.")}
 _CLOSURE = {"closure": ("closure error", BLACK, "-")}
 _NIL = 1e-6  # share of the largest term of a panel below which a term is left out
 

@@ -27,7 +27,7 @@ class History:
         tilt: (n,) [rad] angle of the axis to the vertical.
         ground: (n, 3) [m/s2] acceleration of the base; zeros where it was not recorded.
         energy: (n,) [J] by term: kinetic, strain, gravity, base_work, friction, impact, contact, algorithmic, damping, rolling,
-            closure.
+            links, closure.
     """
 
     time: np.ndarray
@@ -100,12 +100,12 @@ def has_figures(folder) -> bool:
 
 
 def history_figures(folder) -> list[Path]:
-    """Write u_top, path and energy of an analysis' folder, of a structure interfaces and storeys besides, each as PNG and PDF; needs history.h5 and summary.json."""
+    """Write u_top, path and energy of an analysis' folder, of a structure interfaces, storeys and links besides, each as PNG and PDF; needs history.h5 and summary.json."""
     folder = Path(folder)
     history, ending = History.read(folder / "history.h5"), read_ending(folder)
     files = [*top_figure(history, ending, folder / "u_top"), *path_figure(history, ending, folder / "path"),
              *energy_figure(history, folder / "energy")]
-    of_structure = tuple(name for name in _names(folder / "history.h5") if name.startswith(("interface/", "storey/")))
+    of_structure = tuple(name for name in _names(folder / "history.h5") if name.startswith(("interface/", "storey/", "link/")))
     return files + (structure_figures(read_history(folder / "history.h5", ("time", *of_structure)), folder) if of_structure else [])
 
 

@@ -11,7 +11,7 @@ from fecolumn.post.style import BLACK, BLUE, GREEN, GREY, PAGE_WIDTH_IN, VERMILI
 
 # Terms of the ledger as a reader knows them
 _TERMS = {"kinetic": "kinetic", "strain": "strain", "gravity": "gravity\npotential", "base_work": "work of\nthe base", "friction": "sliding\nfriction", "impact": "impacts",
-          "contact": "contact", "algorithmic": "numerical\ndamping", "damping": "damping\nof modes", "rolling": "rolling\nresistance", "closure": "closure\nerror"}
+          "contact": "contact", "algorithmic": "numerical\ndamping", "damping": "damping\nof modes", "rolling": "rolling\nresistance", "links": "links", "closure": "closure\nerror"}
 # Shares of the largest of its kind [-] below which a term has no bar, a component of the top no panel, and a difference is not told from rounding
 _NIL, _STILL, _ROUNDING = 1e-3, 1e-2, 1e-10
 # Points of a line: more are not told apart

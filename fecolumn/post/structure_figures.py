@@ -1,4 +1,4 @@
-"""Figures of a structure of many bodies: what its interfaces do over time, and drifts and shears of its storeys."""
+"""Figures of a structure of many bodies: what its interfaces do over time, drifts and shears of its storeys, tension and elongation of its links."""
 
 from __future__ import annotations
 
@@ -6,37 +6,54 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.post.style import GREY, LINES, PAGE_WIDTH_IN, new_figure, save, styled
+from fecolumn.post.style import GREY, LINES, PAGE_WIDTH_IN, legend_beside, new_figure, save, styled
 from fecolumn.render.quantity import Quantity
 
 # Quantities of an interface: column of the history, words, symbol, SI unit
 _OF_INTERFACE = (("tilt", "tilt", r"$\theta$", "rad"), ("rise", "uplift of the\nfoot's middle", "$w$", "m"), ("slide", "slide", "$s$", "m"), ("force", "normal force", "$N$", "N"))
-# Interfaces side by side in a figure; joints of one that are told apart by colour and dash
+# Interfaces side by side in a figure, or links below one another; joints or copies of one that are told apart by colour and dash
 _ABREAST, _APART = 3, len(LINES)
 
 
 def structure_figures(columns: dict[str, np.ndarray], folder: Path, formats=("png", "pdf")) -> list[Path]:
-    """Write interfaces.png, more of them where there are more interfaces than go side by side, and storeys.png of a structure with storeys; each as PDF, too.
+    """Write interfaces.png, more of them where there are more interfaces than go side by side, storeys.png of a structure with storeys and likewise links.png of one with links; each as
+    PDF, too.
 
     Args:
         columns: of `dynamics.history`, of a structure.
     """
-    files, names = [], interface_names(columns)
-    for first in range(0, len(names), _ABREAST):
-        number = f"_{first // _ABREAST + 1}" if first else ""
-        files += interface_figure(columns, folder / f"interfaces{number}", names[first:first + _ABREAST], formats)
+    files = []
+    for stem, figure, names in (("interfaces", interface_figure, interface_names(columns)), ("links", link_figure, link_names(columns))):
+        for place, file in enumerate(_numbered(stem, len(names))):
+            files += figure(columns, folder / file, names[_ABREAST * place:_ABREAST * (place + 1)], formats)
     return files + (storey_figure(columns, folder / "storeys", formats) if storey_names(columns) else [])
+
+
+def _numbered(stem: str, count: int) -> list[str]:
+    """Names of the files of so many interfaces or links."""
+    return [f"{stem}{f'_{number}' if number > 1 else ''}" for number in range(1, -(-count // _ABREAST) + 1)]
 
 
 def figure_names(columns) -> list[str]:
     """Names of the files of `structure_figures` without their suffix, from the names of a history's columns."""
-    count = -(-len(interface_names(columns)) // _ABREAST)
-    return [f"interfaces{f'_{number}' if number > 1 else ''}" for number in range(1, count + 1)] + (["storeys"] if storey_names(columns) else [])
+    links = _numbered("links", len(link_names(columns)))
+    return _numbered("interfaces", len(interface_names(columns))) + links + (["storeys"] if storey_names(columns) else [])
 
 
 def interface_names(columns) -> list[str]:
     """Interfaces of which a history has columns, in their order."""
     return list(dict.fromkeys(name.split("/")[1].partition(":")[0] for name in columns if name.startswith("interface/")))
+
+
+def link_names(columns) -> list[str]:
+    """Links of which a history has columns, in their order; copies such as "tendon 1" and "tendon 2" go by one name."""
+    return list(dict.fromkeys(_copied(name.split("/")[1]) for name in columns if name.startswith("link/")))
+
+
+def _copied(name: str) -> str:
+    """Name of a link without the number of its copy."""
+    first, _, number = name.rpartition(" ")
+    return first if number.isdigit() and first else name
 
 
 def storey_names(columns) -> list[str]:
@@ -51,17 +68,17 @@ def _in_unit(values: list[np.ndarray], unit: str) -> tuple[list[np.ndarray], str
     return [each / quantity.scale for each in values], quantity.unit
 
 
-def _drawn(axes, time, values: list[np.ndarray], names: list[str]) -> None:
+def _drawn(axes, places: list[np.ndarray], values: list[np.ndarray], names: list[str], kind: str = "joints") -> None:
     """Lines told apart by colour and dash; where there are too many all are grey and the one with the largest peak is drawn on them."""
     if len(values) <= _APART:
-        for each, name, (colour, dashes) in zip(values, names, LINES):
-            axes.plot(time, each, color=colour, linestyle=dashes, linewidth=0.9, label=name)
+        for place, each, name, (colour, dashes) in zip(places, values, names, LINES):
+            axes.plot(place, each, color=colour, linestyle=dashes, linewidth=0.9, label=name)
         return
     peak = int(np.argmax([np.abs(each).max() for each in values]))
-    for each in values:
-        axes.plot(time, each, color=GREY, linewidth=0.4)
-    axes.plot([], [], color=GREY, linewidth=0.8, label=f"{len(values)} joints")
-    axes.plot(time, values[peak], color=LINES[0][0], linewidth=0.9, label=names[peak])
+    for place, each in zip(places, values):
+        axes.plot(place, each, color=GREY, linewidth=0.4)
+    axes.plot([], [], color=GREY, linewidth=0.8, label=f"{len(values)} {kind}")
+    axes.plot(places[peak], values[peak], color=LINES[0][0], linewidth=0.9, label=names[peak])
 
 
 def interface_figure(columns, path, interfaces: list[str], formats=("png", "pdf")) -> list[Path]:
@@ -82,7 +99,7 @@ def interface_figure(columns, path, interfaces: list[str], formats=("png", "pdf"
             low, high = min(each.min() for each in lines), max(each.max() for each in lines)
             margin = 0.05 * (high - low) or 0.05 * max(abs(high), 1.0)
             for axes, joints in zip(row, found):
-                _drawn(axes, time, lines[:len(joints)], [name for name, _ in joints])
+                _drawn(axes, [time] * len(joints), lines[:len(joints)], [name for name, _ in joints])
                 lines = lines[len(joints):]
                 # one scale a row, so that interfaces can be compared
                 axes.set_ylim(low - margin, high + margin)
@@ -115,7 +132,7 @@ def storey_figure(columns, path, formats=("png", "pdf")) -> list[Path]:
         rows = [(values, words, symbol, unit, axis) for values, words, symbol, unit in ((drifts, "drift", r"$\delta", "m"), (shears, "shear", "$V", "N")) for axis in axes_moved]
         for (values, words, symbol, unit, axis), (over_time, peaks) in zip(rows, grid):
             lines, unit = _in_unit([each[:, axis] for each in values], unit)
-            _drawn(over_time, time, lines, words_of_storeys)
+            _drawn(over_time, [time] * len(lines), lines, words_of_storeys)
             over_time.set(xlim=(time[0], time[-1]), ylabel=f"{words} along {'xy'[axis]}\n{symbol}_{'xy'[axis]}$ [{unit}]")
             over_time.tick_params(labelbottom=over_time is grid[-1, 0])
             largest = 0.0
@@ -127,5 +144,33 @@ def storey_figure(columns, path, formats=("png", "pdf")) -> list[Path]:
             peaks.locator_params(axis="y", integer=True, nbins=6)
         grid[-1, 0].set_xlabel("time [s]")
         grid[0, 0].legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncol=4, framealpha=0, borderaxespad=0.2)
+        figure.align_ylabels(grid[:, 0])
+        return save(figure, path, formats)
+
+
+def link_figure(columns, path, links: list[str], formats=("png", "pdf")) -> list[Path]:
+    """Tension of some links over time, and beside it over their elongation until they break: the area of a loop is the energy taken. A row for each, a line for each copy.
+
+    Args:
+        path: file name without suffix.
+    """
+    time = columns["time"]
+    with styled():
+        figure = new_figure(PAGE_WIDTH_IN, 0.5 + 1.9 * len(links))
+        grid = figure.subplots(len(links), 2, squeeze=False, gridspec_kw={"width_ratios": [1.7, 1]})
+        for link, (over_time, loops) in zip(links, grid):
+            copies = [name for name in dict.fromkeys(name.split("/")[1] for name in columns if name.startswith("link/")) if _copied(name) == link]
+            tensions, force = _in_unit([columns[f"link/{name}/tension"] for name in copies], "N")
+            whole = [slice(max(1, np.count_nonzero(columns[f"link/{name}/broken"] == 0))) for name in copies]
+            ways, length = _in_unit([columns[f"link/{name}/elongation"][rows] for name, rows in zip(copies, whole)], "m")
+            _drawn(over_time, [time] * len(copies), tensions, copies, "links")
+            _drawn(loops, ways, [each[rows] for each, rows in zip(tensions, whole)], copies, "links")
+            over_time.set(xlim=(time[0], time[-1]), ylabel=f"{link}\ntension $T$ [{force}]")
+            over_time.tick_params(labelbottom=over_time is grid[-1, 0])
+            loops.set(xlabel=f"elongation $e$ [{length}]", ylim=over_time.get_ylim())
+            loops.tick_params(labelleft=False)
+            if len(copies) > 1:
+                legend_beside(loops)
+        grid[-1, 0].set_xlabel("time [s]")
         figure.align_ylabels(grid[:, 0])
         return save(figure, path, formats)

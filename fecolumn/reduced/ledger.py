@@ -9,8 +9,8 @@ from fecolumn.dynamics.links import end_links
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
 
 # Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS [J]
-START, BASE, FRICTION, HIT, CONTACT_WORK, ALGORITHMIC, DAMPING, ROLLING = range(8)
-N_PLACES = ROLLING + 1
+START, BASE, FRICTION, HIT, CONTACT_WORK, ALGORITHMIC, DAMPING, ROLLING, LINKS = range(9)
+N_PLACES = LINKS + 1
 
 
 @njit
@@ -71,8 +71,8 @@ def book(structure, scheme, work, start, end, ledger):
             # with the rate that the damping meets, see dynamics.stepper
             rate = end.modal[b, RATE, k] - dt * al**2 / (4 * scheme.beta) * push
             damping -= (q1 - q0) * structure.damping[b, k] * (start.modal[b, RATE, k] + rate) / 2
-    dashed, tied, lost = end_links(structure.links, end.frames, end.rotation, start.ties, end.ties, dt)
-    contact = done - rolling + end.whole[0].static + tied + lost - start.whole[0].static + dashed
+    tied, taken = end_links(structure.links, end.frames, end.rotation, start.ties, end.ties, dt)
+    contact = done - rolling + end.whole[0].static + tied - start.whole[0].static + taken
     end.whole[0].static += tied
     friction, landed, dashpots = losses(work.points, structure.interfaces, scheme.springs, near_points(work.problem), work.before, end.contact)
     ledger[BASE] += moved_base
@@ -80,6 +80,7 @@ def book(structure, scheme, work, start, end, ledger):
     ledger[HIT] += landed
     ledger[CONTACT_WORK] += contact - friction - landed + dashpots
     ledger[ALGORITHMIC] += algorithmic - damping
-    ledger[DAMPING] += damping - dashpots - dashed - lost
+    ledger[DAMPING] += damping - dashpots
     ledger[ROLLING] += rolling
+    ledger[LINKS] -= taken
     return contact

@@ -27,14 +27,16 @@ ENERGY = WIDTH - len(TERMS)
 #: A point of a body that is watched: arm: (3,) from its centre of mass in its frame [m].
 MARK = record(("body", "i8"), ("arm", "f8", 3))
 #: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its centre of mass [m] and tilt [rad]; of each interface tilt of
-#: the slave from the master [rad], rise of the middle of its foot and its slide along two tangents [m], normal force [N]; of each mark its displacement [m].
+#: the slave from the master [rad], rise of the middle of its foot and its slide along two tangents [m], normal force [N]; of each mark its displacement [m]; of
+#: each link tension [N], elongation from its unstressed length and the part of it that has yielded [m], energy that it has taken [J], whether it is broken.
 OF_BODY, OF_INTERFACE, OF_MARK = (("displacement", 3), ("tilt", 1)), (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)), (("displacement", 3),)
+OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("broken", 1))
 
 
 class View(NamedTuple):
     """What is watched: center: (nb, 3) of mass in the reference configuration; body: the one of which top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape
     (3, m) are means over top and foot; stance: when it is lost, if it stands alone. limits: (nb,) tilts [rad] at which a body of many is lost, none for one
-    alone. feet: (ni, 3) of the interfaces in the reference configuration [m]; marks: (nm,) of MARK, their shapes (nm, 3, m)."""
+    alone. feet: (ni, 3) of the interfaces in the reference configuration [m]; marks: (nm,) of MARK, their shapes (nm, 3, m). links: how many."""
 
     center: np.ndarray
     body: int
@@ -47,11 +49,12 @@ class View(NamedTuple):
     feet: np.ndarray
     marks: np.ndarray
     shapes: np.ndarray
+    links: int = 0
 
     @property
     def width(self) -> int:
         """Numbers in a row."""
-        return WIDTH if not len(self.limits) else WIDTH + 4 * len(self.center) + 5 * len(self.feet) + 3 * len(self.marks)
+        return WIDTH if not len(self.limits) else WIDTH + 4 * len(self.center) + 5 * len(self.feet) + 3 * len(self.marks) + len(OF_LINK) * self.links
 
 
 def view(model, weight: float, friction: float, cap: float = 0.0) -> View:
@@ -109,7 +112,7 @@ def observe(structure, points, poses, eye, motion, ledger, iterations, row):
 
 @njit
 def _observe_all(structure, points, poses, eye, motion, row):
-    """Fill what a row has of bodies, interfaces and marks."""
+    """Fill what a row has of bodies, interfaces, marks and links."""
     place = WIDTH
     for b in range(len(motion.frames)):
         R = motion.rotation[b]
@@ -132,6 +135,11 @@ def _observe_all(structure, points, poses, eye, motion, row):
     for n in range(len(eye.marks)):
         _displace(eye.marks[n].body, eye.marks[n].arm, eye.shapes[n], eye.center, motion, 3, row, place)
         place += 3
+    for n in range(len(motion.ties)):
+        tie = motion.ties[n]
+        row[place], row[place + 1], row[place + 2] = tie.force, tie.length - structure.links[n].length, tie.flowed
+        row[place + 3], row[place + 4] = tie.work, tie.broken
+        place += 5
 
 
 @njit

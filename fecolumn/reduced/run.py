@@ -188,7 +188,7 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     lay_points(structure, work, motion, spare)
     answer = equilibrate(structure, base, scheme, work, motion, fall, bent, still, spare.rims, spare, counts)
     if answer == OK:
-        spare.whole[0].static += end_links(structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt)[1]
+        spare.whole[0].static += end_links(structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt)[0]
     return answer
 
 

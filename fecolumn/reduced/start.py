@@ -68,6 +68,7 @@ def _settled(engine, firmness: float) -> motions.Motion:
     engine.counts[:] = 0
     start.frames["acceleration"] = -work.action.push / bodies["mass"][:, None]
     start.modal[:, ACCELERATION] = -structure.squares * start.modal[:, COORDINATE]
+    start.ties["work"] = 0.0  # what links lose on the way there is not of the motion
     return start
 
 
@@ -85,7 +86,8 @@ def unstrained(engine, motion) -> motions.Motion:
     motion.contact["relative"] = engine.places(motion.frames["center"], motion.rotation)
     motion.contact["anchor"], motion.contact["located"] = motion.contact["relative"][:, :2], True
     motion.ties["length"] = engine.link_lengths(motion.frames["center"], motion.rotation)
-    motion.whole["static"] = interpreted(end_links)(engine.structure.links, motion.frames, motion.rotation, motion.ties.copy(), motion.ties, np.inf)[1]
+    motion.whole["static"] = interpreted(end_links)(engine.structure.links, motion.frames, motion.rotation, motion.ties.copy(), motion.ties, np.inf)[0]
+    motion.ties["work"] = 0.0
     return motion
 
 

@@ -68,4 +68,4 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
         foot = model.parts[body].model.arms[surface.nodes].mean(axis=0) + (feet[0].ball.radius * surface.normal if feet[0].ball else 0.0)
     stance = never_alone(model.parts[body].model.inertia, weight, cap)
     return View(centers, body, np.array(marks[place]["arm"]), np.ascontiguousarray(shapes[place]), foot, np.zeros((3, modes)), stance,
-                np.full(len(centers), float(lost)), np.array(poses_of(structure.interfaces, centers, rotations)["foot"]), marks, shapes)
+                np.full(len(centers), float(lost)), np.array(poses_of(structure.interfaces, centers, rotations)["foot"]), marks, shapes, len(structure.links))

@@ -121,7 +121,7 @@ def _mean(setting: Setting, name: str):
 def _share(setting: Setting, term: str):
     """Part of a term of the ledger in all losses of the setting [-]."""
     ledgers = [run["energy_j"] for run in setting.runs.values() if isinstance(run.get("energy_j"), dict)]
-    losses = {name: -sum(ledger.get(name, 0.0) for ledger in ledgers) for name in ("algorithmic", "impact", "friction", "contact", "damping", "rolling")}
+    losses = {name: -sum(ledger.get(name, 0.0) for ledger in ledgers) for name in ("algorithmic", "impact", "friction", "contact", "damping", "rolling", "links")}
     whole = sum(max(loss, 0.0) for loss in losses.values())
     return losses[term] / whole if whole > 0 else None
 

@@ -79,8 +79,8 @@ class AnalysisResult:
 
     @property
     def energy(self) -> dict[str, np.ndarray]:
-        """Terms of the energy ledger (n,) [J] by name, as of `dynamics.energy.TERMS`."""
-        return {term: self[f"energy/{term}"] for term in TERMS}
+        """Terms of the energy ledger (n,) [J] by name, as of `dynamics.energy.TERMS`; zero where an earlier version did not write one."""
+        return {term: self.history.get(f"energy/{term}", np.zeros(len(self.time))) for term in TERMS}
 
     @property
     def finished(self) -> bool:
@@ -113,7 +113,7 @@ class AnalysisResult:
 
     @property
     def plot(self) -> AnalysisPlots:
-        """Figures: `plot.top()`, `plot.path()`, `plot.energy()`, of a structure `plot.interfaces()` and `plot.storeys()`."""
+        """Figures: `plot.top()`, `plot.path()`, `plot.energy()`, of a structure `plot.interfaces()`, `plot.storeys()` and `plot.links()`."""
         return AnalysisPlots(self.folder)
 
     def render(self, **wishes) -> list[Path]:
@@ -181,6 +181,13 @@ class AnalysisPlots:
         from fecolumn.post.structure_figures import storey_figure
 
         return Picture(lambda path: storey_figure(AnalysisResult(self.folder).history, path))
+
+    def links(self, *names: str) -> Picture:
+        """Of a structure with links: their tension over time and over their elongation, of all unless named; copies go by one name."""
+        from fecolumn.post.structure_figures import link_figure, link_names
+
+        columns = AnalysisResult(self.folder).history
+        return Picture(lambda path: link_figure(columns, path, list(names) or link_names(columns)))
 
     def energy(self) -> Picture:
         """The energy ledger against time."""

@@ -13,7 +13,7 @@ from fecolumn.dynamics.gravity import NoEquilibrium
 from fecolumn.dynamics.overturning import FELL
 from fecolumn.ending import SLID_OFF, Ending
 from fecolumn.reduced.analysis import ReducedAnalysis
-from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_MARK
+from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.reduced.run import advance
 from fecolumn.reduced.structure import LOST
 from fecolumn.structures.barrier import least_barrier, stances
@@ -21,7 +21,7 @@ from fecolumn.structures.engine import engine_of, leans, upright
 from fecolumn.structures.model import StructureModel
 from fecolumn.structures.structure import standing_of, structure_model
 
-_WHOLE = ("active_nodes", "iterations")  # columns of whole numbers
+_WHOLE = ("active_nodes", "iterations", "broken")  # columns of whole numbers, by the last word of their names
 
 
 class _Whole(NamedTuple):
@@ -124,17 +124,19 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
     """Rows (k, width) of the engine as columns by name: those of any analysis, and of the structure's parts.
 
     "body/NAME/displacement" of the centre of mass [m] and "body/NAME/tilt" [rad]; "interface/NAME/tilt" of the slave from the master [rad], "rise"
-    of the middle of its foot [m], "slide" along two tangents [m], normal "force" [N]; "mark/NAME.MARK/displacement" [m];
+    of the middle of its foot [m], "slide" along two tangents [m], normal "force" [N]; "mark/NAME.MARK/displacement" [m]; "link/NAME/tension" [N],
+    "elongation" from its unstressed length and the part of it that has "yielded" [m], "work" that it has taken [J], whether it is "broken";
     "storey/NAME N/drift" [m] along x and y of the table, "shear" [N], its elastic part.
     """
     names = [(name, count) for name, count in COLUMNS]
     names += [(f"body/{part.name}/{name}", count) for part in structure.parts for name, count in OF_BODY]
     names += [(f"interface/{joint.name}/{name}", count) for joint in structure.joints for name, count in OF_INTERFACE]
     names += [(f"mark/{part.name}.{mark}/{name}", count) for part in structure.parts for mark in part.model.marks for name, count in OF_MARK]
+    names += [(f"link/{link.name}/{name}", count) for link in structure.links for name, count in OF_LINK]
     columns, place = {}, 0
     for name, count in names:
         values = rows[:, place] if count == 1 else rows[:, place:place + count]
-        columns[name] = values.astype(int) if name in _WHOLE else values.copy()
+        columns[name] = values.astype(int) if name.rpartition("/")[2] in _WHOLE else values.copy()
         place += count
     for part in structure.parts:
         if part.model.storeys is None:
@@ -146,7 +148,7 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
 
 
 def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
-    """Of the summary: largest values of bodies, interfaces and storeys by name, from the columns of a history."""
+    """Of the summary: largest values of bodies, interfaces, storeys and links by name, from the columns of a history."""
     def largest(name):
         values = rows[name]
         return float(np.abs(values).max() if values.ndim == 1 else np.linalg.norm(values, axis=1).max())
@@ -156,4 +158,19 @@ def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
                                    slide_max_m=largest(f"interface/{joint.name}/slide"), residual_slide_m=float(np.hypot(*rows[f"interface/{joint.name}/slide"][-1])),
                                    force_max_n=largest(f"interface/{joint.name}/force")) for joint in structure.joints}
     storeys = {name[7:-6]: dict(drift_max_m=largest(name), shear_max_n=largest(f"{name[:-5]}shear")) for name in rows if name.startswith("storey/") and name.endswith("/drift")}
-    return dict(bodies=bodies, interfaces=interfaces, storeys=storeys)
+    links = {link.name: _peaks_of_link(rows["time"], {name: rows[f"link/{link.name}/{name}"] for name, _ in OF_LINK}, link) for link in structure.links}
+    return dict(bodies=bodies, interfaces=interfaces, storeys=storeys, links=links)
+
+
+def _peaks_of_link(time: np.ndarray, rows: dict[str, np.ndarray], link) -> dict:
+    """Extremes of a Link's tension and of its elongation until it breaks, what it has taken, and when it first yielded, broke, and was slack after it had been tight; from its columns."""
+    def first(mask):
+        return float(time[np.argmax(mask)]) if mask.any() else None
+
+    tension, broken, over = rows["tension"], rows["broken"] > 0, rows["elongation"] - rows["yielded"]
+    whole = rows["elongation"][:max(1, int((~broken).sum()))]
+    tight = (link.pulls & (over > link.slack)) | (link.pushes & (over < -link.slack))
+    slackens = ~tight & ~broken & np.logical_or.accumulate(tight) & (link.slack > 0 or not (link.pulls and link.pushes))
+    return dict(tension_max_n=float(tension.max()), tension_min_n=float(tension.min()), elongation_max_m=float(whole.max()), elongation_min_m=float(whole.min()),
+                yielded_m=float(rows["yielded"][-1]), work_j=float(rows["work"][-1]), yielded_at_s=first(rows["yielded"] != 0), broke_at_s=first(broken),
+                slack_at_s=first(slackens))

@@ -177,5 +177,5 @@ class LinkKeys(Section):
     damping_n_s_m: float = parameter(0.0, doc="axial damping; a dashpot needs it", unit="N s/m", low=0, high=1e15)
     prestress_n: float = parameter(0.0, doc="tension at the start", unit="N", low=0, high=1e12)
     slack_m: float = parameter(0.0, doc="elongation, of a restrainer to each side, before it acts", unit="m", low=0, high=100)
-    yield_n: float | None = parameter(None, doc="force at which it yields; left out: never", unit="N", above=0, high=1e12)
-    breaking_n: float | None = parameter(None, doc="force at which it breaks for good; left out: never", unit="N", above=0, high=1e12)
+    yield_n: float | None = parameter(None, doc="force at which it yields, in tension and, if it pushes, in compression: it stays at that force and keeps what has yielded as residual elongation (elastic, perfectly plastic, no hardening); left out: never", unit="N", above=0, high=1e12)
+    breaking_n: float | None = parameter(None, doc="force at which it breaks for good, of one that yields at the elongation at which it would have that force had it not; left out: never", unit="N", above=0, high=1e12)

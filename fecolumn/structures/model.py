@@ -170,15 +170,16 @@ class Joint:
 class Link:
     """A tendon, spring, dashpot or restrainer between a point of one part and a point of another or of the ground.
 
-    Its elongation e [m] is the distance of the points less that as the structure stands upright. Its force [N], positive in tension, is
-    prestress + stiffness e + damping de/dt, the spring's part of it only beyond the slack and only where it pulls or pushes.
+    Its elongation e [m] is the distance of the points less its unstressed length: that as the structure stands upright, less prestress / stiffness. Its force [N],
+    positive in tension, is stiffness (e - y) + damping de/dt, the spring's part of it only beyond the slack and only where it pulls or pushes; y is what has
+    yielded: where the spring's part would exceed yield_n it stays there and y grows, or shrinks under compression (elastic, perfectly plastic, no hardening).
 
     kind: "tendon", "spring", "dashpot" or "restrainer".
     a: place of a part; arm_a: (3,) [m] in its frame from its centre of mass. b: place of another part, or GROUND; arm_b: (3,) [m] likewise, in the
         table frame for the ground.
     stiffness [N/m]; damping [N s/m]; prestress [N] at the start; slack [m] of elongation to each side before the spring acts.
-    pushes, pulls: whether it takes compression, tension. yield_n [N]: force at which it yields, breaking_n [N]: at which it breaks for good;
-        both infinite where it never does.
+    pushes, pulls: whether it takes compression, tension. yield_n [N]: force at which it yields, breaking_n [N]: at which it breaks for good, of one that
+        yields at the elongation at which it would have that force had it not; both infinite where it never does.
     """
 
     name: str

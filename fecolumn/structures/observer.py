@@ -49,6 +49,9 @@ class StructureObserver:
             # of a slave that is drawn upside down the same
             tilt = float(np.arctan2(np.hypot(turned[2, 0], turned[2, 1]), abs(turned[2, 2])))
             row |= {f"interface/{joint.name}/{name}": value for name, value in dict(tilt=tilt, rise=float(risen[2]), slide=risen[:2], force=float(force)).items()}
+        for link, held, tie in zip(structure.links, system.links.links if system.links else (), state.ties):
+            values = dict(tension=tie["force"], elongation=tie["length"] - held["length"], yielded=tie["flowed"], work=tie["work"])
+            row |= {f"link/{link.name}/{name}": float(value) for name, value in values.items()} | {f"link/{link.name}/broken": int(tie["broken"])}
         return row
 
     def _top(self, b: int, x: np.ndarray) -> np.ndarray:

@@ -29,7 +29,7 @@ def structure_report(case, file, folder, say=lambda text: None) -> str:
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
     folder.mkdir(parents=True, exist_ok=True)
     structure_picture(layout, structure, copies, folder / "structure.png")
-    text = "\n".join([*_bodies(case, layout, models), "", *_interfaces(case, structure), *_links(structure)])
+    text = "\n".join([*_bodies(case, layout, models), "", *_interfaces(case, structure), *_links(case, structure)])
     (folder / "table.txt").write_text(text + "\n")
     return text
 
@@ -54,9 +54,15 @@ def _interfaces(case, structure):
         yield f"{joint.name:<50}{len(surface.nodes):>8}{len(over):>15}{surface.areas[over].sum():>12.5g}{joint.friction:>10.3g}{'dome' if joint.ball and joint.ball.is_dome else 'round' if joint.round else 'edges':>8}"
 
 
-def _links(structure):
+def _links(case, structure):
     if structure.links:
-        yield from ("", f"{'link':<26}{'between':<40}{'stiffness [N/m]':>17}{'damping [N s/m]':>17}{'prestress [N]':>15}{'slack [m]':>11}")
+        yield from ("", f"{'link':<26}{'between':<40}{'length [m]':>12}{'stiffness [N/m]':>17}{'damping [N s/m]':>17}{'prestress [N]':>15}{'slack [m]':>11}{'yields [N]':>12}{'at [m]':>11}"
+                        f"{'breaks [N]':>12}{'at [m]':>11}")
+    standing = standing_of(case, structure)
     for link in structure.links:
         ends = f"{structure.parts[link.a].name} - {'ground' if link.b == GROUND else structure.parts[link.b].name}"
-        yield f"{link.kind + ' ' + link.name:<26}{ends:<40}{link.stiffness:>17.5g}{link.damping:>17.5g}{link.prestress:>15.5g}{link.slack:>11.4g}"
+        other = link.arm_b if link.b == GROUND else standing[link.b].center + link.arm_b
+        length = np.linalg.norm(other - standing[link.a].center - link.arm_a)
+        # elongations from the unstressed length
+        limits = "".join(f"{force:>12.5g}{link.slack + force / link.stiffness:>11.4g}" if np.isfinite(force) else f"{'-':>12}{'-':>11}" for force in (link.yield_n, link.breaking_n))
+        yield (f"{link.kind + ' ' + link.name:<26}{ends:<40}{length:>12.5g}{link.stiffness:>17.5g}{link.damping:>17.5g}{link.prestress:>15.5g}{link.slack:>11.4g}{limits}")

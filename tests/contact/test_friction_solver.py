@@ -112,3 +112,23 @@ def test_of_many_points_those_that_carry_are_a_problem_of_their_own():
     alone = solve_contact(W[:60, :60], q[:20], 0.3, np.zeros((20, 3)), tolerance=1e-14)
     every = iterate(W, q, np.full(60, 0.3), np.zeros_like(q), 1e-14, False, 800)
     assert every[1] <= 1e-14 and every[0][:20] == pytest.approx(alone.forces, abs=1e-7 * np.abs(alone.forces).max()) and not every[0][20:].any()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_slips_of_which_one_is_the_sum_of_others_take_newton_few_steps_from_a_good_guess(seed):
+    """Nodes of two bodies beside each other on the ground: left on ground, right on ground, left on right. Forces about such a node are not unique, their slips are."""
+    nodes, random = 4, np.random.default_rng(seed)
+    elastic = random.standard_normal((6 * nodes, 6 * nodes))
+    # of left and right nodes, and the three slips of each pair along axes of its own joint
+    moved = 1e-9 * (elastic @ elastic.T / (6 * nodes) + np.eye(6 * nodes))
+    left, right = np.eye(6 * nodes)[:3 * nodes], np.eye(6 * nodes)[3 * nodes:]
+    side = np.kron(np.eye(nodes), [[0, 1, 0], [0, 0, 1], [1, 0, 0]]) @ (left - right)
+    slips = np.concatenate([left, right, side])
+    W = slips @ moved @ slips.T
+    pressed = np.concatenate([random.normal(0, 50, (3 * nodes, 2)), random.uniform(500, 1500, (3 * nodes, 1))], axis=1)
+    q = -(W @ pressed.ravel()).reshape(-1, 3)
+    assert np.linalg.matrix_rank(W) == 6 * nodes
+    guess = pressed + random.normal(0, 1.0, pressed.shape)
+    found = iterate(W, q, np.full(3 * nodes, 0.7), guess, 1e-13, True, 800)
+    assert found[1] <= 1e-13 and found[2] <= 10 and found[3] == 0
+    assert violation(W, q, 0.7, found[0]) < 1e-12

@@ -185,11 +185,14 @@ def test_links_do_the_same_in_full_order_and_reduced(settings):
     rows, energies = run.advance(ground)
     other = made.advance(ground)[0]
     np.testing.assert_allclose(rows[:, 0, 3], other[:, WIDTH + 3], rtol=0, atol=AGREES)
-    damping = TERMS.index("damping")
-    assert energies[-1, damping] == pytest.approx(other[-1, ENERGY + damping], rel=1e-3, abs=1e-9)
-    assert (energies[-1, damping] < -1e-3) == bool({"damping", "yield_n", "breaking_n"} & set(settings))
+    links = TERMS.index("links")
+    assert energies[-1, links] == pytest.approx(other[-1, ENERGY + links], rel=1e-3, abs=1e-9)
+    assert (energies[-1, links] < -1e-3) == bool({"damping", "yield_n", "breaking_n"} & set(settings))
     assert closure(energies) < 1e-9
     assert run.state.ties["broken"] == made.motion.ties["broken"] and rows[:, 0, 3].max() > 0.01
+    assert energies[-1, TERMS.index("damping")] == 0.0 and run.state.ties["work"][0] == pytest.approx(-energies[-1, links], rel=1e-12, abs=1e-15)
+    for name in ("length", "flowed", "force", "work"):
+        np.testing.assert_allclose(run.state.ties[name], made.motion.ties[name], rtol=1e-3, atol=AGREES, err_msg=name)
 
 
 def ringing():

@@ -76,6 +76,28 @@ def test_every_dataset_of_the_states_of_a_structure_with_its_unit(tmp_path):
         assert listed("outputs", "states.h5") | listed("outputs", "states.h5 of a structure") == {name: file[name].attrs["unit"] for name in file}
 
 
+def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_path):
+    """Of bodies, joints, marks, storeys and links the name is left out."""
+    building = dict(kind="storeys", length_m=0.6, width_m=0.6, thickness_m=0.1, mass_kg=500.0, floors=1, floor_masses_kg=[100.0], storey_heights_m=[1.0], period_s=0.2, at_m=[0, 0, 0.4])
+    block = dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.4, element_size_m=0.3)
+    tie = dict(kind="spring", body="lower", to_point_m=[1, 0, 0], stiffness_n_m=1e3)
+    case = structure(bodies=dict(lower=block, upper=building), interfaces=dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")), links=dict(tie=tie),
+                     integration=dict(duration_s=0.01))
+    summary, found = run(case, tmp_path / "out", quiet=True), {}
+
+    def take(name, item):
+        kind, _, rest = name.partition("/")
+        if isinstance(item, h5py.Dataset):
+            found[f"{kind}/NAME/{rest.rpartition('/')[2]}" if kind in ("body", "interface", "mark", "storey", "link") else name] = item.attrs["unit"]
+
+    with h5py.File(tmp_path / "out" / "history.h5") as file:
+        file.visititems(take)
+    assert listed("outputs", "history.h5") | listed("outputs", "history.h5 of a structure") == found
+    entries = {name: next(iter(parts.values())) for name, parts in summary.items() if name in ("bodies", "interfaces", "storeys", "links")}
+    assert set(listed("outputs", "summary.json")) | set(entries) == set(summary)
+    assert set(listed("outputs", "summary.json of a structure")) == set(entries) | {f"{name}.{entry}" for name, entry in ((name, entry) for name in entries for entry in entries[name])}
+
+
 def test_every_entry_of_a_comparison_of_two_analyses(analysis, tmp_path):
     assert main(["compare", str(analysis), str(analysis), "-o", str(tmp_path / "out")]) == 0
     assert set(listed("outputs", "comparison.json")) == set(json.loads((tmp_path / "out" / "comparison.json").read_text()))

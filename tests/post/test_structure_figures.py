@@ -3,9 +3,20 @@
 import numpy as np
 import pytest
 
-from fecolumn.post.structure_figures import figure_names, interface_figure, storey_figure, structure_figures
+from fecolumn.post.structure_figures import figure_names, interface_figure, link_figure, link_names, storey_figure, structure_figures
 
 TIME = np.linspace(0, 1, 51)
+
+
+def _of_links(links: dict[str, int]) -> dict[str, np.ndarray]:
+    """Columns of links with so many copies each, 1 for one that stands alone, which pull each k kN at k mm more; the second copy breaks at half time."""
+    columns = {"time": TIME}
+    for link, count in links.items():
+        for k in range(1, count + 1):
+            name, broken = f"link/{link} {k}" if count > 1 else f"link/{link}", ((TIME > 0.5) & (k == 2)).astype(int)
+            columns |= {f"{name}/tension": 1e3 * k * TIME * (broken == 0), f"{name}/elongation": np.where(broken == 1, 5.0, 1e-3 * TIME), f"{name}/yielded": 0 * TIME,
+                        f"{name}/work": 0 * TIME, f"{name}/broken": broken}
+    return columns
 
 
 def _columns(joints: dict[str, int], storeys: int = 0) -> dict[str, np.ndarray]:
@@ -58,6 +69,28 @@ def test_storeys_have_drift_and_shear_along_the_axis_along_which_they_move(drawn
     assert len(figure.axes) == 4 and over_time.get_ylabel().endswith("[mm]") and figure.axes[2].get_ylabel().endswith("[kN]")
     assert over_time.lines[2].get_ydata().max() == pytest.approx(6.0, rel=0.01)
     assert list(peaks.lines[0].get_ydata()) == [1, 2, 3] and peaks.lines[0].get_xdata()[0] == pytest.approx(300, rel=0.01)
+
+
+def test_every_link_has_its_tension_over_time_and_over_its_elongation(drawn):
+    figure = drawn(link_figure, _of_links({"tendon": 4, "fuse": 1}), "", ["tendon", "fuse"])
+    over_time, loops, _, fuse = figure.axes
+    assert over_time.get_ylabel() == "tendon\ntension $T$ [kN]" and loops.get_xlabel() == "elongation $e$ [mm]" and figure.axes[2].get_xlabel() == "time [s]"
+    assert [len(axes.lines) for axes in figure.axes] == [4, 4, 1, 1] and over_time.get_ylim() == loops.get_ylim()
+    assert loops.lines[3].get_ydata()[-1] == pytest.approx(4.0) and loops.lines[3].get_xdata()[-1] == pytest.approx(1.0)
+    # a loop ends where the link breaks, its tension over time goes on at nothing
+    assert loops.lines[1].get_xdata().max() == pytest.approx(0.5) and len(over_time.lines[1].get_ydata()) == len(TIME)
+    assert [text.get_text() for text in loops.get_legend().get_texts()] == [f"tendon {k}" for k in (1, 2, 3, 4)] and fuse.get_legend() is None
+
+
+def test_of_many_links_the_one_that_pulls_most_stands_out(drawn):
+    figure = drawn(link_figure, _of_links({"tie": 9}), "", ["tie"])
+    assert [text.get_text() for text in figure.axes[1].get_legend().get_texts()] == ["9 links", "tie 9"]
+
+
+def test_links_have_files_of_three_each(tmp_path):
+    columns = _of_links({"a": 1, "b": 2, "c 4d": 1, "7": 1})
+    assert link_names(columns) == ["a", "b", "c 4d", "7"] and figure_names(columns) == ["links", "links_2"]
+    assert [file.stem for file in structure_figures(columns, tmp_path, formats=("png",))] == ["links", "links_2"]
 
 
 def test_more_interfaces_than_go_side_by_side_make_more_figures(tmp_path):

@@ -187,10 +187,25 @@ def test_a_tendon_that_is_tight_presses_the_block_down():
 def test_energy_of_links_is_accounted_for(settings):
     made, rows = tied(tie(**settings))
     assert rows[:, 4].max() > 0.01 and closure(rows) < 1e-11
-    lost = rows[-1, ENERGY + 8]
+    lost = rows[-1, ENERGY + 10]
     dissipates = bool({"damping", "yield_n", "breaking_n"} & set(settings))
     assert (lost < -1e-3) == dissipates and lost <= 1e-12
     assert made.motion.ties["broken"][0] == ("breaking_n" in settings) and (made.motion.ties["flowed"][0] != 0) == ("yield_n" in settings)
+    # nothing else is damped here, and nothing of it is booked elsewhere
+    assert rows[-1, ENERGY + 8] == 0.0 and made.motion.ties["work"].sum() == pytest.approx(-lost, rel=1e-12, abs=1e-15)
+
+
+def test_a_mass_that_a_yielding_spring_stops_has_lost_all_but_what_the_spring_then_gives_back():
+    """Without friction, along x at the height of the centre of mass: F_y times the plastic way is m v^2 / 2 less F_y^2 / 2 k."""
+    block, speed, stiffness, yields = box(0.3, 0.3, 0.8), 0.5, 1e5, 1e3
+    spring = tie(arm_a=np.zeros(3), arm_b=np.array([-2.0, 0, 0.4]), stiffness=stiffness, yield_n=yields)
+    made = engine([part("block", block, (0, 0, 0), velocity=(speed, 0.0, 0.0))], [joint(0, GROUND, block, friction=0.0)], [spring])
+    rows, _ = made.advance(np.zeros((300, 3)))
+    plastic = (block.mass * speed**2 / 2 - yields**2 / (2 * stiffness)) / yields
+    tension, elongation, yielded, work, broken = rows[:, -5:].T
+    assert work[-1] == pytest.approx(yields * plastic, rel=1e-4) and yielded[-1] == pytest.approx(plastic, rel=1e-4) and rows[-1, ENERGY + 10] == pytest.approx(-work[-1], rel=1e-12)
+    assert elongation.max() == pytest.approx(plastic + yields / stiffness, rel=1e-4) and tension.max() == pytest.approx(yields, rel=1e-12) and not broken.any()
+    assert np.abs(rows[:, WIDTH - 1]).max() < 1e-12 * block.mass * speed**2 / 2
 
 
 def test_a_tendon_that_a_lean_has_stretched_is_loaded_from_the_start():

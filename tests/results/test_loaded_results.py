@@ -1,5 +1,6 @@
 """Results as Python objects: what a script or a notebook sees of an analysis and of a study."""
 
+import shutil
 import sys
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import pytest
 
 import fecolumn
 from fecolumn import InputError
+from fecolumn.results.analysis import AnalysisResult
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from synthetic_study import ALPHA, write_synthetic  # noqa: E402
@@ -61,6 +63,18 @@ def test_history_has_arrays_with_units(analysis):
     assert abs(analysis.energy["closure"]).max() < 1e-9
     with pytest.raises(KeyError, match="'speed' is not in the history; it has"):
         analysis["speed"]
+
+
+def test_energy_of_a_history_of_an_earlier_version_has_the_terms_that_it_lacks(analysis, tmp_path):
+    import h5py
+
+    shutil.copytree(analysis.folder, tmp_path / "old")
+    with h5py.File(tmp_path / "old" / "history.h5", "a") as file:
+        del file["energy/links"]
+    old = AnalysisResult(tmp_path / "old")
+    assert list(old.energy) == list(analysis.energy) and not old.energy["links"].any() and old.energy["links"].shape == old.time.shape
+    np.testing.assert_array_equal(old.energy["kinetic"], analysis.energy["kinetic"])
+    assert old.plot.energy()._repr_png_().startswith(b"\x89PNG") and not old.compare(analysis).energy["links"].difference.any()
 
 
 def test_columns_are_named_with_component_and_unit(analysis):
