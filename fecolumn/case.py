@@ -113,7 +113,7 @@ class Integration(Section):
 
     dt_s: float = parameter(1e-3, doc="time step", unit="s", above=0, high=0.1)
     alpha_hht: float = parameter(-0.2, doc="HHT alpha of Hilber, Hughes and Taylor (OpenSees writes 1 + alpha)", low=-1 / 3, high=0)
-    engine: str = parameter("full", doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, exact static compliance of the same mesh; rigid: reduced without modes; housner: no finite elements, the planar rigid block of fecolumn help rocking; wobbling: the rigid column that rolls on its rim; rocking_frame, wobbling_frame, podium: models of a table of their own, such as [podium]", choices=("full", "reduced", "rigid", *MODEL_ENGINES))
+    engine: str = parameter("full", doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, exact static compliance of the same mesh; rigid: reduced without modes, a structure's bodies without any give; housner: no finite elements, the planar rigid block of fecolumn help rocking; wobbling: the rigid column that rolls on its rim; rocking_frame, wobbling_frame, podium: models of a table of their own, such as [podium]", choices=("full", "reduced", "rigid", *MODEL_ENGINES))
     n_modes: int = parameter(100, doc="elastic modes of the reduced engine, all where the mesh has fewer; the others respond statically", low=0, high=1000)
     kinematics: str = parameter("corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian"))
     duration_s: float = parameter(0.0, doc="analysed time; 0 takes the motion and its free vibration, and must not stand where there is no motion", unit="s", low=0, high=1e5)

@@ -11,11 +11,11 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import flat, largest, put_points
-from fecolumn.contact.compliance import assemble, even_out
+from fecolumn.contact.compliance import assemble
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.problem import IMPACT_FAILED, N_CONTACT, OK
 from fecolumn.contact.restitution import returned_share
-from fecolumn.contact.tolerances import FEW_POINTS, FULL_FRICTION, IMPACT_COMPLIANCE, IMPACT_LEAST, IMPACT_SOLVED, OPEN, SHARP, SLIDE, SWEEPS_MOST
+from fecolumn.contact.tolerances import FULL_FRICTION, IMPACT_GIVES, IMPACT_LEAST, IMPACT_LEFT, IMPACT_SOLVED, OPEN, SHARP, SLIDE, SWEEPS_MOST
 
 # Answers of `what_happens`
 NOTHING, LANDS, TURNS = range(3)
@@ -114,15 +114,8 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
     impulses = np.zeros((len(after), 3))
     union = touched(listed, before, after)
     k = len(union)
-    for i in union:
-        even_out(bodies, base, points, i, poses)
-    mobility, compliance = np.empty((3 * k, 3 * k)), np.empty((3 * k, 3 * k))
-    assemble(bodies, base, points, arms, union, poses, 0.0, bodies.static, 1.0, springs.own, compliance)
+    mobility = np.empty((3 * k, 3 * k))
     assemble(bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, mobility)
-    share = IMPACT_COMPLIANCE * 2 / dt**2
-    for i in range(3 * k):
-        for j in range(3 * k):
-            compliance[i, j] = mobility[i, j] + share * compliance[i, j]
     held, m = np.empty(k, np.int64), 0
     given, start, end, friction = np.empty(3 * k), np.empty(3 * k), np.empty(3 * k), np.empty(k)
     for j in range(k):
@@ -145,7 +138,7 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
         for j in range(m):
             for a in range(3):
                 for b in range(3):
-                    inner[3 * i + a, 3 * j + b] = compliance[3 * held[i] + a, 3 * held[j] + b]
+                    inner[3 * i + a, 3 * j + b] = mobility[3 * held[i] + a, 3 * held[j] + b]
     carried, second, velocity, taken = np.zeros(3 * k), np.zeros(3 * k), np.empty(3 * k), 0.0
     guess_of_all, changed = np.empty(3 * k), np.empty(3 * k)
     for attempt in range(2 if lands and moment > 0 else 1):
@@ -166,7 +159,7 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
         jump = mobility @ carried
         for j in range(3 * k):
             velocity[j], guess_of_all[j] = free[j] + jump[j], given[j] - carried[j]
-        second, solved = _flat_impulses(compliance, velocity, friction, guess_of_all, counts)
+        second, solved = _flat_impulses(mobility, velocity, friction, guess_of_all, counts)
         if not solved:
             return IMPACT_FAILED, False, impulses
         # judged by velocities relative to the master: whether contact takes energy must not depend on the frame
@@ -189,7 +182,7 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
         jump = mobility @ carried
         for j in range(3 * k):
             velocity[j] += jump[j]
-        blow, solved = _flat_impulses(compliance, velocity, friction, second, counts)
+        blow, solved = _flat_impulses(mobility, velocity, friction, second, counts)
         if not solved:
             return IMPACT_FAILED, False, impulses
         returned, jump = mobility @ blow, mobility @ changed
@@ -258,12 +251,40 @@ def _flat_impulses(mobility, velocity, friction, guess, counts):
 
 @njit
 def _impulses(mobility, velocity, friction, guess, counts):
-    """Impulses (k, 3) of points with velocities (k, 3) [m/s] without them, and whether they obey the laws."""
-    allowed, impulses = IMPACT_SOLVED * max(largest(velocity), IMPACT_LEAST), guess
+    """Impulses (k, 3) of points with velocities (k, 3) [m/s] without them, and whether they obey the laws, up to IMPACT_LEFT of the largest velocity.
+
+    Each point gives a little against its impulse, a share of its own mobility, without which many impulses on a stiff foot are not unique. The velocity that
+    this leaves is taken off in the next solution, which is close to the last one (proximal point, Rockafellar 1976).
+    """
+    k, speed, turns = len(velocity), max(largest(velocity), IMPACT_LEAST), 0
+    softened, asked, impulses, last, give = mobility.copy(), velocity.copy(), guess, np.zeros((k, 3)), np.empty(k)
+    for share in IMPACT_GIVES:
+        for i in range(k):
+            give[i] = share * (mobility[3 * i, 3 * i] + mobility[3 * i + 1, 3 * i + 1] + mobility[3 * i + 2, 3 * i + 2]) / 3
+            for a in range(3):
+                softened[3 * i + a, 3 * i + a] = mobility[3 * i + a, 3 * i + a] + give[i]
+                asked[i, a] = velocity[i, a] - give[i] * last[i, a]
+        impulses, solved = _softened_impulses(softened, asked, friction, impulses, IMPACT_SOLVED * speed, counts)
+        if not solved:
+            return last, turns > 0
+        turns, left = turns + 1, 0.0
+        for i in range(k):
+            for a in range(3):
+                left = max(left, give[i] * abs(impulses[i, a] - last[i, a]))
+        if left <= IMPACT_LEFT * speed:
+            break
+        last = impulses
+    return impulses, True
+
+
+@njit
+def _softened_impulses(compliance, velocity, friction, guess, allowed, counts):
+    """Impulses (k, 3) that obey the laws up to a velocity [m/s], and whether they do: where there are several, those that Newton finds from the guess."""
+    impulses = guess
     for attempt in range(2):
         # a guess far off can trap the iteration: zero is the second
         start = guess if attempt == 0 else np.zeros((len(guess), 3))
-        impulses, residual, newtons, others = iterate(mobility, velocity, friction, start, SHARP * allowed, len(velocity) <= FEW_POINTS, SWEEPS_MOST)
+        impulses, residual, newtons, others = iterate(compliance, velocity, friction, start, SHARP * allowed, True, SWEEPS_MOST)
         counts[N_CONTACT] += newtons + others
         if residual <= allowed:
             return impulses, True

@@ -65,6 +65,11 @@ PAD_TURN = 5e-3
 #: A foot that in one step moves by less than this share of the above will stay long enough for the operator to pay.
 STICK_STAYS = 0.2
 
+# --- Bodies that do not deform ------------------------------------------------------------------------------------------------------------------
+#: Compliance of their contact points over the mobility of the body's points within a step, so that many points share forces in one way only. In the step of a landing it stores a quarter of
+#: this share of the kinetic energy that goes, whatever the step; below a body that weighs more it is more by the ratio of the masses.
+RIGID_GIVE = 1e-3
+
 # --- Impact and end of slip -----------------------------------------------------------------------------------------------------------------
 #: Height at the start of a step above which a point that touches at its end has landed: far above PENETRATION, far below any flight.
 OPEN = 1e-8
@@ -76,9 +81,10 @@ SLIDE = 1e-7
 FULL_FRICTION = 1e-9
 #: Residual velocity of an impact over the largest velocity of its points, and the least such velocity [m/s], below which nothing moves.
 IMPACT_SOLVED, IMPACT_LEAST = 1e-8, 1e-3
-#: Share of the static compliance in the impact problem. A foot filtered to a long step moves almost rigidly and its many impulses would not be
-#: unique; the share leaves a closing velocity of about 1e-6 m/s.
-IMPACT_COMPLIANCE = 1e-3
+#: What a point gives against its impulse over its own mobility, in one solution of an impact after the other: without it a stiff foot's many impulses are not unique. What the first one
+#: leaves closing is up to 4e-2 of the approach below a heavy slab, 6e-4 at a column's foot; each further one leaves as little of that. It ends where a solution changes velocities by less
+#: than this share of the largest. Of 105 recorded impacts none then closes by more than 6e-4 of its approach.
+IMPACT_GIVES, IMPACT_LEFT = (1e-4, 1e-4, 1e-5, 1e-5, 1e-5), 1e-4
 
 # --- Rolling rim ------------------------------------------------------------------------------------------------------------------------------
 #: Tilt [rad] below which the points stay where they are on the rim: circle and polygon are then less than a nanometre apart.

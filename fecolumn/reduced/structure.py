@@ -8,6 +8,7 @@ from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.joints import joints_of
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import poses_of
+from fecolumn.contact.tolerances import RIGID_GIVE
 from fecolumn.dynamics.links import links_of
 from fecolumn.dynamics.overturning import never_alone
 from fecolumn.reduced.model import Structure, modal_sum
@@ -33,7 +34,7 @@ def structure_of(model, hht, gravity) -> tuple[Structure, np.ndarray]:
         damping[b, :m] = 2 * ratio * body.frequencies
         shrink = 1 / (1 + squares[b, :m] * hht.stiffness_factor / hht.mass_factor)
         own = body.shapes * (2 * shrink - shrink**2)
-        static = node_matrix(body.flexibility) - modal_sum(own, 1 / squares[b, :m])
+        static = node_matrix(body.flexibility) - modal_sum(own, 1 / squares[b, :m]) if body.flexibility.any() else _least_give(body, hht.dt)
         bodies.append(one_body(body.arms, static, modal_sum(own, np.ones(m)), float(body.mass), body.inertia))
         pushes.append(np.pad(own, ((0, 0), (0, 0), (0, modes - m))))
     whole, first = joined(bodies), np.cumsum([0] + [len(part.model.arms) for part in parts])
@@ -45,6 +46,18 @@ def structure_of(model, hht, gravity) -> tuple[Structure, np.ndarray]:
     structure = Structure(Bodies(*whole[:4], joints.facets), np.ascontiguousarray(np.concatenate(pushes)), squares, damping, reach, joints.interfaces,
                           joints.rim, joints.overlaps, links_of(model, hht), np.array(gravity, float))
     return structure, joints.points
+
+
+def _least_give(body, dt: float) -> np.ndarray:
+    """Static compliance (3 n, 3 n) [m/N] of a BodyModel that does not deform, in steps dt [s]: each contact point gives alone, RIGID_GIVE of what the body's points move on the mean."""
+    touching = np.unique(np.concatenate([np.zeros(0, np.int64), *(surface.nodes for surface in body.surfaces.values())]))
+    turning = np.linalg.inv(body.inertia)
+    # trace of 1 / m + [a] J^-1 [a]^T
+    turned = [np.trace(turning) * (arm @ arm) - arm @ turning @ arm for arm in body.arms[touching]]
+    static = np.zeros(2 * (3 * len(body.arms),))
+    rows = (3 * touching[:, None] + np.arange(3)).ravel()
+    static[rows, rows] = RIGID_GIVE * dt**2 / 2 * (1 / body.mass + np.sum(turned) / (3 * max(len(touching), 1)))
+    return static
 
 
 def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOST) -> View:

@@ -35,7 +35,7 @@ class Stuff(Placed):
     poissons_ratio: float | None = parameter(None, doc="Poisson's ratio; left out: the material's", low=0, high=0.49)
     density_kg_m3: float | None = parameter(None, doc="density; left out: the material's", unit="kg/m3", above=0, high=1e5)
     mass_kg: float | None = parameter(None, doc="mass; its density follows from it", unit="kg", above=0, high=1e12)
-    contact_stiffness_n_m3: float | None = parameter(None, doc="stiffness per area of the faces of a body that does not deform; left out: that of a rigid punch of the face's area on its material, 2 E / ((1 - nu^2) sqrt(pi A))", unit="N/m3", above=0, high=1e20)
+    contact_stiffness_n_m3: float | None = parameter(None, doc="stiffness per area of the faces of a body that does not deform; left out: that of a rigid punch of the face's area on its material, 2 E / ((1 - nu^2) sqrt(pi A)), none in the rigid engine", unit="N/m3", above=0, high=1e20)
     element_size_m: float | None = parameter(None, doc="element size at feet, heads and where other bodies stand; left out: 24 elements around, 8 along a block, a half of what stands on a plate", unit="m", above=0, high=100)
 
 
@@ -45,7 +45,7 @@ class Solid(Stuff):
 
     coarse_size_m: float | None = parameter(None, doc="largest element size away from there; left out: a fifth of the smaller side, of a plate an eighth of its longer one", unit="m", above=0, high=100)
     element_order: int | None = parameter(None, doc="polynomial order of its elements; left out: 1, but 2 of plates and tetrahedra", low=1, high=2)
-    rigid: bool = parameter(False, doc="a rigid body that gives only at its contact points, by contact_stiffness_n_m3")
+    rigid: bool = parameter(False, doc="a rigid body that gives only at its contact points, by contact_stiffness_n_m3; in the rigid engine every body is rigid and gives nowhere unless that is stated")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -64,7 +64,7 @@ class BodyModel:
 
     mass [kg]; inertia: (3, 3) [kg m2] about the centre of mass; center: (3,) [m] of mass in the drawing of the body.
     frequencies: (m,) [rad/s], rising, of the free-free elastic modes with unit modal mass; shapes: (n, 3, m) [1/sqrt(kg)] at the nodes.
-    flexibility: (n, n, 3, 3) [m/N] of the nodes by all elastic modes, the exact static one of the free body.
+    flexibility: (n, n, 3, 3) [m/N] of the nodes by all elastic modes, the exact static one of the free body; zero of a body that does not deform.
     arms: (n, 3) [m] of the nodes.
     dofs: of the mesh it was made from, 0 where there was none.
     surfaces: by name, such as "foot" and "head".
@@ -98,6 +98,10 @@ class BodyModel:
                        marks={name: (arm, np.ascontiguousarray(shape[:, :count])) for name, (arm, shape) in self.marks.items()},
                        damping=None if self.damping is None else self.damping[:count],
                        storeys=self.storeys and replace(self.storeys, drifts=np.ascontiguousarray(self.storeys.drifts[:, :, :count])))
+
+    def undeformed(self) -> BodyModel:
+        """The body without modes and without any give."""
+        return replace(self.with_modes(0), flexibility=np.zeros_like(self.flexibility))
 
 
 @dataclass(frozen=True)

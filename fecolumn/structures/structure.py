@@ -125,7 +125,7 @@ def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> Structu
     check_links(case, layout["extents"], file)
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
     places = {copy: place for place, copy in enumerate(copies)}
-    kept = {name: model.with_modes(case.modes_of(name)) for name, model in bodies.items()}
+    kept = {name: _that_moves(case, name, model) for name, model in bodies.items()}
     standing = _standing(case, copies, [kept[name] for name, _ in copies])
     joints = [_joint(case, contact, kept, places, layout["sizes"], file) for contact in layout["contacts"]]
     check_joints(joints, standing, file)
@@ -139,6 +139,13 @@ def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> Structu
     structure = StructureModel(parts, tuple(joints), links, ground, _observed(case, parts, places, file))
     check_rest(case, structure, standing, file)
     return structure
+
+
+def _that_moves(case, name: str, model: BodyModel) -> BodyModel:
+    """A body with its modes; in the rigid engine without any give but that of a stated contact stiffness."""
+    if case.integration.engine == "rigid" and getattr(case.bodies[name], "contact_stiffness_n_m3", None) is None:
+        return model.undeformed()
+    return model.with_modes(case.modes_of(name))
 
 
 def standing_of(case, structure: StructureModel) -> list[Standing]:
@@ -183,7 +190,9 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
 
 
 def _with_hertz(case, joints, standing, copies) -> list[Joint]:
-    """The joints, domes with the compliance of a sphere on what they stand on, linear about what they carry at rest."""
+    """The joints, domes with the compliance of a sphere on what they stand on, linear about what they carry at rest; none in the rigid engine."""
+    if case.integration.engine == "rigid":
+        return joints
     found = []
     for joint, load in zip(joints, loads(standing, joints)):
         if joint.ball and joint.ball.is_dome:

@@ -1,10 +1,13 @@
-"""Structures of boxes that are rigid but for their contact points: every number of them is known."""
+"""Structures of boxes that are rigid, most of them but for their contact points: every number of them is known."""
+
+from dataclasses import replace
 
 import numpy as np
 
 from fecolumn import case
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.hht import HHT
+from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced.run import Engine
 from fecolumn.reduced.start import of_parts
 from fecolumn.reduced.structure import structure_of, view_of
@@ -81,6 +84,26 @@ def frame(columns, order=None, dt=1e-3, at=(0.0, 0.0, 0.0)):
     for i in range(columns) if order is None else reversed(range(columns)):
         joints += [joint(number[i], GROUND, column), joint(number[i], number[-1], column, surface="head", on="foot")]
     return engine(parts, joints, observed=number[-1], dt=dt), slab, column
+
+
+def bent(ratio: float, dt: float, tilt: float, breadth=1.2, height=8.0):
+    """A cap of `ratio` times the mass of the two piers that it lies on, all without any give, let go where the piers lean by `tilt` [rad].
+
+    Returns: an Engine, the gravity energy of the upright bent less that at the start [J], the slenderness of a pier [rad].
+    """
+    pier, span = box(breadth, breadth, height, gives=0.0), 6.0
+    cap = box(2 * span, 2 * breadth, 1.5, density=2 * ratio * pier.mass / (2 * span * 2 * breadth * 1.5), gives=0.0, per_side=9)
+    turn, edge = rotation_matrix(np.array([0.0, tilt, 0.0])), np.array([breadth / 2, 0, 0])
+    # the inner corner of the head, on which the cap lies
+    corner = np.array([-breadth / 2, 0, height])
+    carried = turn @ (corner - edge) + edge - corner
+    parts = [part(f"pier {k}", pier, (x, 0, 0)) for k, x in enumerate((-span / 2, span / 2))] + [part("cap", cap, (0, 0, height))]
+    upright = [one.center for one in parts]
+    leaning = [replace(one, center=turn @ (pier.center - edge) + edge + one.center - pier.center, rotation=turn) for one in parts[:2]]
+    leaning.append(replace(parts[2], center=parts[2].center + carried))
+    joints = [one for k in range(2) for one in (joint(k, GROUND, pier), joint(k, 2, pier, surface="head", on="foot"))]
+    below = sum(one.model.mass * case.GRAVITY * (there[2] - one.center[2]) for one, there in zip(leaning, upright))
+    return engine(leaning, joints, dt=dt, stands=False, observed=2), below, np.arctan(breadth / height)
 
 
 def pulse(amplitude, period, steps, dt=1e-3):

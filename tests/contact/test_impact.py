@@ -5,6 +5,7 @@ import pytest
 from two_blocks import NO_BASE
 
 from fecolumn.contact.bodies import joined, one_body
+from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact, mark_landing
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.pad import Springs
@@ -98,3 +99,98 @@ def test_what_an_impact_gives_back_is_not_booked_as_its_gain():
         booked = book_impulses(gained, impact, contact, friction)
         assert sum(booked) == pytest.approx(gained + impact + contact + friction, abs=1e-14)
         assert booked[0] <= 0 and booked[1] <= max(contact, 0.0) + 1e-15 and booked[2] <= 1e-15
+
+
+def ring(radius, height, count):
+    """Arms (count, 3) of points around a circle."""
+    angles = 2 * np.pi * (np.arange(count) + 0.5) / count
+    return np.column_stack([radius * np.cos(angles), radius * np.sin(angles), np.full(count, height)])
+
+
+def square(half, height, side=5):
+    """Arms of points on the outline of a square."""
+    line = np.linspace(-half, half, side)
+    return np.array([[x, y, height] for x in line for y in line if max(abs(x), abs(y)) == half])
+
+
+def elastic(mass, inertia, arms, give, modes=0):
+    """A body whose points give alone by `give` [m/N], and by modes of its own mass."""
+    n = 3 * len(arms)
+    shapes = np.random.default_rng(3).normal(size=(n, modes)) / np.sqrt(mass)
+    return one_body(arms, give * np.eye(n), shapes @ shapes.T, mass, np.diag(inertia))
+
+
+#: Of a column half width and height [m], mass [kg], inertia across it [kg m2]; its slenderness.
+HALF, HEIGHT, MASS = 0.1, 1.5, 120.0
+ACROSS = MASS / 12 * (HEIGHT**2 + 4 * HALF**2)
+SLENDER = np.arctan(2 * HALF / HEIGHT)
+
+
+def a_foot(give):
+    """A column with twenty modes that rocks about a side of its foot and comes down on all of it: bodies, points, velocities (n, 3), those that carried, velocities of all bodies."""
+    arms = ring(HALF, -HEIGHT / 2, 48)
+    velocity = np.array([[0, 0, HALF * (1 - np.cos(angle)) * -0.3] for angle in 2 * np.pi * (np.arange(48) + 0.5) / 48])
+    velocity[:, 2] -= velocity[:, 2].max()
+    return elastic(MASS, [ACROSS, ACROSS, 2.0], arms, give, 20), node_points(arms, 0.8, master=BASE), velocity, velocity[:, 2] > -1e-9
+
+
+def a_frame(give, slab=17e3):
+    """A slab on four columns that rock about the sides of their feet and heads, and come down on all of them."""
+    foot, head, rate = square(HALF, -HEIGHT / 2), square(HALF, HEIGHT / 2), 0.3
+    places, n = [(-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5)], len(square(HALF, 0.0))
+    column = elastic(MASS, [ACROSS, ACROSS, 2.0], np.concatenate([foot, head]), give)
+    under = np.concatenate([head + [x, y, -HEIGHT / 2 - 0.2] for x, y in places])
+    bodies = joined([column] * 4 + [elastic(slab, [slab * 1.4, slab * 1.4, slab * 2.7], under, give)])
+    points = []
+    for k in range(4):
+        points.append(node_points(foot, 10.0, slave=k, master=BASE, first=2 * n * k))
+        points.append(node_points(under[n * k:n * (k + 1)], 10.0, slave=4, master=k, first=8 * n + n * k))
+        points[-1]["below"], points[-1]["shares"], points[-1]["seat"] = 2 * n * k + n + np.arange(n)[:, None], [1.0, 0, 0, 0], head
+    down = -2 * rate * HALF * (HALF - foot[:, 0]) / (2 * HALF)
+    up = -2 * rate * HALF * (HALF + head[:, 0]) / (2 * HALF)
+    velocity = np.zeros((8 * n, 3))
+    velocity[:, 2] = np.tile(np.concatenate([down, up]), 4)
+    return bodies, np.concatenate(points), velocity, velocity[:, 2] > -1e-12
+
+
+@pytest.mark.parametrize("made, give", [(a_foot, 1e-9), (a_foot, 0.0), (a_frame, 1e-9), (a_frame, 0.0)])
+@pytest.mark.parametrize("parts", [1, 8, 64])
+def test_an_impact_is_plastic_whatever_the_step_and_the_faces(made, give, parts):
+    """Nothing closes by more than a thousandth of the approach, friction stays in its cone, and no energy is made: in a step as in its 64th, on soft faces as on stiff ones."""
+    bodies, points, velocity, carried = made(give)
+    n, dt = len(points), 1e-3 / parts
+    interface = interface_of(np.array([[0.0, 0, 0], [0.2, 0, 0]]), master=points["master"][0])
+    before, after, landing = np.zeros(n, CONTACT), np.zeros(n, CONTACT), ~carried
+    before["relative"][~carried, 2], before["force"][carried, 2], after["force"][:, 2] = 1e-6, 1.0, 1.0
+    mobility, poses, listed = np.empty((3 * n, 3 * n)), poses_on_base(np.eye(3)[None]), np.arange(n)
+    assemble(bodies, NO_BASE, points, points["arm"].copy(), listed, poses, 1.0, bodies.mobility, 0.0, np.zeros((n, 3)), mobility)
+    given = dt * after["force"].ravel()
+    late, counts = velocity + (mobility @ given).reshape(n, 3), np.zeros(N_COUNTS, np.int64)
+    answer, pushed, impulses = find_impact(bodies, NO_BASE, points, interface, Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0), listed, points["arm"].copy(), poses,
+                                           before, after, velocity, late, landing, np.zeros(n, bool), True, dt, 0.0, counts)
+    assert answer == OK and pushed
+    total = impulses.ravel() + given
+    left, each = velocity + (mobility @ total).reshape(n, 3), total.reshape(n, 3)
+    rounding = 1e-12 * each[:, 2].sum()
+    assert left[:, 2].min() > 1e-3 * velocity[:, 2].min()
+    # those that carried until then may open
+    assert left[~carried & (each[:, 2] > rounding), 2].max() < -1e-3 * velocity[:, 2].min()
+    assert np.all(np.hypot(each[:, 0], each[:, 1]) <= points["friction"] * each[:, 2] + rounding)
+    assert total @ (velocity.ravel() + mobility @ total / 2) < 0
+
+
+@pytest.mark.parametrize("slab", [48.0, 480.0, 17e3])
+def test_a_frame_keeps_what_the_theory_of_rocking_frames_says(slab):
+    """Makris and Vassiliou (2013): rate after over before an impact."""
+    bodies, points, velocity, carried = a_frame(1e-9, slab)
+    n, ratio = len(points), slab / (4 * MASS)
+    interface = interface_of(np.array([[0.0, 0, 0], [0.2, 0, 0]]))
+    before, after = np.zeros(n, CONTACT), np.zeros(n, CONTACT)
+    before["relative"][~carried, 2], before["force"][carried, 2], after["force"][:, 2] = 1e-6, 1e-9, 1e-9
+    mobility, poses, listed = np.empty((3 * n, 3 * n)), poses_on_base(np.eye(3)[None]), np.arange(n)
+    assemble(bodies, NO_BASE, points, points["arm"].copy(), listed, poses, 1.0, bodies.mobility, 0.0, np.zeros((n, 3)), mobility)
+    answer, _, impulses = find_impact(bodies, NO_BASE, points, interface, Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0), listed, points["arm"].copy(), poses,
+                                      before, after, velocity, velocity, ~carried, np.zeros(n, bool), True, 1e-4, 0.0, np.zeros(N_COUNTS, np.int64))
+    left = velocity + (mobility @ impulses.ravel()).reshape(n, 3)
+    kept = (1 - 1.5 * np.sin(SLENDER)**2 + 3 * ratio * np.cos(2 * SLENDER)) / (1 + 3 * ratio)
+    assert answer == OK and left[:, 2].max() / -velocity[:, 2].min() == pytest.approx(kept, abs=5e-3 * (1 - kept))
