@@ -3,7 +3,7 @@
     ./containers/run python -m benchmarks.substeps [-o DIR] [-j N] [--finest]
 
 Three tables: a line for each setting; pairs of settings; and, under the motion as it is sampled at 0.02 s, what a literal step of 0.02 s errs by: its landing (impacts
-found in the step), its rolling (the rim followed in parts), or both. Of a pair: D, the largest distance of the CDFs of u_max; its p, settings swapped within motions; the
+found in the step), its rolling (the rim followed in parts), or both; J is what impacts, contact and friction take. Of a pair: D, the largest distance of the CDFs of u_max; its p, settings swapped within motions; the
 motions that overturn in one setting alone, and McNemar's p of as many either way. No p is corrected for the number of pairs. Resumed where it was stopped.
 """
 
@@ -84,13 +84,21 @@ def tables(found: dict[Setting, dict]) -> str:
     text += ["", "| pair | D | p | overturns in one alone | McNemar p |", "|---|---:|---:|---:|---:|"]
     text += [f"| {first}; {second} | {pair_cells(found[first], found[second])}" for first, second in PAIRS if first in found and second in found]
     if SAMPLED in found:
-        text += ["", f"| against {SAMPLED} | overturned | D | p | overturns in one alone | McNemar p |", "|---|---:|---:|---:|---:|---:|"]
-        for setting in CAUSES:
-            if setting in found:
-                over = sum(bool(run["overturned"]) for run in found[setting].values())
-                cells = pair_cells(found[setting], found[SAMPLED]) if setting != SAMPLED else "- | - | - | - |"
-                text.append(f"| {setting} | {over} | {cells}")
+        there = {setting: found[setting] for setting in CAUSES if setting in found}
+        energy = taken(list(there.values()))
+        text += ["", f"| against {SAMPLED} | overturned | D | p | overturns in one alone | McNemar p | impacts | J |", "|---|---:|---:|---:|---:|---:|---:|---:|"]
+        for (setting, runs), joules in zip(there.items(), energy):
+            over, impacts = sum(bool(run["overturned"]) for run in runs.values()), np.mean([run["impacts"] for run in runs.values()])
+            cells = pair_cells(runs, found[SAMPLED]) if setting != SAMPLED else "- | - | - | - |"
+            text.append(f"| {setting} | {over} | {cells} {impacts:.0f} | {joules:.3f} |")
     return "\n".join(text)
+
+
+def taken(settings: list[dict]) -> list[float]:
+    """Energy [J] that impacts, contact and friction take of a motion, in each setting: means of those motions that are lost in none; nan where there is none."""
+    common = [motion for motion in settings[0] if all(motion in runs and not lost(runs[motion]) for runs in settings)]
+    return [-float(np.mean([sum(runs[motion]["energy_j"][term] for term in ("impact", "contact", "friction")) for motion in common])) if common else np.nan
+            for runs in settings]
 
 
 def main() -> None:
