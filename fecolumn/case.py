@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fecolumn.content import content
-from fecolumn.model_keys import check_model
+from fecolumn.dynamics.cuts import SUBSTEPS
+from fecolumn.model_keys import check_model, check_substeps
 from fecolumn.paths import OF_SECTIONS as FILES
 from fecolumn.paths import absolute
 from fecolumn.schema import InputError, Section, build, merge, nested, parameter, read_toml, stated
@@ -120,6 +121,7 @@ class Integration(Section):
     tolerance: float = parameter(1e-7, doc="residual force at convergence as a fraction of the largest nodal force; of engine = \"full\" alone", above=0, high=1e-2)
     max_iterations: int = parameter(20, doc="iterations of a step before it is cut; of engine = \"full\" alone", low=2, high=1000)
     max_cuts: int = parameter(4, doc="halvings of a step that does not converge before the analysis fails", low=0, high=12)
+    substeps: str = parameter("rolling", doc="what a step is made in parts for, 64 at most; rolling: a round rim that rolls fast; impacts: a point that lands, so that it does in the smallest part; none: nothing, the step that is asked for is taken. What does not converge is cut in any case", choices=SUBSTEPS, since="0.6.7")
 
 
 @dataclass(frozen=True, slots=True)
@@ -361,6 +363,7 @@ def check(case: Case, file) -> None:
                 refuse(f"integration.{key}", value, f"has no effect where integration.engine = {case.integration.engine!r}, which solves a step's "
                        "contact to its own tolerance: leave it out, or choose integration.engine = 'full'")
     check_model(case, MODEL_ENGINES, refuse)
+    check_substeps(case, MODEL_ENGINES, refuse)
     time = case.integration.duration_s or (case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0)
     if time / case.integration.dt_s > MOST_STEPS:
         refuse("integration.dt_s", case.integration.dt_s, f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} steps in {time:g} s")

@@ -1,4 +1,4 @@
-"""What a case must leave out where its engine is a rocking model of rigid bodies."""
+"""What a case must leave out where its engine is a rocking model of rigid bodies, and where there is nothing to make a step in parts for."""
 
 from __future__ import annotations
 
@@ -20,3 +20,14 @@ def check_model(case, models, refuse) -> None:
     if case.initial.moves:
         key = "velocity_m_s" if any(case.initial.velocity_m_s) else "spin_rad_s"
         refuse(f"initial.{key}", list(getattr(case.initial, key)), f"must be 0 where integration.engine = {engine!r}; it starts from initial.tilt_rad")
+
+
+def check_substeps(case, models, refuse) -> None:
+    """integration.substeps where it would say nothing: of a rocking model, an engine of `models`, and of contact without impacts."""
+    value, engine = case.integration.substeps, case.integration.engine
+    if value != "rolling" and engine in models:
+        refuse("integration.substeps", value, f"has no effect where integration.engine = {engine!r}: leave it out")
+    if value == "impacts" and case.contact.impact == "none":
+        refuse("integration.substeps", value, "must be rolling or none where contact.impact = 'none': there are no impacts to find in a step")
+    if value == "impacts" and case.base.kind == "pad":
+        refuse("integration.substeps", value, "must be rolling or none where base.kind = 'pad', whose springs take the place of impacts")

@@ -49,7 +49,7 @@ def test_studies_older_than_younger_keys_keep_the_names_of_their_results(tmp_pat
     del tables["title"], tables["output"], tables["flange"]
     younger = {"motion": ("delay_s", "resample_s", "rest_ceiling_s"), "mesh": ("limit_dofs",), "column": ("shape", "length_m", "width_m"), "material": ("damping_ratio",),
                "contact": ("restitution", "rolling_resistance", "interior_points"), "initial": ("velocity_m_s", "spin_rad_s"),
-               "base": ("kind", "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio")}
+               "base": ("kind", "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"), "integration": ("substeps",)}
     for section, keys in younger.items():
         for key in keys:
             del tables[section][key]

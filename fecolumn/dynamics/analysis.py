@@ -30,7 +30,7 @@ class FullAnalysis(Analysis):
         self.warn_of_base(self.system.base.frequency, self.system.interface.pad, file)
         self.ledger = Ledger(self.system)
         self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
-                               plan.max_iterations, plan.max_cuts)
+                               plan.max_iterations, plan.max_cuts, plan.substeps)
         self.stance, self.top_arm = self.observer.stance, self.observer.top_arm
         self.fields, self.rest = self._fields() if self.field_steps else None, None
         if self.went_on(self._take):

@@ -1,10 +1,14 @@
-"""Steps that fail, and what is tried then: the same step in halves."""
+"""Steps that are not made at once: what is made in parts, and steps that fail and are tried again in halves."""
 
 from __future__ import annotations
 
 import enum
 
 from fecolumn.dynamics.hht import HHT
+
+#: Words of integration.substeps, for what a step is made in parts: a rim that rolls fast, a point that lands, nothing at all; their numbers in compiled code.
+SUBSTEPS = ("rolling", "impacts", "none")
+ROLLING, IMPACTS, LITERAL = range(3)
 
 
 class Stop(enum.Enum):

@@ -12,7 +12,7 @@ from fecolumn.contact.problem import OK
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import book_impulses, losses, move_anchors
-from fecolumn.dynamics.cuts import StepFailed, Stop, in_halves
+from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
@@ -41,13 +41,13 @@ class Stepper:
         system: bodies, contact, loads.
         ledger: energy ledger to book into.
         impact: "plastic" or "none".
-        tolerance, max_iterations, max_cuts: of the [integration] section of a case.
+        tolerance, max_iterations, max_cuts, substeps: of the [integration] section of a case.
     """
 
-    def __init__(self, system, ledger, impact="plastic", tolerance=1e-7, max_iterations=20, max_cuts=4):
+    def __init__(self, system, ledger, impact="plastic", tolerance=1e-7, max_iterations=20, max_cuts=4, substeps="rolling"):
         self.system, self.ledger, self.plastic = system, ledger, impact == "plastic"
         self.tolerance, self.max_iterations, self.max_cuts = tolerance, max_iterations, max_cuts
-        self.record = Record()
+        self.substeps, self.record = SUBSTEPS.index(substeps), Record()
 
     def step(self, state: State, ground: np.ndarray) -> State:
         """State one dt later, under the ground acceleration `ground` (3,) [m/s2] at that time.
@@ -55,14 +55,19 @@ class Stepper:
         Raises:
             StepFailed: no convergence after max_cuts halvings; `state` is unharmed.
         """
-        hht, booked, start, done = self.system.hht, dict(self.ledger.work), state, 0
+        hht, booked, start, part, done = self.system.hht, dict(self.ledger.work), state, 0, 0
         try:
             while done < PARTS:
-                part = self._to_make_at_once(state, done)
-                done += part
-                target = start.ground + done / PARTS * (np.asarray(ground, float) - start.ground) if done < PARTS else np.asarray(ground, float)
-                state = self._part(state, target, hht if part == PARTS else HHT(hht.dt * part / PARTS, hht.alpha))
+                part = part or self._to_make_at_once(state, done)
+                end, held, struck = done + part, dict(self.ledger.work), self.record.impacts
+                target = start.ground + end / PARTS * (np.asarray(ground, float) - start.ground) if end < PARTS else np.asarray(ground, float)
+                after = self._part(state, target, hht if part == PARTS else HHT(hht.dt * part / PARTS, hht.alpha))
+                if self.substeps == IMPACTS and part > 1 and self.record.impacts > struck:
+                    self.ledger.work.update(held)
+                    self.record.impacts, part = struck, part // 2
+                    continue
                 self.record.parts += part < PARTS
+                state, part, done = after, 0, end
         except StepFailed as last:
             self.ledger.work.update(booked)
             raise StepFailed(last.stop, f"t = {start.time:.6g} s: {last}") from None
@@ -70,10 +75,10 @@ class Stepper:
         return state
 
     def _to_make_at_once(self, state, done) -> int:
-        """As `rolling.part_of_step`."""
+        """As `rolling.part_of_step`, of rims that are followed; else what ends where larger parts do."""
         interface, kinematics, dt = self.system.interface, self.system.kinematics, self.system.hht.dt
-        if not self.plastic or not interface.interfaces["rim_count"].any():
-            return PARTS
+        if self.substeps != ROLLING or not self.plastic or not interface.interfaces["rim_count"].any():
+            return done & -done or PARTS
         half = dt / 2
         later = state.x + half * state.v
         downs = interface.ways_down(interface.poses(state.x, state.rotation))

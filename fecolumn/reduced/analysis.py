@@ -41,7 +41,7 @@ def engine_of(case, model, base, upright: bool = False) -> Engine:
 
     eye = view(model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m)
     return column_engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), begin, [0.0, 0.0, -GRAVITY], plan.max_cuts, case.material.damping_ratio,
-                  friction=case.contact.friction_coefficient, law=law, rim=None if pad else Rim.find(model.reference), restitution=case.contact.restitution,
+                  plan.substeps, friction=case.contact.friction_coefficient, law=law, rim=None if pad else Rim.find(model.reference), restitution=case.contact.restitution,
                   rolling=case.contact.rolling_resistance, pad=pad)
 
 

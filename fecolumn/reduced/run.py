@@ -19,6 +19,7 @@ from fecolumn.contact.problem import (
     ITERATIONS_SPENT,
     N_COUNTS,
     N_CUTS,
+    N_IMPACTS,
     N_ITERATIONS,
     N_PARTS,
     OFF_BASE,
@@ -28,7 +29,7 @@ from fecolumn.contact.problem import (
 )
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import PARTS
-from fecolumn.dynamics.cuts import Stop, StepFailed, in_halves
+from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, Stop, StepFailed, in_halves
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS, steepest_to_come
 from fecolumn.dynamics.record import Record
@@ -58,10 +59,12 @@ def ended(eye, motion, row, steepest, rest):
 
 
 @njit
-def to_make_at_once(structure, motion, dt, done):
-    """As `rolling.part_of_step`, of the rims of a structure."""
+def to_make_at_once(structure, motion, dt, done, substeps):
+    """As `rolling.part_of_step`, of the rims of a structure where these are followed; substeps: a number of `cuts.SUBSTEPS`."""
     part = PARTS
-    for k in range(len(structure.interfaces)):
+    while done % part:
+        part //= 2
+    for k in range(len(structure.interfaces) if substeps == ROLLING else 0):
         if structure.interfaces[k].rim_count > 0 and not motion.rims[k].unused:
             x, y, u, v = way_down(structure.interfaces[k], motion)
             part = min(part, part_of_step(x, y, u, v, dt, done))
@@ -98,11 +101,12 @@ def begin_anew(elastic):
 
 
 @njit
-def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, steepest, rest, rows, ledger, counts):
+def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, steepest, rest, substeps, rows, ledger, counts):
     """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, eye.width) are filled.
 
     schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are still to be made, for which ROLLS_FAST asks. kept: room for
     a Motion. steepest: (k,) as of `overturning.fallen` after each step. rest: as of `Engine.advance`.
+    substeps: for what a step is made in parts, a number of `cuts.SUBSTEPS`. A part in which a point lands is halved down to the smallest where IMPACTS are located.
 
     Without any step to make: the row of `motion` where there is one to fill, else one proximal step of the first scheme towards gravity equilibrium, from
     `motion` to `spare`; see `start.standing`. They are here because each function that Python calls is compiled with all it calls.
@@ -121,31 +125,37 @@ def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, s
             for a in range(3):
                 fall[b, a] = motion.frames[b].center[a] + scheme.half * structure.gravity[a]
         return 0, settled(structure, base, scheme, work, motion, fall, bent, still, spare, counts)
-    booked, now, then, swapped, made, answer, target = ledger.copy(), motion, spare, False, 0, OK, np.empty(3)
+    booked, held, now, then, swapped, made, answer, target = ledger.copy(), ledger.copy(), motion, spare, False, 0, OK, np.empty(3)
     for k in range(len(grounds)):
         before = counts[N_ITERATIONS]
         put(ledger, booked)
-        part, done = to_make_at_once(structure, now, scheme.dt, 0), 0
-        if part < PARTS:
+        part, done = to_make_at_once(structure, now, scheme.dt, 0, substeps), 0
+        if part < PARTS or substeps == IMPACTS:
             if schemes[longest].dt == scheme.dt:
                 answer = ROLLS_FAST
                 break
             motions.copy(now, kept)
         while done < PARTS:
-            if done > 0:
-                part = to_make_at_once(structure, now, scheme.dt, done)
             halved, whole = 0, PARTS
             while whole > part:
                 halved, whole = halved + 1, whole // 2
             for a in range(3):
                 first = kept.whole[0].ground[a] if part < PARTS else 0.0
                 target[a] = first + (done + part) / PARTS * (grounds[k, a] - first)
+            struck = counts[N_IMPACTS]
+            put(ledger, held)
             answer = step(structure, base, schemes[halved], work, now, target, then, ledger, counts)
             if answer != OK:
                 break
+            if substeps == IMPACTS and part > 1 and counts[N_IMPACTS] > struck:
+                put(held, ledger)
+                counts[N_IMPACTS], part = struck, part // 2
+                continue
             now, then, swapped, done = then, now, not swapped, done + part
             counts[N_PARTS] += part < PARTS
             begin_anew(elastic)
+            if done < PARTS:
+                part = to_make_at_once(structure, now, scheme.dt, done, substeps)
         if answer != OK:
             put(booked, ledger)
             if done > 0:
@@ -192,13 +202,13 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     return answer
 
 
-def column_engine(model, base, eye, hht: HHT, start, gravity, max_cuts: int = 4, damping_ratio: float = 0.0, **laws) -> Engine:
+def column_engine(model, base, eye, hht: HHT, start, gravity, max_cuts: int = 4, damping_ratio: float = 0.0, substeps: str = "rolling", **laws) -> Engine:
     """The Engine of a column: model: ColumnModel; gravity, damping_ratio, laws: as of `model.structure_of`."""
 
     def build(hht):
         return structure_of(model, hht, gravity, damping_ratio=damping_ratio, **laws)
 
-    return Engine(build, base, eye, hht, start, max_cuts, model)
+    return Engine(build, base, eye, hht, start, max_cuts, model, substeps)
 
 
 class Engine:
@@ -211,10 +221,11 @@ class Engine:
         hht: HHT.
         start: function of the engine that returns the first Motion; see `reduced.start`.
         model: what `start` needs of the bodies.
+        substeps: of `cuts.SUBSTEPS`, for what a step is made in parts.
     """
 
-    def __init__(self, build, base, eye, hht: HHT, start, max_cuts: int = 4, model=None):
-        self.model, self.base, self.eye, self.hht, self.max_cuts = model, base, eye, hht, max_cuts
+    def __init__(self, build, base, eye, hht: HHT, start, max_cuts: int = 4, model=None, substeps: str = "rolling"):
+        self.model, self.base, self.eye, self.hht, self.max_cuts, self.substeps = model, base, eye, hht, max_cuts, SUBSTEPS.index(substeps)
         self.structure, self.points = build(hht)
         self.work, self.spare, self.kept = work_of(self.structure, self.points), self.motion_at_rest(), self.motion_at_rest()
         self._schemes = {}
@@ -257,7 +268,7 @@ class Engine:
 
     def _arguments(self, schemes, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=_NO_REST, rows=None) -> tuple:
         rows = np.empty((0, self.eye.width)) if rows is None else rows
-        return (self.structure, self.surface, schemes, self.work, self.eye, motion, spare, self.kept, grounds, steepest, rest, rows, self.ledger, self.counts)
+        return (self.structure, self.surface, schemes, self.work, self.eye, motion, spare, self.kept, grounds, steepest, rest, self.substeps, rows, self.ledger, self.counts)
 
     @property
     def record(self) -> Record:

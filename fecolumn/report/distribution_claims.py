@@ -13,8 +13,8 @@ _SAME = (f"supported: no paired p below 0.05 (Holm over the family) and a distan
          "distance at which a two-sample KS test of two times 115 motions rejects; not supported: a p below 0.05; else undecided")
 _DIFFERENT = (f"supported: a paired p below 0.05 (Holm over the family); not supported: none, and a distance beyond {MARGIN:.2f} excluded at "
               "95 % in every pair; else undecided")
-_COARSE_STEP = ("A coarse step does two things, it samples the motion coarsely and takes more in each impact; a study with motion.resample_s parts them "
-                "(benchmarks/coarse_step.toml, where most was the impacts').")
+_COARSE_STEP = ("A coarse step does three things, it samples the motion coarsely, finds impacts late, and lets a rim strike where it should roll; motion.resample_s and "
+                "integration.substeps part them (benchmarks/substeps, where it was the rolling).")
 
 
 def distribution_claims(pairs: list[Pair], alpha_note: str = "") -> list[Claim]:

@@ -47,4 +47,4 @@ def engine_of(case, model: StructureModel, file) -> Engine:
         raise InputError(file, name, None, told) from None
     weight = float(structure.bodies.body["mass"].sum()) * GRAVITY
     eye = view_of(standing, structure, weight, case.overturn.displacement_m)
-    return Engine(build, model.base, eye, hht, lambda engine: of_parts(engine, model.parts, stands), plan.max_cuts, model)
+    return Engine(build, model.base, eye, hht, lambda engine: of_parts(engine, model.parts, stands), plan.max_cuts, model, plan.substeps)

@@ -15,6 +15,7 @@ from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.alpha import ALPHA, alpha_note
 from fecolumn.study.plan import Plan, member_of
 from fecolumn.study.store import DONE
+from fecolumn.study.substeps import substeps_note
 
 _LEAST_MOTIONS = 5  # of fewer no p-value can fall below 0.05: there are 2^n ways to swap two settings within n motions, two of them extreme
 _MOST_PAIRS = 60  # beyond it only the first and the last level of each axis are compared: seconds
@@ -35,25 +36,26 @@ class Pair:
 
 
 def conclusion(plan: Plan, rows: list[dict]) -> str:
-    """A few sentences on a study as far as it is done; "" where fewer than five motions are.
+    """A few sentences on a study as far as it is done; of fewer than five motions no more than that steps were made in parts.
 
     How often the column overturns; whether the settings differ; where the motions are few for what is said, how many it needs; what of an effect
-    of alpha, or its lack, is built into the scheme. p-values are of the largest distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
+    of alpha, or its lack, is built into the scheme; how many parts of steps were made, where the step is varied. p-values are of the largest distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
 
     Args:
         plan: the study.
         rows: its ledger, as `run_study` returns it.
     """
     settings = settings_of(plan, rows)
+    parts_made = substeps_note(plan.case, settings)
     if not settings or max(len(runs) for _, runs in settings) < _LEAST_MOTIONS:
-        return ""
+        return parts_made
     pairs = pairs_of(settings)
     parts = [_overturns(settings)]
     if pairs:
         parts += [_differences(pairs, settings), _shortfall(pairs)]
         if any(pair.axis == ALPHA for pair in pairs):
             parts.append(alpha_note(plan.case, plan.axes))
-    return " ".join(part for part in parts if part)
+    return " ".join(part for part in (*parts, parts_made) if part)
 
 
 def settings_of(plan: Plan, rows) -> list[tuple[dict, dict]]:

@@ -84,3 +84,26 @@ def test_an_effect_of_alpha_is_stated_with_what_the_scheme_builds_in(tmp_path, c
     (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{case}')
     assert ("alpha is kept from contact" in _said(tmp_path, dt=(1e-3,), pulses=range(8), case=tmp_path / "case.toml")) == said
     assert "alpha is kept" not in _said(tmp_path, alpha=(0,), pulses=range(8), case=tmp_path / "case.toml")
+
+
+@pytest.mark.parametrize("case, word", [("", "rolling"), ('[integration]\nsubsteps = "impacts"\n', "impacts"), ('[integration]\nsubsteps = "none"\n', "")])
+def test_a_sweep_of_the_step_says_that_steps_were_made_in_parts(tmp_path, case, word):
+    def counted(values, summary):
+        coarse = values["integration.dt_s"] == 0.02
+        summary |= dict(steps=500 if coarse else 10000, parts=0 if not word else 900 if coarse else 40)
+
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{case}')
+    for pulses in (2, 12):
+        said = _said(tmp_path, counted, alpha=(0,), pulses=range(pulses), case=tmp_path / "case.toml")
+        assert ("900 beside 500 steps at dt_s = 0.02, 40 beside 10000 steps at dt_s = 0.001" in said) == bool(word)
+        assert (f'integration.substeps = "{word}"' in said) == bool(word)
+    assert "beside" not in _said(tmp_path, counted, dt=(0.02,), pulses=range(12), case=tmp_path / "case.toml")
+
+
+def test_literal_steps_beside_those_in_parts_are_not_counted_among_them(tmp_path):
+    def counted(values, summary):
+        summary |= dict(steps=500, parts=900 if values["integration.substeps"] == "rolling" else 0)
+
+    (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n')
+    said = _said(tmp_path, counted, alpha=(0,), pulses=range(6), case=tmp_path / "case.toml", extra='"integration.substeps" = ["none", "rolling"]\n')
+    assert said.count("is made in parts") == 1 and "900 beside 500 steps at dt_s = 0.02, 900 beside 500" in said

@@ -1,0 +1,1 @@
+"""What a coarse step changes, and what following it in parts removes."""
