@@ -1,0 +1,133 @@
+"""The planar program alone and beside the package.
+
+    ./containers/run python -m benchmarks.planar [column beside histories] [STRUCTURE ...] [-n N] [--dt S] [-j JOBS] [-o DIR]
+
+column     least accelerations of a pulse that overturn the multi-drum column, by the planar program at --dt: column.csv, column.png (a quarter of an hour)
+beside     overturned, distance of the peaks' distributions and outcomes that differ, planar program and package: beside.csv, beside.png
+histories  how many single histories agree until the third impact, both programs at 1e-4 s: histories.csv
+
+The planar program makes steps of 1e-4 s, the package of --dt (1e-3 s). Structures by name in quotes, such as "two blocks"; none means all. What is done is kept in
+DIR/runs: the same command goes on after a kill, one with more motions makes only what is missing, other sources make all anew.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import astuple, fields
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.planar import column as columns
+from benchmarks.planar.compare import AGREE, Compared, apart, compared, impacts
+from benchmarks.planar.ensembles import BLOCK, PACKAGE, PLANAR, advance, motion, response, shaken
+from benchmarks.planar.figure import collapse, distributions
+from fecolumn.atomic import write_csv
+
+FINE = 1e-4  # step [s] of the planar program
+PARTS = ("column", "beside", "histories")
+
+
+def _all(function, jobs, number: int) -> list:
+    """Of each of the jobs, (arguments) in a tuple, in their order, so many at a time."""
+    if number == 1:
+        return [_said(function, *job) for job in jobs]
+    with ProcessPoolExecutor(number, mp_context=get_context("spawn")) as pool:
+        return list(pool.map(_said, [function] * len(jobs), *zip(*jobs)))
+
+
+def _said(function, *job):
+    found = function(*job)
+    print(".", end="", file=sys.stderr, flush=True)
+    return found
+
+
+def fell(tp: float, a: float, dt: float) -> bool:
+    """Whether a pulse overturns the column."""
+    return columns.pushed(a, tp, dt).fallen
+
+
+def column(args, folder: Path) -> None:
+    """Scan the accelerations of `column.SCANS`."""
+    table = []
+    print("\n| tp [s] | UDEC [g] | HybriDFEM [g] | LMGC90 [g] | planar, independent [g] | overturns here at [g] |\n|---|---|---|---|---|---|")
+    for tp, accelerations in columns.SCANS.items():
+        fallen = _all(fell, [(tp, float(a), args.dt) for a in accelerations], args.jobs)
+        table += [[tp, f"{a:.4g}", int(one)] for a, one in zip(accelerations, fallen)]
+        print(f"\r| {tp:g} | " + " | ".join(f"{one:g}" for one in columns.OTHERS[tp]) + f" | {columns.windows(accelerations, fallen)} |", flush=True)
+    write_csv(folder / "column.csv", [["tp_s", "a_g", "overturns"], *table])
+    print("wrote", *collapse(columns.pushed(0.44, 0.34, FINE), folder / "column"))
+
+
+def beside(args, folder: Path) -> None:
+    """Both programs, and the closed form where there is one, on the whole motions."""
+    table, panels = [], {}
+    print("\n| structure | program | motions | overturned: planar | it | D of peaks [-] | p | outcomes differ | McNemar's p | peaks off, median [-] | failed |\n" + "|---" * 11 + "|")
+    for name in args.structures:
+        case = shaken()[name]
+        found, numbers = {}, range(1, min(args.n, case.motions) + 1)
+        for program in (PLANAR, PACKAGE, *((BLOCK,) if case.closed else ())):
+            dt = args.dt if program == PACKAGE else FINE
+            found[program] = _all(response, [(name, program, number, dt, folder) for number in numbers], args.jobs)
+        for program in list(found)[1:]:
+            one = compared(found[PLANAR], found[program])
+            table.append([name, program, one.n, *one.fallen, *astuple(one)[2:]])
+            print(f"\r| {name} | {program} | {one.n} | {one.fallen[0]} | {one.fallen[1]} | {one.distance:.3f} | {one.p:.2g} | {one.differ} | {one.mcnemar:.2g} | {one.off:.2g} | {one.failed} |",
+                  flush=True)
+        panels[name] = found
+    names = [field.name for field in fields(Compared)]
+    write_csv(folder / "beside.csv", [["structure", "program", "n", "fallen_planar", "fallen_program", *names[2:]], *table])
+    print("wrote", *distributions(panels, folder / "beside"))
+
+
+def until_third(name: str, number: int, folder: Path) -> tuple[float, float]:
+    """Time [s] of the third impact by the planar program, and how far the package is off until then; nan without a third one."""
+    case = shaken()[name]
+    times = impacts(advance(case.structure, motion(case, number, FINE), FINE, every=10))
+    if len(times) < 3:
+        return np.nan, np.nan
+    until = float(times[2])
+    one, other = (response(name, program, number, FINE, folder, until + 0.01) for program in (PLANAR, PACKAGE))
+    return until, apart(one, other, until)
+
+
+def histories(args, folder: Path) -> None:
+    """Single motions at 1e-4 s."""
+    table = []
+    print(f"\n| structure | motions with three impacts | agree to {AGREE:.0%} until the third | off, median [-] | most [-] |\n|---|---|---|---|---|")
+    for name in args.structures:
+        numbers = range(1, min(args.n, shaken()[name].motions) + 1)
+        found = np.array(_all(until_third, [(name, number, folder) for number in numbers], args.jobs))
+        table += [[name, number, *row] for number, row in zip(numbers, found.tolist())]
+        off = found[np.isfinite(found[:, 1]), 1]
+        print(f"\r| {name} | {len(off)} | {(off <= AGREE).sum()} | {np.median(off) if len(off) else np.nan:.2g} | {off.max(initial=0.0):.2g} |", flush=True)
+    write_csv(folder / "histories.csv", [["structure", "motion", "third_impact_s", "off"], *table])
+
+
+def main(arguments=None) -> int:
+    names = list(shaken())
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.planar", description=__doc__.split("\n")[0])
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(PARTS)}; of {', '.join(names)}")
+    parser.add_argument("-n", type=int, default=100, help="motions of each structure, 1 to 115 (default: %(default)s)")
+    parser.add_argument("--dt", type=float, help="step [s] of the package in `beside` (1e-3), of the planar program in `column` (1e-4)")
+    parser.add_argument("-j", "--jobs", type=int, default=1, help="analyses at a time (default: %(default)s)")
+    parser.add_argument("-o", "--output", metavar="DIR", default="results/planar")
+    args = parser.parse_args(arguments)
+    if unknown := [name for name in args.names if name not in (*PARTS, *names)]:
+        parser.error(f"{', '.join(unknown)}: must be of {', '.join((*PARTS, *names))}")
+    if not 1 <= args.n <= 115:
+        parser.error(f"-n {args.n}: must be in [1, 115]")
+    folder, step = Path(args.output), args.dt
+    folder.mkdir(parents=True, exist_ok=True)
+    args.structures = [name for name in names if name in args.names] or names
+    for part in [part for part in PARTS if part in args.names] or PARTS:
+        args.dt = step or (FINE if part == "column" else 1e-3)
+        globals()[part](args, folder)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,70 @@
+"""Two programs on the same motions: distributions of the peaks, outcomes motion by motion, and histories until the third impact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from benchmarks.planar.advance import History
+from benchmarks.planar.ensembles import Response
+from fecolumn.statistics.ecdf import censored
+from fecolumn.statistics.flips import contingency, flips, mcnemar
+from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
+
+#: A joint lands where its tilt comes back from the first to the second or below [rad]; landings within this time [s] are one impact
+_SWUNG, _FLAT, _TOGETHER = 1e-3, 1e-5, 0.01
+#: Histories agree whose tops are no farther apart than this share of the peak so far
+AGREE = 0.01
+
+
+@dataclass(frozen=True)
+class Compared:
+    """Of n motions in two programs.
+
+    Attributes:
+        fallen: overturned in each. distance, p: of the peaks' distributions (Kolmogorov and Smirnov, paired). differ: outcomes that differ; mcnemar: p of them.
+        off: median, over motions that both survive, of the difference of the peaks over the other program's peak. failed: analyses that stopped early.
+    """
+
+    n: int
+    fallen: tuple[int, int]
+    distance: float
+    p: float
+    differ: int
+    mcnemar: float
+    off: float
+    failed: int
+
+
+def compared(one: list[Response], other: list[Response]) -> Compared:
+    """Of two programs on the same motions, in one order."""
+    fallen = [np.array([response.fallen for response in responses]) for responses in (one, other)]
+    peaks = [np.array([response.peak for response in responses]) for responses in (one, other)]
+    test = paired_kolmogorov_smirnov(*(censored(*pair) for pair in zip(peaks, fallen)))
+    table, both = contingency(*fallen), ~(fallen[0] | fallen[1])
+    off = float(np.median(np.abs(peaks[1][both] / peaks[0][both] - 1))) if both.any() else np.nan
+    failed = sum(bool(response.failed) for response in (*one, *other))
+    return Compared(len(one), (int(fallen[0].sum()), int(fallen[1].sum())), test.statistic, test.p, flips(table), mcnemar(table), off, failed)
+
+
+def impacts(history: History) -> np.ndarray:
+    """Times [s] at which a joint that was open lies flat again, those of several joints that land together as one."""
+    found = []
+    for joint in history.structure.joints:
+        tilt = history.tilt[:, joint.body] - history.tilt[:, joint.other]
+        side = 0.0
+        for time, now in zip(history.time, tilt):
+            if abs(now) > _SWUNG and now * side >= 0:
+                side = np.sign(now)
+            elif side and now * side < _FLAT:
+                found.append(time)
+                side = np.sign(now) if abs(now) > _SWUNG else 0.0
+    found = np.sort(found)
+    return found[np.diff(found, prepend=-np.inf) > _TOGETHER]
+
+
+def apart(one: Response, other: Response, until: float) -> float:
+    """Largest distance of the tops until a time [s], over the largest displacement of the first."""
+    n = min(len(one.time), len(other.time), int(np.searchsorted(one.time, until)))
+    return float(np.abs(one.top[:n] - other.top[:n]).max() / np.abs(one.top[:n]).max())
