@@ -4,7 +4,7 @@ Units are SI everywhere. z points up, gravity along -z; displacements are relati
 a contact pressure positive in compression.
 """
 
-__version__ = "0.6.6"
+__version__ = "0.7.0"
 
 # module, and the name there where it is another
 _HOMES = {"Case": "case", "load_case": "case:read_case", "case_from_tables": "case", "InputError": "schema", "run": "simulation",

@@ -121,7 +121,7 @@ class Integration(Section):
     tolerance: float = parameter(1e-7, doc="residual force at convergence as a fraction of the largest nodal force; of engine = \"full\" alone", above=0, high=1e-2)
     max_iterations: int = parameter(20, doc="iterations of a step before it is cut; of engine = \"full\" alone", low=2, high=1000)
     max_cuts: int = parameter(4, doc="halvings of a step that does not converge before the analysis fails", low=0, high=12)
-    substeps: str = parameter("rolling", doc="what a step is made in parts for, 64 at most; rolling: a round rim that rolls fast; impacts: a point that lands, so that it does in the smallest part; none: nothing, the step that is asked for is taken. What does not converge is cut in any case", choices=SUBSTEPS, since="0.6.7")
+    substeps: str = parameter("rolling", doc="what a step is made in parts for, 64 at most; rolling: a round rim that rolls fast; impacts: a point that lands, so that it does in the smallest part; none: nothing, the step that is asked for is taken. What does not converge is cut in any case", choices=SUBSTEPS, since="0.7")
 
 
 @dataclass(frozen=True, slots=True)

@@ -75,14 +75,14 @@ def begin_problem(problem, holds_still, worth):
 
 
 @njit
-def list_present(problem, points, stick):
-    """List the points (P,) of POINT that are not idle; the stick operator of others holds no longer."""
+def list_present(problem, points):
+    """List the points (P,) of POINT that are not idle."""
     count = 0
     for i in range(len(points)):
         if not points[i].idle:
             problem.present[count] = i
             count += 1
-    problem.count[2], stick.key[1] = count, 0.0
+    problem.count[2] = count
 
 
 @njit

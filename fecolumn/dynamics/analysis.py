@@ -102,6 +102,7 @@ class FullAnalysis(Analysis):
         self.resumed(extra)
         self.system.interface.stay.take(extra)
         points[...] = kept
+        self.system.interface.list_present()
         self.state, self.ledger.start, self.ledger.work, self.stepper.record = state, start, work, record
 
     def _fields(self):

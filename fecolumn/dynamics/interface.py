@@ -288,7 +288,13 @@ class Interface:
         """Lay the points of joints with two sides."""
         if len(self.overlaps.joints) and place_overlaps(self.overlaps, self.interfaces, self.joints.rim, self.arms, frames_at(self.column.centers(state.x)), poses,
                                                         state.contact, rims, self.points, before):
-            interpreted(list_present)(self._problem, self.points, self.stay.stick)
+            self.list_present()
+            # the operator is that of other points
+            self.stay.stick.key[1] = 0.0
+
+    def list_present(self) -> None:
+        """List the points that take part, after these have changed."""
+        interpreted(list_present)(self._problem, self.points)
 
     def _find_sunk(self, before, positions, poses, rims_before, rims) -> None:
         """As `reduced.equilibrium.find_sunk`; sunk points are put high above the surface."""

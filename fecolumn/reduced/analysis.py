@@ -8,13 +8,14 @@ import time
 
 import numpy as np
 
-from fecolumn._compiled import compiled
+from fecolumn._compiled import compiled, interpreted
 from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
 from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.pad import pad_of
+from fecolumn.contact.problem import list_present
 from fecolumn.contact.rim import Rim
 from fecolumn.dynamics.cuts import StepFailed
 from fecolumn.dynamics.gravity import NoEquilibrium
@@ -194,3 +195,4 @@ class ReducedAnalysis(Analysis):
             self.states.resumed(saved)
         for name, values in targets.items():
             values[...] = saved[name]
+        interpreted(list_present)(self.engine.work.problem, self.engine.work.points)

@@ -82,7 +82,9 @@ def lay_points(structure, work, start, end):
     """Lay the points of joints with two sides."""
     if place_overlaps(structure.overlaps, structure.interfaces, structure.rim, structure.bodies.arms, start.frames, work.poses[START], start.contact,
                       end.rims, work.points, work.before):
-        list_present(work.problem, work.points, work.stick)
+        list_present(work.problem, work.points)
+        # the operator is that of other points
+        work.stick.key[1] = 0.0
 
 
 @njit

@@ -12,6 +12,7 @@ from fecolumn.case import GRAVITY
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.rim import Rim
+from fecolumn.contact.tolerances import SAME_OUTLINE
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.schema import InputError
 from fecolumn.structures.faces import over
@@ -162,8 +163,9 @@ def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray
     length = np.linalg.norm(ahead)
     if length >= _UPRIGHT:
         ahead = ahead / length
-    farthest = [_farthest(standing, joint, ahead, length >= _UPRIGHT) for joint in joints]
-    reached = [point @ ahead if len(touching(standing, joint)) else -math.inf for point, joint in zip(farthest, joints)]
+    leans = length >= _UPRIGHT
+    farthest = [_end_of_region(standing, joint, ahead) if leans and joint.corners else _farthest(standing, joint, ahead, leans) for joint in joints]
+    reached = [point @ ahead if leans and joint.corners or len(touching(standing, joint)) else -math.inf for point, joint in zip(farthest, joints)]
     first = int(np.argmax(np.array(reached) + 0.0)) if length >= _UPRIGHT else 0
     return farthest[first], joints[first]
 
@@ -184,6 +186,57 @@ def _farthest(standing, joint: Joint, ahead: np.ndarray, leans: bool) -> np.ndar
         return slave.center + arms[rim.nodes].mean(axis=0) + rim.radius * ahead
     far = points @ ahead
     return points[far >= far.max() - _EDGE * np.ptp(points, axis=0).max()].mean(axis=0)
+
+
+def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
+    """Point (3,) [m] farthest in the direction `ahead` of the region in which the faces of a joint with two sides overlap, of an edge its middle; joint: with the roles exchanged.
+
+    Of a circle it is a point of that, not of the polygon of its nodes, unless the circles cross there.
+    """
+    outlines, face = [], standing[joint.slave].model.surfaces[joint.slave_surface].axes
+    for place, surface, corners in ((joint.slave, joint.slave_surface, joint.corners[0]), (joint.master, joint.master_surface, joint.corners[1])):
+        outlines.append((corners + standing[place].center) @ face)
+    height, along = outlines[0][0, 2], ahead @ face[:, :2]
+    along = along / np.linalg.norm(along)
+    region = outlines[1][::-1, :2]
+    for start, end in zip(outlines[0][:, :2], np.roll(outlines[0][:, :2], -1, axis=0)):
+        region = _cut_off(region, start, end)
+    circles = [Rim.find(corners) for corners in outlines]
+    found = region @ along
+    best = region[found >= found.max() - _EDGE * np.ptp(region, axis=0).max()].mean(axis=0)
+    for own, circle, other, other_circle in zip(outlines, circles, outlines[::-1], circles[::-1]):
+        if circle is None:
+            continue
+        point = own[:, :2].mean(axis=0) + circle.radius * along
+        if other_circle is not None:
+            inside = np.linalg.norm(point - other[:, :2].mean(axis=0)) <= other_circle.radius * (1 + SAME_OUTLINE)
+        else:
+            inside = _within(point, other[:, :2])
+        if inside:
+            best = point
+    return face @ np.append(best, height)
+
+
+def _cut_off(polygon: np.ndarray, start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """The part (n, 2) of a convex polygon on the left of the line from start to end (Sutherland and Hodgman 1974)."""
+    way = end - start
+    left = way[0] * (polygon[:, 1] - start[1]) - way[1] * (polygon[:, 0] - start[0])
+    left[np.abs(left) < 1e-12 * (way @ way)] = 0.0
+    kept = []
+    for k in range(len(polygon)):
+        if left[k - 1] * left[k] < 0:
+            kept.append(polygon[k - 1] + (polygon[k] - polygon[k - 1]) * left[k - 1] / (left[k - 1] - left[k]))
+        if left[k] >= 0:
+            kept.append(polygon[k])
+    return np.array(kept).reshape(-1, 2)
+
+
+def _within(point: np.ndarray, polygon: np.ndarray) -> bool:
+    """Whether a point lies within a convex polygon (n, 2), whichever way it goes round."""
+    sides = np.roll(polygon, -1, axis=0) - polygon
+    away = point - polygon
+    left = sides[:, 0] * away[:, 1] - sides[:, 1] * away[:, 0]
+    return bool((left >= 0).all() or (left <= 0).all())
 
 
 def _moving(part: Standing, center, pivot, turn, supports, joints, standing) -> tuple[np.ndarray, np.ndarray]:
