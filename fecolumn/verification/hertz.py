@@ -37,7 +37,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fecolumn.case import GRAVITY, Material
+from fecolumn.case import Material
 from fecolumn.dynamics.hht import HHT
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
@@ -46,7 +46,7 @@ from fecolumn.verification.trial import begin
 
 LARGEST, CURVATURE = 0.01, 100.0  # a under full load and R [m]
 LENGTH = LARGEST / 8  # of the slice of the cylinder [m]
-MODULI = 70e9, 210e9  # of block and base [Pa]
+MODULI, DENSITY = (70e9, 210e9), 7850.0  # of block and base [Pa, kg/m3]
 RIM, DEPTH = 1.2, 0.5  # half-width and depth of the equal bricks over a
 GROWTH = 5  # of the bricks beyond, over as many of them as lie along a: a finer mesh is finer everywhere
 QUANTITIES = {"radius": "o-", "peak": "s:", "spread": "^--"}  # errors of Pressed
@@ -135,14 +135,14 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
     y, under = (x, x) if exact.axes == 2 else (LENGTH * np.array([-0.5, 0.5]), LENGTH * np.array([-0.5, 0.5]) * (1 + 1e-8))
     mesh = box(x, y, up)
     mesh = replace(mesh, points=mesh.points + np.outer((mesh.points[:, :exact.axes] ** 2).sum(axis=1) / (2 * CURVATURE), [0, 0, 1]))
-    heavy = exact.load(LARGEST) / GRAVITY / (far * far * (y[-1] - y[0]))
-    block, base = (Material(youngs_modulus_pa=modulus, poissons_ratio=exact.poisson, density_kg_m3=heavy) for modulus in exact.moduli)
+    block, base = (Material(youngs_modulus_pa=modulus, poissons_ratio=exact.poisson, density_kg_m3=DENSITY) for modulus in exact.moduli)
     system = block_system(engine, mesh, box(x, under, -up[::-1]), HHT(1e-3, -0.05), material=block, base_material=base, friction=friction,
                           filtered=exact.axes == 1, foot_height=(RIM * LARGEST + h) ** 2 / (2 * CURVATURE))
-    weight, found = system.weight, []
+    found = []
     for a in radii:
-        share = exact.load(a) / exact.load(LARGEST)
-        system.gravity, system.weight = np.array([0.0, 0.0, -share * GRAVITY]), share * weight
+        # at rest gravity and mass are one: of a material that there is, a small block needs more than the Earth's
+        system.weight = exact.load(a)
+        system.gravity = np.array([0.0, 0.0, -system.weight / system.column.total_mass])
         found.append(measured(exact, system, begin(engine, system).start, a, h))
     return found
 

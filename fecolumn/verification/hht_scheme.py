@@ -19,10 +19,12 @@ Source. Hilber, Hughes and Taylor (1977); Hughes (1987), The Finite Element Meth
 Tolerances. Order: the series of the error goes on with a relative W^2 / 2 or less; at 16 steps a period that bends a least-squares
 slope over a factor of 8 by W^2 / (2 ln 8) = 0.037, 2 % of 2. Departure from A: the solver leaves an unbalanced force of 4 eps k L,
 1e-7 of the mode's, in a step, and a few of these add up; the strains of 1e-5 make the total Lagrangian block stiffer by no more:
-1e-6 of the amplitude, of its energy, of W' and of ln |A|. Entries of A: position rounding of 1e-16 m over 1e-5 m
-and the same unbalanced force: 1e-6. Spectral radius: the modulus at infinity is a double eigenvalue, that perturbations e of A split by
-(e / d)^(1/2), d the distance of its modulus to the third one's, -al / (1 + al): 1e-3 at alpha = -0.333, else more. With e = 1e-10, both of
-rounding and of (w dt)^-2 at w dt = 1e5: 1e-3.
+1e-6 of the amplitude, of its energy, of W' and of ln |A|. Entries of A: a block that moves by 1e-6 m, position rounding of 1e-16 m
+and an unbalanced force of 1e-6 of the mode's, in one step: 1e-6. It moves so little because of the moment of second order that internal
+forces have: in a step of 15 s it turns a block far, and the iteration that takes it away, of which the factored matrix knows nothing,
+contracts by 5e-2 at w dt = 1e5, and diverges where the block moves ten times as far. Spectral radius: the modulus at infinity is a
+double eigenvalue, that perturbations e of A split by (e / d)^(1/2), d the distance of its modulus to the third one's, -al / (1 + al): 1e-3
+at alpha = -0.333, else more. With e = 1e-10, both of rounding and of (w dt)^-2 at w dt = 1e5: 1e-3.
 """
 
 from __future__ import annotations
@@ -45,6 +47,8 @@ STIFF = 1e5
 FIELDS = ("u", "v", "a at t + alpha dt")
 # Amplitude of the modal coordinate [m sqrt(kg)]: the block moves by 1e-5 m, far above rounding and far below finite strains
 AMPLITUDE = 1e-4
+# Of the amplification matrix, whose longest step lasts 15 s: see Tolerances
+MATRIX_AMPLITUDE = 1e-5
 
 
 class Mode:
@@ -63,12 +67,12 @@ class Mode:
         body = box(np.linspace(-0.1, 0.1, 3), np.linspace(-0.15, 0.15, 3), np.linspace(0, 1, 7))
         return block_system(self.engine, body, box([-1, 1], [-1, 1], [-0.1, 0]), HHT(dt, alpha), gravity=(0, 0, -1e-6))
 
-    def steps(self, alpha: float, angle: float, start, count: int) -> tuple[np.ndarray, np.ndarray, float]:
+    def steps(self, alpha: float, angle: float, start, count: int, amplitude: float = AMPLITUDE) -> tuple[np.ndarray, np.ndarray, float]:
         """z = (u, dt v, dt^2 a) of the mode (count + 1, 3) from z0 = `start`, at w dt = `angle`; with the mechanical energy
         (count + 1,) and the ledger's closure, both over the first energy."""
         dt = angle / self.frequency
         system = self.system(dt, alpha)
-        scale = AMPLITUDE * np.array([1, 1 / dt, 1 / dt**2])
+        scale = amplitude * np.array([1, 1 / dt, 1 / dt**2])
         trial = begin(self.engine, system, lambda system: afloat(system, *(value * self.shape for value in scale * start), height=1e-3))
         rest, measure = trial.state.x - scale[0] * start[0] * self.shape, system.column.momentum(self.shape)
         history, energy = [np.array(start, float)], [trial.mechanical()]
@@ -80,7 +84,7 @@ class Mode:
 
     def matrix(self, alpha: float, angle: float) -> np.ndarray:
         """Amplification matrix (3, 3) of the solver, one step from each of three starts."""
-        return np.column_stack([self.steps(alpha, angle, start, 1)[0][1] for start in np.eye(3)])
+        return np.column_stack([self.steps(alpha, angle, start, 1, MATRIX_AMPLITUDE)[0][1] for start in np.eye(3)])
 
 
 def amplification(alpha: float, angle: float) -> np.ndarray:
