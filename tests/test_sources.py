@@ -12,7 +12,8 @@ from fecolumn.case import case_from_tables
 from fecolumn.simulation import run
 
 # Modules that an analysis imports and that decide nothing of its result: they read, write, wait, compile and tell
-_DECIDE_NOTHING = {"__init__.py", "_borrowed.py", "_compiled.py", "_kernel.py", "atomic.py", "files.py", "lock.py", "model_keys.py", "post/fields.py", "progress.py",
+_DECIDE_NOTHING = {"__init__.py", "_borrowed.py", "_compiled.py", "_form_compiler.py", "_kernel.py", "atomic.py", "files.py", "lock.py", "model_keys.py", "paths.py",
+                   "post/fields.py", "progress.py",
                    "result_folder.py", "schema.py", "sealed.py", "simulation.py", "sources.py", "summary.py"}
 _BLOCK = dict(column=dict(shape="block", length_m=0.4, width_m=0.4, height_m=1.2), initial=dict(tilt_rad=0.01),
               mesh=dict(fine_size_m=0.1, coarse_size_m=0.2, base_size_m=0.2), integration=dict(engine="rigid", duration_s=0.01))

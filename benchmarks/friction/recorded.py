@@ -16,6 +16,7 @@ import numpy as np
 from benchmarks.friction.problem import Problem
 from fecolumn._compiled import interpreted
 from fecolumn.contact.problem import STICKS_STILL, near_points
+from fecolumn.contact.stick import operator_of
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.structures.model import GROUND
 from fecolumn.verification.boxes import box, engine, frame, joint, part, pulse, stack
@@ -27,8 +28,11 @@ def problem_of(engine, name: str, start) -> Problem | None:
     points = [i for i in interpreted(near_points)(left) if left.active[i]]
     if not points:
         return None
-    rows = (3 * np.array(points)[:, None] + np.arange(3)).ravel()
-    W = stick.W[np.ix_(rows, rows)] if left.flags[STICKS_STILL] else left.W[:len(rows)**2].reshape(len(rows), -1).copy()
+    rows = (3 * np.flatnonzero(left.active[interpreted(near_points)(left)])[:, None] + np.arange(3)).ravel()
+    if left.flags[STICKS_STILL]:
+        W = interpreted(operator_of)(stick, int(left.count[0]))[np.ix_(rows, rows)]
+    else:
+        W = left.W[:len(rows)**2].reshape(len(rows), -1).copy()
     # symmetric to rounding only
     W = (W + W.T) / 2
     forces = engine.motion.forces[points]

@@ -118,7 +118,7 @@ def check_joints(joints, standing, file) -> None:
     for joint in joints:
         if count[frozenset((joint.slave, joint.master))] < (1 if joint.ball and joint.ball.is_dome else 3):
             raise InputError(file, f"interfaces.{joint.name.partition(':')[0]}", None, f'fewer than three nodes of "{standing[joint.slave].name}" lie on '
-                             f'"{standing[joint.master].name}": exchange slave and on, or make its elements smaller')
+                             f'"{standing[joint.master].name}": make its elements smaller')
 
 
 def check_links(case, extents: dict, file) -> None:

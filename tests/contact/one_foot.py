@@ -43,7 +43,7 @@ class Foot:
         self.points, self.interface = node_points(arms, mu), interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]))
         self.springs = Springs(np.full((n, 3), own), np.zeros((n, 3)), 0.0)
         self.poses, self.rims = poses_on_base(np.eye(3)[None] if rotation is None else rotation[None]), rims_at_rest()
-        self.problem, self.counts = room(n), np.zeros(N_COUNTS, np.int64)
+        self.problem, self.counts = room(self.points), np.zeros(N_COUNTS, np.int64)
 
     def solve(self, positions, forces=None, anchors=None, stick=None):
         """Points (n,) of CONTACT after a step that brings them to `positions` (n, 3) [m] with the forces with which they began, none unless given.

@@ -11,7 +11,7 @@ from fecolumn.contact.interface import interface_of, rims_at_rest
 from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.points import CONTACT
 from fecolumn.contact.problem import N_ASSEMBLED
-from fecolumn.contact.stick import find_stick, holds, no_stick, solve_sticking
+from fecolumn.contact.stick import find_stick, holds, no_stick, operator_of, solve_sticking
 from fecolumn.contact.tolerances import PAD_TURN, STICK_TURN, STICK_WAY
 from fecolumn.fem.rotation import rotation_matrix
 
@@ -25,21 +25,21 @@ def found(seed):
     # shares of the base's nodes are found by `project`
     foot.solve(np.column_stack([places[:, :2], np.full(N, -DEEP)]), anchors=places[:, :2])
     stick = no_stick(N)
-    interpreted(find_stick)(stick, foot.bodies, foot.base, foot.points, foot.springs, foot.dynamic, foot.rigid, foot.rims, foot.poses)
+    interpreted(find_stick)(stick, foot.bodies, foot.base, foot.points, np.arange(foot.n), foot.springs, foot.dynamic, foot.rigid, foot.rims, foot.poses)
     return foot, stick, W
 
 
 def test_operator_is_the_compliance_of_all_points_and_its_inverse():
     foot, stick, W = found(1)
-    np.testing.assert_allclose(stick.W, W, atol=1e-5 * np.abs(W).max())
+    np.testing.assert_allclose(operator_of(stick, N), W, atol=1e-5 * np.abs(W).max())
     static = np.empty((3 * N, 3 * N))
     for column, unit in zip(static.T, np.eye(3 * N)):
-        solved, moved = stick.W @ unit, np.empty(3 * N)
+        solved, moved = operator_of(stick, N) @ unit, np.empty(3 * N)
         solve_factored(stick.factor, solved)
         np.testing.assert_allclose(solved, unit, atol=1e-9)
         multiply(stick.static, unit, moved)
         column[:] = moved
-    np.testing.assert_allclose(static, stick.W - 3e-11 * np.eye(3 * N) - _elastic(foot), atol=1e-5 * np.abs(W).max())
+    np.testing.assert_allclose(static, operator_of(stick, N) - 3e-11 * np.eye(3 * N) - _elastic(foot), atol=1e-5 * np.abs(W).max())
 
 
 def _elastic(foot):
@@ -60,12 +60,12 @@ def test_forces_of_a_foot_of_which_some_points_slip_or_open_are_those_of_the_who
     begun = exact + np.where(exact[:, 2:] > 0, np.random.default_rng(seed).normal(0, 20, (N, 3)), 0.0)
     after = np.zeros(N, CONTACT)
     after["force"] = begun
-    under = slack + (stick.W @ (begun - exact).ravel()).reshape(N, 3)
-    residual, _ = interpreted(solve_sticking)(stick, foot.points, under, np.ones(N, bool), after, TIGHT, USABLE)
+    under = slack + (operator_of(stick, N) @ (begun - exact).ravel()).reshape(N, 3)
+    residual, _ = interpreted(solve_sticking)(stick, foot.points, np.arange(foot.n), under, np.ones(N, bool), after, TIGHT, USABLE)
     assert residual <= TIGHT
     np.testing.assert_allclose(after["force"], exact, atol=1e-6 * 1500)
-    q = under - (stick.W @ begun.ravel()).reshape(N, 3)
-    np.testing.assert_allclose(after["force"], solve_contact(stick.W, q, 0.3, begun, TIGHT).forces, atol=1e-6 * 1500)
+    q = under - (operator_of(stick, N) @ begun.ravel()).reshape(N, 3)
+    np.testing.assert_allclose(after["force"], solve_contact(operator_of(stick, N), q, 0.3, begun, TIGHT).forces, atol=1e-6 * 1500)
 
 
 def test_points_that_take_no_part_carry_nothing():
@@ -74,8 +74,8 @@ def test_points_that_take_no_part_carry_nothing():
     exact, slack = answer(N, 2, 2, 1)
     slack[N - 2:, 2] *= -1
     after, active = np.zeros(N, CONTACT), np.arange(N) < N - 2
-    under = slack - (stick.W @ exact.ravel()).reshape(N, 3)
-    residual, _ = interpreted(solve_sticking)(stick, foot.points, under, active, after, TIGHT, USABLE)
+    under = slack - (operator_of(stick, N) @ exact.ravel()).reshape(N, 3)
+    residual, _ = interpreted(solve_sticking)(stick, foot.points, np.arange(foot.n), under, active, after, TIGHT, USABLE)
     assert residual <= TIGHT
     np.testing.assert_allclose(after["force"], exact, atol=1e-6 * 1500)
 
@@ -86,13 +86,13 @@ def test_a_foot_that_mostly_opens_is_left_to_the_whole_problem():
     after["force"][:, 2] = 7.0
     slack = np.tile([0.0, 0.0, DEEP], (N, 1))
     slack[0, 2] = -0.5 * DEEP
-    residual, _ = interpreted(solve_sticking)(stick, foot.points, slack, np.ones(N, bool), after, TIGHT, USABLE)
+    residual, _ = interpreted(solve_sticking)(stick, foot.points, np.arange(foot.n), slack, np.ones(N, bool), after, TIGHT, USABLE)
     assert residual == np.inf and (after["force"][:, 2] == 7.0).all()
     # so is one that was solved no better than usable
     exact, slack = answer(N, 2, 2, 1)
     after["force"] = exact + 7.0
-    under = slack + (stick.W @ (after["force"] - exact).ravel()).reshape(N, 3)
-    residual, _ = interpreted(solve_sticking)(stick, foot.points, under, np.ones(N, bool), after, TIGHT, 0.0)
+    under = slack + (operator_of(stick, N) @ (after["force"] - exact).ravel()).reshape(N, 3)
+    residual, _ = interpreted(solve_sticking)(stick, foot.points, np.arange(foot.n), under, np.ones(N, bool), after, TIGHT, 0.0)
     assert 0 < residual <= TIGHT and (after["force"] == exact + 7.0).all()
 
 

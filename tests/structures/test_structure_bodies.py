@@ -47,8 +47,8 @@ def test_body_of_a_stated_mass_has_it_flange_included():
 
 @pytest.fixture(scope="module")
 def pillar():
-    """A block between the ground and a rigid block of its own section, so that all nodes of both ends are contact points."""
-    top = dict(kind="block", length_m=0.4, width_m=0.2, height_m=0.2, at_m=[0, 0, 1.2], rigid=True)
+    """A block between the ground and a rigid block that is a little wider, so that all nodes of both ends are contact points."""
+    top = dict(kind="block", length_m=0.41, width_m=0.21, height_m=0.2, at_m=[0, 0, 1.2], rigid=True)
     case = structure(**block(dict(head=dict(slave="block", on="top"))) | dict(bodies=dict(block=BLOCK | dict(element_order=2, coarse_size_m=0.3), top=top)))
     return structure_model(case).parts[0].model
 

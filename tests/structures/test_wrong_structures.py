@@ -6,8 +6,7 @@ from small_structures import RIGID, STONE, block, frame, stack, structure
 
 from fecolumn.case import case_from_tables, read_case
 from fecolumn.schema import InputError, merge
-from fecolumn.structures.check import check_joints
-from fecolumn.structures.structure import standing_of, structure_model
+from fecolumn.structures.structure import structure_model
 
 LINK = dict(kind="spring", body="upper", point_m=[0, 0, 0.3], to="ground", to_point_m=[0, 1, 0.3], stiffness_n_m=1e5)
 STOREYS = dict(kind="storeys", length_m=1.0, width_m=1.0, thickness_m=0.2, floors=3, floor_masses_kg=[1.0, 2.0], storey_heights_m=[1.0], period_s=1.0)
@@ -49,7 +48,7 @@ WRONG = [
     (stack(observed="lower.floor 1"), "observed", "no such mark"),
     (stack(interfaces=dict(joint=False, foot=dict(slave="lower", on="upper"))), "interfaces", "no contact path"),
     # one joint stated twice: in each direction, by another name, and of one copy beside all of them
-    (stack(interfaces=dict(again=dict(slave="lower", on="upper"))), "interfaces.again", 'the joint of interfaces.joint again: the same faces of "lower" and "upper"'),
+    (stack(interfaces=dict(again=dict(slave="lower", on="upper"))), "interfaces.again", 'the joint of interfaces.joint again: the same faces of "upper" and "lower"'),
     (stack(interfaces=dict(again=dict(slave="upper", on="lower", friction_coefficient=0.1))), "interfaces.again", 'the joint of interfaces.joint again: the same faces of "upper" and "lower"'),
     (stack(interfaces=dict(again=dict(slave="lower", on="ground"))), "interfaces.again", 'the joint of interfaces.foot again: the same faces of "lower" and the ground'),
     (frame(interfaces=dict(again=dict(slave="column 2", on="slab"))), "interfaces.again", 'the joint of interfaces.heads again: the same faces of "column 2" and "slab"'),
@@ -119,13 +118,22 @@ def test_mesh_file_of_a_body_counts_by_content_and_from_the_cases_folder(tmp_pat
         read_case(tmp_path / "case.toml")
 
 
-def test_coarse_plate_on_columns_stands_on_the_edges_of_their_heads_and_not_on_its_own_nodes():
+def test_coarse_plate_on_columns_stands_on_their_heads_whichever_is_named_first():
     case = structure(**merge(frame(slab=dict(element_size_m=0.6)), dict(interfaces=dict(heads=dict(slave="slab", on="column")))))
     made = structure_model(case)
-    edges = [joint for joint in made.joints if joint.name.startswith("heads, edge: column")]
-    assert len(edges) == 4 and all(joint.round and joint.master == 4 for joint in edges)
-    with pytest.raises(InputError, match="interfaces.heads.*exchange slave and on"):
-        check_joints([joint for joint in made.joints if joint not in edges], standing_of(case, made), "small.toml")
+    heads = [joint for joint in made.joints if joint.name.startswith("heads: column")]
+    assert len(heads) == 4 and all(joint.round and joint.master == 4 for joint in heads)
+
+
+@pytest.mark.parametrize("joint, message", [
+    (dict(between=["upper"]), "joint.between.*two names"), (dict(between=["ground", "ground"]), "joint.between.*must name a body"),
+    (dict(between=["upper", "lower"], on="lower"), "joint.on.*must be left out beside between"), (dict(on="lower"), "joint.slave.*missing; or give"),
+    (dict(between=["upper", "nobody"]), "joint.on.*no such body")])
+def test_wrong_bodies_of_a_joint_are_refused(joint, message):
+    tables = stack()
+    tables["interfaces"]["joint"] = joint
+    with pytest.raises(InputError, match=message):
+        structure(**tables)
 
 
 def test_block_alone_is_a_structure():
