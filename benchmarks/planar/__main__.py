@@ -14,40 +14,19 @@ from __future__ import annotations
 
 import argparse
 import sys
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import astuple, fields
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.planar import column as columns
-from benchmarks.planar.compare import AGREE, Compared, apart, compared, impacts
-from benchmarks.planar.ensembles import BLOCK, PACKAGE, PLANAR, advance, motion, response, shaken
+from benchmarks.planar.compare import AGREE, Compared, compared
+from benchmarks.planar.ensembles import BLOCK, PACKAGE, PLANAR, response, shaken
 from benchmarks.planar.figure import collapse, distributions
+from benchmarks.planar.jobs import FINE, every, fell, until_third
 from fecolumn.atomic import write_csv
 
-FINE = 1e-4  # step [s] of the planar program
 PARTS = ("column", "beside", "histories")
-
-
-def _all(function, jobs, number: int) -> list:
-    """Of each of the jobs, (arguments) in a tuple, in their order, so many at a time."""
-    if number == 1:
-        return [_said(function, *job) for job in jobs]
-    with ProcessPoolExecutor(number, mp_context=get_context("spawn")) as pool:
-        return list(pool.map(_said, [function] * len(jobs), *zip(*jobs)))
-
-
-def _said(function, *job):
-    found = function(*job)
-    print(".", end="", file=sys.stderr, flush=True)
-    return found
-
-
-def fell(tp: float, a: float, dt: float) -> bool:
-    """Whether a pulse overturns the column."""
-    return columns.pushed(a, tp, dt).fallen
 
 
 def column(args, folder: Path) -> None:
@@ -55,7 +34,7 @@ def column(args, folder: Path) -> None:
     table = []
     print("\n| tp [s] | UDEC [g] | HybriDFEM [g] | LMGC90 [g] | planar, independent [g] | overturns here at [g] |\n|---|---|---|---|---|---|")
     for tp, accelerations in columns.SCANS.items():
-        fallen = _all(fell, [(tp, float(a), args.dt) for a in accelerations], args.jobs)
+        fallen = every(fell, [(tp, float(a), args.dt) for a in accelerations], args.jobs)
         table += [[tp, f"{a:.4g}", int(one)] for a, one in zip(accelerations, fallen)]
         print(f"\r| {tp:g} | " + " | ".join(f"{one:g}" for one in columns.OTHERS[tp]) + f" | {columns.windows(accelerations, fallen)} |", flush=True)
     write_csv(folder / "column.csv", [["tp_s", "a_g", "overturns"], *table])
@@ -71,7 +50,7 @@ def beside(args, folder: Path) -> None:
         found, numbers = {}, range(1, min(args.n, case.motions) + 1)
         for program in (PLANAR, PACKAGE, *((BLOCK,) if case.closed else ())):
             dt = args.dt if program == PACKAGE else FINE
-            found[program] = _all(response, [(name, program, number, dt, folder) for number in numbers], args.jobs)
+            found[program] = every(response, [(name, program, number, dt, folder) for number in numbers], args.jobs)
         for program in list(found)[1:]:
             one = compared(found[PLANAR], found[program])
             table.append([name, program, one.n, *one.fallen, *astuple(one)[2:]])
@@ -83,24 +62,13 @@ def beside(args, folder: Path) -> None:
     print("wrote", *distributions(panels, folder / "beside"))
 
 
-def until_third(name: str, number: int, folder: Path) -> tuple[float, float]:
-    """Time [s] of the third impact by the planar program, and how far the package is off until then; nan without a third one."""
-    case = shaken()[name]
-    times = impacts(advance(case.structure, motion(case, number, FINE), FINE, every=10))
-    if len(times) < 3:
-        return np.nan, np.nan
-    until = float(times[2])
-    one, other = (response(name, program, number, FINE, folder, until + 0.01) for program in (PLANAR, PACKAGE))
-    return until, apart(one, other, until)
-
-
 def histories(args, folder: Path) -> None:
     """Single motions at 1e-4 s."""
     table = []
     print(f"\n| structure | motions with three impacts | agree to {AGREE:.0%} until the third | off, median [-] | most [-] |\n|---|---|---|---|---|")
     for name in args.structures:
         numbers = range(1, min(args.n, shaken()[name].motions) + 1)
-        found = np.array(_all(until_third, [(name, number, folder) for number in numbers], args.jobs))
+        found = np.array(every(until_third, [(name, number, folder) for number in numbers], args.jobs))
         table += [[name, number, *row] for number, row in zip(numbers, found.tolist())]
         off = found[np.isfinite(found[:, 1]), 1]
         print(f"\r| {name} | {len(off)} | {(off <= AGREE).sum()} | {np.median(off) if len(off) else np.nan:.2g} | {off.max(initial=0.0):.2g} |", flush=True)

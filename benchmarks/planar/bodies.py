@@ -74,7 +74,10 @@ class Structure:
 
     def __post_init__(self):
         found = [body.mass_properties() for body in self.bodies]
-        put = lambda name, values, kind=float: object.__setattr__(self, name, np.array(values, kind))
+
+        def put(name, values, kind=float):
+            object.__setattr__(self, name, np.array(values, kind))
+
         put("mass", [np.inf if body.fixed else mass for body, (mass, _, _) in zip(self.bodies, found)])
         put("inertia", [np.inf if body.fixed else inertia for body, (_, _, inertia) in zip(self.bodies, found)])
         put("place", [(*centre, 0.0) for _, centre, _ in found])

@@ -31,17 +31,17 @@ class Rocker:
     def quarter_period(self, tilt: float, side: int = 0) -> float:
         """Time [s] from rest at a tilt [rad] to the impact: the exact swing of the inverted pendulum, by quadrature."""
         alpha, p = self.alpha[side], self.p[side]
-        # tilt = least + (tilt - least) ... : substitution tilt (1 - s^2) takes the pole at rest away
+        # the substitution tilt (1 - s^2) takes the pole at rest away
         s, weights = np.polynomial.legendre.leggauss(60)
         s, weights = (s + 1) / 2, weights / 2
         at = tilt * (1 - s**2)
         speed = p * np.sqrt(2 * (np.cos(alpha - tilt) - np.cos(alpha - at)))
         return float(weights @ (2 * tilt * s / speed))
 
-    def rate(self, tilt: float, side: int = 0) -> float:
-        """Angular velocity [rad/s] just before the impact after rest at a tilt [rad]."""
+    def rate(self, tilt: float, side: int = 0, now: float = 0.0) -> float:
+        """Angular velocity [rad/s] upright, before or after the impact, of a motion that at a tilt [rad] turns by `now` [rad/s]: conservation of energy."""
         alpha, p = self.alpha[side], self.p[side]
-        return p * math.sqrt(2 * (math.cos(alpha - tilt) - math.cos(alpha)))
+        return math.sqrt(now**2 + 2 * p**2 * (math.cos(alpha - tilt) - math.cos(alpha)))
 
     def shaken(self, ground: np.ndarray, dt: float, parts: int = 4) -> np.ndarray:
         """Tilt (n + 1,) [rad], positive towards +x, under accelerations (n + 1,) [m/s2] at steps of dt [s], each in so many parts."""
