@@ -12,7 +12,7 @@ from fecolumn.reduced import cache
 
 # What code that makes a model imports from the rest of it: the case, which the key has with all its sizes, checks of it, the model's own class,
 # whose fields the key has, and the digest of a file, which tells whether it was read before
-_BESIDE = {"_form_compiler.py", "paths.py", "case.py", "content.py", "schema.py", "sizes.py", "reduced/model.py"}
+_BESIDE = {"_form_compiler.py", "case.py", "content.py", "schema.py", "sizes.py", "reduced/model.py"}
 
 
 @pytest.fixture
