@@ -100,10 +100,11 @@ def planar(case: Shaken, ground: np.ndarray, dt: float) -> Response:
 
 def block(case: Shaken, ground: np.ndarray, dt: float) -> Response:
     """By the closed form of the equivalent block; its top is that of a beam: two half diagonals move it."""
-    tilt = case.closed.shaken(ground, dt)[::round(EVERY / dt)]
+    every = case.closed.shaken(ground, dt)
+    tilt = every[::round(EVERY / dt)]
     alpha, (width, height) = case.closed.alpha[0], structures.FRAME["column"]
     top = np.hypot(width, height) * np.sign(tilt) * (np.sin(alpha) - np.sin(alpha - np.abs(tilt)))
-    return Response(EVERY * np.arange(len(tilt)), top, np.abs(tilt)[:, None], bool(np.abs(tilt).max() >= np.pi / 4 - 0.05))
+    return Response(EVERY * np.arange(len(tilt)), top, np.abs(tilt)[:, None], bool(np.abs(every).max() > np.pi / 4))
 
 
 def response(name: str, program: str, number: int, dt: float, folder: Path, until: float = np.inf) -> Response:

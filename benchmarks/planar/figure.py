@@ -26,14 +26,14 @@ def collapse(history: History, path: Path, pictures: int = 6) -> list[Path]:
     rows = np.linspace(0, len(history.time) - 1, pictures).round().astype(int)
     solid = [number for number, body in enumerate(history.structure.bodies) if not body.fixed]
     with styled():
-        figure = new_figure(PAGE_WIDTH_IN, 0.5 * PAGE_WIDTH_IN)
+        figure = new_figure(PAGE_WIDTH_IN, 0.3 * PAGE_WIDTH_IN)
         for axes, row in zip(figure.subplots(1, pictures, sharey=True), rows):
             for number in solid:
                 outline = history.structure.bodies[number].outline - history.structure.place[number, :2]
                 drawn = np.array([history.structure.point(number, corner, history.place[row]) for corner in (*outline, outline[0])])
                 axes.fill(*drawn.T, facecolor="0.9", edgecolor=BLACK, linewidth=0.6)
             axes.axhline(0.0, color=GREY, linewidth=0.8)
-            axes.set(title=f"{history.time[row]:.2f} s", aspect="equal", xlim=(-2.2, 2.2), xlabel="x [m]")
+            axes.set(title=f"{history.time[row]:.2f} s", aspect="equal", xlim=(-1.5, 4.5), xlabel="x [m]")
             axes.grid(False)
         figure.axes[0].set_ylabel("z [m]")
         return save(figure, path)
