@@ -79,9 +79,21 @@ def rim(_: Work, target: Path) -> str:
     return "from contact.rolling"
 
 
+def two_sides(_: Work, target: Path) -> str:
+    """Rates before and after an impact of a block on an equal one, over its displacement, as `fecolumn verify -k joints` draws them."""
+    from matplotlib.figure import Figure
+
+    from fecolumn.verification.joints import draw
+
+    figure = Figure(figsize=(7.2, 2.8))
+    draw("rigid", figure)
+    figure.savefig(target, dpi=150)
+    return "from verification.joints"
+
+
 #: Figures by name: place in the repository and the function that makes them, of (Work, target), which says from what.
 FIGURES = {"rocking": ("meshes/rocking.png", rocking), "cdf": ("benchmarks/cdf.png", cdf), "impact": ("fecolumn/manual/impact.png", impact),
-           "rolling": ("fecolumn/manual/rolling.png", rim)}
+           "rolling": ("fecolumn/manual/rolling.png", rim), "two-sides": ("fecolumn/manual/two-sides.png", two_sides)}
 
 
 def make(name: str, work: Work, root: Path = ROOT) -> str:

@@ -31,10 +31,10 @@ def run(engine: str, long: bool = False) -> Result:
     elastic = engine == "reduced"
     rows = [*_displaced(engine, 1e-3 if elastic else 1e-4), *_turned(engine, 2e-2 if elastic else 1e-3)]
     rows += [*_drums(engine), *_exchange(engine), *_slides(engine)]
-    return Result(rows, lambda figure: _draw(engine, figure))
+    return Result(rows, lambda figure: draw(engine, figure))
 
 
-def _draw(engine: str, figure) -> None:
+def draw(engine: str, figure) -> None:
     """Rates 2.5 ms before and 2.5 ms after the first impact over the displacement of the block above, beside the closed form."""
     small = np.logspace(-9, np.log10(0.05), 24)
     ways = np.concatenate([-small[::-1], [0.0], small])

@@ -1,0 +1,89 @@
+"""Joints of equal faces: bodies pivot on the outline of the region where both faces overlap, in every engine, whichever body is named first."""
+
+import meshio
+import numpy as np
+import pytest
+
+from fecolumn.case import GRAVITY, case_from_tables
+from fecolumn.reduced.observe import WIDTH
+from fecolumn.simulation import run
+from fecolumn.structures.engine import engine_of
+from fecolumn.structures.structure import structure_model
+from fecolumn.verification.joints import leaning, region, rocked, two
+
+# HybriDFEM's multi-drum column: heights of the drums [m], widths at the ground and at the top [m]
+HEIGHTS, WIDTHS = [0.82] * 7 + [0.21], (1.11, 0.90)
+
+
+@pytest.mark.parametrize("displaced", [0.0, 1e-12, -1e-9, 1e-6, -1e-6, 1e-3, 1e-2, -1e-2])
+def test_a_displaced_block_rocks_as_its_closed_form_says(displaced):
+    """The arm is that of the nearer edge of either block; the upper one fell over where it was displaced by a nanometre."""
+    found, exact = rocked("rigid", displaced)
+    assert found == pytest.approx(exact, rel=5e-4, abs=1e-7)
+
+
+@pytest.mark.parametrize("angle, displaced, corners", [(0.0, (0.0, 0.0), 4), (5.0, (0.0, 0.0), 8), (45.0, (0.0, 0.0), 8), (0.0, (1e-6, 1e-6), 4), (5.0, (0.02, 0.013), 6)])
+def test_a_standing_block_has_points_on_all_corners_of_the_region(angle, displaced, corners):
+    made = two("rigid", dict(turned_deg=angle, at_m=[*displaced, 0.1]))
+    exact = region(angle, displaced)
+    taking = np.flatnonzero((made.work.points["interface"] > 0) & ~made.work.points["idle"])
+    bodies = np.where(made.work.points["slave"][taking] == 1, 1, 0)
+    places = np.array([made.motion.frames["center"][b] + made.motion.rotation[b] @ arm for b, arm in zip(bodies, made.work.points["arm"][taking])])[:, :2]
+    apart = np.linalg.norm(places[None] - (exact + displaced)[:, None], axis=2).min(axis=1)
+    assert len(exact) == corners and apart.max() < 1e-8
+
+
+def test_who_is_named_first_decides_nothing():
+    rows = [two("rigid", dict(at_m=[0.03, 0.01, 0.1]), interfaces=dict(feet=dict(between=["low", "ground"]), joint=dict(between=order)),
+                initial=dict(up=dict(tilt_rad=0.05, direction_deg=20.0))).advance(np.zeros((400, 3)))[0] for order in (["low", "up"], ["up", "low"])]
+    assert np.array_equal(*rows)
+
+
+@pytest.mark.parametrize("engine", ["rigid", "reduced"])
+def test_a_block_that_slides_over_the_edges_of_another_keeps_its_energy(engine):
+    """Shaken along both axes with little friction; points go from one body to the other and back, and none sinks."""
+    made = two(engine, dict(length_m=0.44, width_m=0.28), contact=dict(friction_coefficient=0.2, interior_points=0))
+    time = 5e-4 * np.arange(1, 1001)
+    rows, _ = made.advance(8.0 * np.sin(4 * np.pi * time)[:, None] * [1.0, 0.5, 0.0])
+    assert np.abs(rows[:, WIDTH - 1]).max() < 1e-11 * np.abs(rows[:, 17]).max()
+    assert rows[:, 12].max() < 1e-10 and np.abs(rows[:, WIDTH + 4]).max() > 0.01
+
+
+def _drums(folder) -> dict:
+    """Tables of the multi-drum column, each drum a trapezoid of a mesh file."""
+    levels = np.concatenate([[0.0], np.cumsum(HEIGHTS)])
+    halves = np.interp(levels, [0, levels[-1]], WIDTHS) / 2
+    bodies, joints = {}, {}
+    for k, height in enumerate(HEIGHTS):
+        lower, upper, file = halves[k], halves[k + 1], folder / f"drum{k}.vtk"
+        corners = [[x * b, y / 2, z] for z, b in ((0, lower), (height, upper)) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        meshio.Mesh(np.array(corners), [("hexahedron", [list(range(8))])]).write(file)
+        bodies[f"d{k}"] = dict(kind="mesh", mesh_file=str(file), density_kg_m3=2620.0, at_m=[0.0, 0.0, float(levels[k])])
+        joints[f"j{k}"] = dict(between=[f"d{k}", f"d{k - 1}" if k else "ground"])
+    return dict(bodies=bodies, interfaces=joints, contact=dict(friction_coefficient=0.7, interior_points=0), integration=dict(engine="rigid", dt_s=1e-3, duration_s=20.0))
+
+
+@pytest.mark.parametrize("pulse, stands, falls", [(0.5, 0.25, 0.26), (1.0, 0.203, 0.207)])
+def test_the_multi_drum_column_overturns_where_three_other_programs_say(tmp_path, pulse, stands, falls):
+    """UDEC .27 and .20, HybriDFEM .25 and .21, LMGC90 .25 and .21 g; an independent planar program .253 and .205."""
+    case = case_from_tables(_drums(tmp_path), "drums.toml")
+    model, time = structure_model(case), 1e-3 * np.arange(1, 7001)
+    for level, overturns in ((stands, False), (falls, True)):
+        ground = level * GRAVITY * np.where(time <= pulse + 1e-9, 1.0, np.where(time <= 3 * pulse + 1e-9, -0.5, 0.0))
+        assert engine_of(case, model, "drums.toml").advance(np.outer(ground, [1.0, 0.0, 0.0]))[1] == overturns
+
+
+@pytest.mark.parametrize("displaced", [0.0, 1e-6, -1e-2, 1e-2])
+def test_the_full_order_pivots_where_the_region_ends(tmp_path, displaced):
+    """Until the first impact; the block's own bending lets it swing a little slower than a rigid one."""
+    block = dict(kind="block", length_m=0.4, width_m=0.3, element_size_m=0.1, youngs_modulus_pa=5e10, poissons_ratio=0.2)
+    tables = dict(bodies=dict(low=block | dict(height_m=0.1, density_kg_m3=1e5), up=block | dict(height_m=0.8, density_kg_m3=100.0, at_m=[displaced, 0.0, 0.1])),
+                  contact=dict(friction_coefficient=0.8, interior_points=0), interfaces=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])),
+                  initial=dict(up=dict(tilt_rad=0.05)), integration=dict(engine="full", dt_s=1e-3, duration_s=0.1))
+    summary = run(case_from_tables(tables, "two.toml"), tmp_path / "run", quiet=True)
+    import h5py
+
+    with h5py.File(tmp_path / "run" / "history.h5") as file:
+        tilt = file["body/up/tilt"][()]
+    exact = leaning(displaced, 0.5)[0](0.1)[0]
+    assert tilt[-1] == pytest.approx(exact, rel=2e-3) and summary["energy_closure_rel"] < 1e-9
