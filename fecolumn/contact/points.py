@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.record import record
+from fecolumn.contact.tolerances import OPEN
 
 #: What a point carries from step to step: force of the master on the slave [N]; anchor: horizontal position at which it sticks [m]; relative: its
 #: position on the slave relative to the master's surface, the third the gap [m], `located`: whether that was found, else the point is
@@ -43,3 +44,8 @@ def node_points(arms: np.ndarray, friction: float, law: np.ndarray | None = None
     if springs is not None:
         points["springs"] = springs
     return points
+
+
+def may_touch(points: np.ndarray, interfaces: np.ndarray, relative: np.ndarray) -> np.ndarray:
+    """Mask (n,) of the points (n,) of POINT that may touch where bodies begin: neither idle nor below a surface beyond whose edge they are; relative: (n, 3) [m]."""
+    return ~points["idle"] & (relative[:, 2] > -OPEN * interfaces["width"][points["interface"]])

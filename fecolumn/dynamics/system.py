@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.joints import Joints, joint_on_base
-from fecolumn.contact.points import CONTACT
+from fecolumn.contact.points import CONTACT, may_touch
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.interface import Interface, Nodal
 from fecolumn.dynamics.linkage import Linkage
@@ -122,7 +122,7 @@ class System:
         rotation, internal, strain = self.kinematics.internal(x)
         contact = np.zeros(interface.size, CONTACT)
         places = interface.start_positions(x, rotation, interface.poses(x, rotation)) if interface.moving else interface.node_positions(x, rotation)[interface.points["node"]]
-        contact["relative"], contact["located"] = places, True
+        contact["relative"], contact["located"] = places, may_touch(interface.points, interface.interfaces, places)
         contact["anchor"] = contact["relative"][:, :2]
         zero = np.zeros_like(x)
         ties = self.links.ties(self.column.centers(x), rotation) if self.links else np.zeros(0, TIE)

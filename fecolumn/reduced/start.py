@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import interpreted
+from fecolumn.contact.points import may_touch
 from fecolumn.contact.problem import FAR_BASE, OK
 from fecolumn.contact.tolerances import FIRMER_TIMES, LINKS_FIRM
 from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
@@ -84,7 +85,7 @@ def unstrained(engine, motion) -> motions.Motion:
     """A motion of which the places of the bodies are known: they fall freely from there, and links are as tight as they are."""
     motion.frames["acceleration"] = engine.structure.gravity
     motion.contact["relative"] = engine.places(motion.frames["center"], motion.rotation)
-    motion.contact["anchor"], motion.contact["located"] = motion.contact["relative"][:, :2], True
+    motion.contact["anchor"], motion.contact["located"] = motion.contact["relative"][:, :2], may_touch(engine.points, engine.structure.interfaces, motion.contact["relative"])
     motion.ties["length"] = engine.link_lengths(motion.frames["center"], motion.rotation)
     motion.whole["static"] = interpreted(end_links)(engine.structure.links, motion.frames, motion.rotation, motion.ties.copy(), motion.ties, np.inf)[0]
     motion.ties["work"] = 0.0
