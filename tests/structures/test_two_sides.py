@@ -33,6 +33,18 @@ def test_a_standing_block_has_points_on_all_corners_of_the_region(angle, displac
     assert len(exact) == corners and apart.max() < 1e-8
 
 
+@pytest.mark.parametrize("displaced, tilt", [(0.0, -0.011416), (1e-9, -0.011416), (1e-3, -0.011426), (-1e-3, -0.011542), (1e-2, -0.011525), (-1e-2, -0.012634)])
+def test_two_free_equal_blocks_move_as_an_independent_planar_program_says(displaced, tilt):
+    """Let go from 0.05 rad, the upper block sets the lower one rocking, too; after their impact both turn as one. Tilt after 0.2 s by `benchmarks.planar` at 1e-4 s."""
+    block = dict(kind="block", length_m=0.4, width_m=0.3, height_m=0.8, density_kg_m3=2700.0, youngs_modulus_pa=5e10, poissons_ratio=0.2)
+    case = case_from_tables(dict(bodies=dict(low=block, up=block | dict(at_m=[displaced, 0.0, 0.8])), contact=dict(friction_coefficient=0.7, interior_points=0),
+                                 interfaces=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])), initial=dict(up=dict(tilt_rad=0.05)),
+                                 integration=dict(engine="rigid", dt_s=5e-4, duration_s=1.0)), "two.toml")
+    made = engine_of(case, structure_model(case), "two.toml")
+    made.advance(np.zeros((400, 3)))
+    assert [np.arctan2(R[0, 2], R[2, 2]) for R in made.motion.rotation] == pytest.approx([tilt] * 2, rel=3e-4)
+
+
 def test_who_is_named_first_decides_nothing():
     rows = [two("rigid", dict(at_m=[0.03, 0.01, 0.1]), interfaces=dict(feet=dict(between=["low", "ground"]), joint=dict(between=order)),
                 initial=dict(up=dict(tilt_rad=0.05, direction_deg=20.0))).advance(np.zeros((400, 3)))[0] for order in (["low", "up"], ["up", "low"])]
