@@ -30,8 +30,9 @@ class JointPlans:
         from matplotlib.collections import EllipseCollection, LineCollection
 
         contacts, history = frames.result.solid.contacts, frames.result.history
-        tilts = [history[f"interface/{joint.name}/tilt"].max() for joint in frames.result.solid.structure.joints]
-        self._kept = sorted(sorted(range(len(contacts)), key=lambda k: (-tilts[k], k))[:_MOST])
+        joints = frames.result.solid.structure.joints
+        tilts = {k: history[f"interface/{joint.name}/tilt"].max() for k, joint in enumerate(joints) if joint.pair < 0}
+        self._kept = sorted(sorted(tilts, key=lambda k: (-tilts[k], k))[:_MOST])
         self._quantity, self._places = frames.pressure_quantity, {}
         left, bottom, width, height = PLAN
         bottom, height = bottom - 0.045, height + 0.055

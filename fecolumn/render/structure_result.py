@@ -173,7 +173,7 @@ def _place(structure, body: str) -> int:
 
 def _check_columns(file: Path, history: dict, structure) -> None:
     missing = [name for part in structure.parts for name in (f"body/{part.name}/tilt", f"mark/{part.name}.top/displacement") if name not in history]
-    missing += [name for joint in structure.joints for name in (f"interface/{joint.name}/rise",) if name not in history]
+    missing += [name for joint in structure.joints for name in (f"interface/{joint.name}/rise",) if joint.pair < 0 and name not in history]
     if missing:
         raise InputError(file, "", None, f'has no column "{missing[0]}": it is of another structure than that of case.json')
 

@@ -35,6 +35,8 @@ def _of_interfaces(result, what: str) -> list:
     """Lines of a quantity of the joints of each interface."""
     groups: dict[str, list] = {}
     for joint in result.solid.structure.joints:
+        if joint.pair >= 0:
+            continue
         values = result.history[f"interface/{joint.name}/{what}"]
         groups.setdefault(joint.name.partition(":")[0], []).append(np.maximum(values, 0.0) if values.ndim == 1 else np.hypot(*values.T))
     return _largest(list(groups.items()))

@@ -138,12 +138,24 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
         values = rows[:, place] if count == 1 else rows[:, place:place + count]
         columns[name] = values.astype(int) if name.rpartition("/")[2] in _WHOLE else values.copy()
         place += count
+    columns = of_both_sides(columns, structure)
     for part in structure.parts:
         if part.model.storeys is None:
             continue
         for number, stiffness in enumerate(part.model.storeys.stiffness, 1):
             drift = (columns.pop(f"mark/{part.name}.storey {number}/displacement") - columns[f"body/{part.name}/displacement"])[:, :2]
             columns |= {f"storey/{part.name} {number}/drift": drift, f"storey/{part.name} {number}/shear": stiffness * drift}
+    return columns
+
+
+def of_both_sides(columns: dict, structure: StructureModel) -> dict:
+    """Columns by name with one interface for each joint with two sides: its force is that of both."""
+    for joint in structure.joints:
+        if joint.pair >= 0:
+            force = f"interface/{structure.joints[joint.pair].name}/force"
+            columns[force] = columns[force] + columns[f"interface/{joint.name}/force"]
+            for name, _ in OF_INTERFACE:
+                del columns[f"interface/{joint.name}/{name}"]
     return columns
 
 
@@ -156,7 +168,7 @@ def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
     bodies = {part.name: dict(tilt_max_rad=largest(f"body/{part.name}/tilt")) for part in structure.parts}
     interfaces = {joint.name: dict(tilt_max_rad=largest(f"interface/{joint.name}/tilt"), rise_max_m=largest(f"interface/{joint.name}/rise"),
                                    slide_max_m=largest(f"interface/{joint.name}/slide"), residual_slide_m=float(np.hypot(*rows[f"interface/{joint.name}/slide"][-1])),
-                                   force_max_n=largest(f"interface/{joint.name}/force")) for joint in structure.joints}
+                                   force_max_n=largest(f"interface/{joint.name}/force")) for joint in structure.joints if joint.pair < 0}
     storeys = {name[7:-6]: dict(drift_max_m=largest(name), shear_max_n=largest(f"{name[:-5]}shear")) for name in rows if name.startswith("storey/") and name.endswith("/drift")}
     links = {link.name: _peaks_of_link(rows["time"], {name: rows[f"link/{link.name}/{name}"] for name, _ in OF_LINK}, link) for link in structure.links}
     return dict(bodies=bodies, interfaces=interfaces, storeys=storeys, links=links)

@@ -9,6 +9,7 @@ from fecolumn.contact.pose import SLAVE, poses_of
 from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, never_alone
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.reduced.structure import LOST
+from fecolumn.structures.analysis import of_both_sides
 
 
 class StructureObserver:
@@ -52,7 +53,7 @@ class StructureObserver:
         for link, held, tie in zip(structure.links, system.links.links if system.links else (), state.ties):
             values = dict(tension=tie["force"], elongation=tie["length"] - held["length"], yielded=tie["flowed"], work=tie["work"])
             row |= {f"link/{link.name}/{name}": float(value) for name, value in values.items()} | {f"link/{link.name}/broken": int(tie["broken"])}
-        return row
+        return of_both_sides(row, structure)
 
     def _top(self, b: int, x: np.ndarray) -> np.ndarray:
         """Displacement (3,) [m] of the mean of a body's top face."""
