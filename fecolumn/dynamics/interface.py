@@ -274,10 +274,12 @@ class Interface:
         return before, rims, rolled
 
     def lay(self, state) -> tuple[np.ndarray, np.ndarray]:
-        """What a State brings to its points, (P,) of CONTACT, and its rims, once the points of joints with two sides are laid."""
-        before, rims, poses = state.contact.copy(), state.rims.copy(), self.poses(state.x, state.rotation)
-        self._mark_unused(state.x, poses, rims)
-        self._lay_points(state, poses, before, rims)
+        """What a State brings to its points, (P,) of CONTACT, and its rims, once the points of joints with two sides are laid; once they are, they stay."""
+        before, rims = state.contact.copy(), state.rims.copy()
+        if not rims["placed"][self.overlaps.joints["forward"]].all():
+            poses = self.poses(state.x, state.rotation)
+            self._mark_unused(state.x, poses, rims)
+            self._lay_points(state, poses, before, rims)
         return before, rims
 
     def _mark_unused(self, x, poses, rims) -> None:

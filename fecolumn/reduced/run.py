@@ -194,8 +194,12 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
         if structure.interfaces[k].ball > 0.0:
             lay_down(work.points, k)
             roll_balls(structure, k, work, motion, spare)
-    mark_unused(structure.overlaps, structure.interfaces, motion.frames, work.poses[START], spare.rims)
-    lay_points(structure, work, motion, spare)
+    for joint in structure.overlaps.joints:
+        if not spare.rims[joint.forward].placed:
+            # once: the points stay while the bodies come to rest, by micrometres
+            mark_unused(structure.overlaps, structure.interfaces, motion.frames, work.poses[START], spare.rims)
+            lay_points(structure, work, motion, spare)
+            break
     answer = equilibrate(structure, base, scheme, work, motion, fall, bent, still, spare.rims, spare, counts)
     if answer == OK:
         spare.whole[0].static += end_links(structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt)[0]

@@ -160,7 +160,7 @@ def _turned(engine: str, allowed: float):
 
 
 def _edge_error(engine: str, angle: float, displaced, normal, apart: float) -> float:
-    made = two(engine, dict(turned_deg=angle, at_m=[*displaced, _BELOW]), contact=dict(friction_coefficient=2.0, interior_points=0))
+    made = two(engine, dict(turned_deg=angle, at_m=[*displaced, _BELOW]))
     pushed, steps = 1.3 * GRAVITY * apart / _H, int(0.02 / _DT)
     axis, ground = np.array([-normal[1], normal[0], 0.0]), np.tile(-pushed * np.array([*normal, 0.0]), (steps, 1))
     rates = []
