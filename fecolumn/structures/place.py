@@ -193,9 +193,8 @@ def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
 
     Of a circle it is a point of that, not of the polygon of its nodes, unless the circles cross there.
     """
-    outlines, face = [], standing[joint.slave].model.surfaces[joint.slave_surface].axes
-    for place, surface, corners in ((joint.slave, joint.slave_surface, joint.corners[0]), (joint.master, joint.master_surface, joint.corners[1])):
-        outlines.append((corners + standing[place].center) @ face)
+    face = standing[joint.slave].model.surfaces[joint.slave_surface].axes
+    outlines = [(corners + standing[place].center) @ face for place, corners in zip((joint.slave, joint.master), joint.corners)]
     height, along = outlines[0][0, 2], ahead @ face[:, :2]
     along = along / np.linalg.norm(along)
     region = outlines[1][::-1, :2]
