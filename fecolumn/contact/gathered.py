@@ -29,6 +29,21 @@ def none_gathered(slots: int) -> Gathered:
     return Gathered(np.zeros(1, np.int64), np.zeros(slots, np.int64), np.full(slots, -1, np.int64), np.empty((3 * slots, 3 * slots)))
 
 
+def gathered_nodes(base) -> np.ndarray:
+    """Top nodes (k,) of a base whose compliance is gathered, in their order: for a checkpoint, since sums are taken in this order."""
+    nodes = np.empty(len(base.gathered.slots), np.int64)
+    nodes[base.slot[base.slot >= 0]] = np.flatnonzero(base.slot >= 0)
+    return nodes[base.gathered.slots[:base.gathered.number[0]]]
+
+
+def gather_again(base, nodes: np.ndarray) -> None:
+    """Gather the top nodes (k,) of a base of which nothing is gathered, in their order."""
+    gathered, slots, k = base.gathered, base.slot[nodes], len(nodes)
+    rows = (3 * slots[:, None] + np.arange(3)).ravel()
+    gathered.number[0], gathered.slots[:k], gathered.place[slots] = k, slots, np.arange(k)
+    gathered.matrix[:3 * k, :3 * k] = base.compliance[np.ix_(rows, rows)]
+
+
 @njit
 def gather(base, points, listed):
     """Gather the nodes below the listed points (k,); where far more are gathered than all points can have, as a foot goes on its way, from the beginning."""

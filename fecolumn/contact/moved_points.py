@@ -118,7 +118,8 @@ def leave_out(i, points, before):
 @njit
 def bring(i, gone, interfaces, frames, poses, contact, points, before, size, lay):
     """Bring to point i, which is where it is to be, what it carried in the step before, or what point `gone` did, which was
-    in its place in the interface with the roles exchanged. lay: the points are laid for the first time."""
+    in its place in the interface with the roles exchanged. One that carried nothing there begins afresh, for the edges may
+    cross elsewhere now, where the gap is another. lay: the points are laid for the first time."""
     point, now, jump = points[i], before[i], 0.0
     turned = poses[point.interface].turned[0]
     for a in range(3):
@@ -131,7 +132,7 @@ def bring(i, gone, interfaces, frames, poses, contact, points, before, size, lay
             now.relative[a] += way
             if a < 2:
                 now.anchor[a] += way
-    elif gone >= 0 and contact[gone].present and contact[gone].located:
+    elif gone >= 0 and contact[gone].present and contact[gone].force[2] > 0.0:
         _exchange(i, gone, interfaces, frames, poses, contact, points, before)
     elif not lay or point.count > 1:
         begin_afresh(now)

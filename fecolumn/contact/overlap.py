@@ -31,10 +31,10 @@ SIDE_NODE = record(("node", "i8"), ("at", "f8"))
 
 #: A joint of two sides. forward: interface whose slave has the face OWN; reverse: the interface with the roles
 #: exchanged. first, count: (2,) sides of OWN and OTHER, none of a circle; center: (2, 2), radius: (2,) [m] of the circles,
-#: 0 of a polygon. slot, slots: first of its slots and their number. size: larger side of OWN [m]. plain: whether the
-#: points are laid as for an outline of OWN that lies within that of OTHER.
+#: 0 of a polygon. slot, slots: first of its slots and their number. size: larger side of OWN [m]. within: whether the
+#: outline of OWN lies within that of OTHER at the start of the step; plain: whether the points are laid as for such a one.
 OVERLAP = record(("forward", "i8"), ("reverse", "i8"), ("first", "i8", 2), ("count", "i8", 2), ("center", "f8", (2, 2)),
-                 ("radius", "f8", 2), ("slot", "i8"), ("slots", "i8"), ("size", "f8"), ("plain", "?"))
+                 ("radius", "f8", 2), ("slot", "i8"), ("slots", "i8"), ("size", "f8"), ("within", "?"), ("plain", "?"))
 
 #: A place of contact that may be a point of the slave, `forward`, or a point of the master, `reverse`, -1 where it
 #: cannot be. side: side of OWN on which its node lies, -1 of a node inside and of a corner of the region; corner: whether

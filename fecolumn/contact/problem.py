@@ -20,6 +20,7 @@ from fecolumn.contact.factor import multiply
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.newton import stiffness_alone
 from fecolumn.contact.pad import indent
+from fecolumn.contact.points import OVER
 from fecolumn.contact.stick import find_stick, operator_of, solve_sticking
 from fecolumn.contact.tolerances import CLOSE, EXACT, NEAR, PENETRATION, SHARE, SHARP, SOLVED, SWEEPS_MOST, USABLE
 
@@ -98,7 +99,8 @@ def mark_close(problem, points, interfaces, positions, before, after):
     for i in present_points(problem):
         height = CLOSE * interfaces[points[i].interface].width
         close = everyone or positions[i, 2] < height or after[i].force[2] > 0 or before[i].force[2] > 0
-        after[i].located = close
+        # one beyond an outline is high above the surface, which is not where it will be when it is over that again
+        after[i].located = close and points[i].beyond == OVER
         if close:
             problem.near[count] = i
             count += 1

@@ -25,9 +25,11 @@ def mark_unused(overlaps, interfaces, frames, poses, rims):
     """Mark the reverse interfaces that no point of needs, as the slave's face lies within the master's: `unused` in
     rims (ni,) of RIM at the end of the step."""
     slope, shift = np.empty((3, 2)), np.empty(3)
-    for joint in overlaps.joints:
+    for j in range(len(overlaps.joints)):
+        joint = overlaps.joints[j]
         map_between(interfaces[joint.forward], interfaces[joint.reverse], frames, poses[joint.forward], slope, shift)
-        unused = rims[joint.forward].plain and lies_within(joint, overlaps.sides, slope, shift)
+        joint.within = lies_within(joint, overlaps.sides, slope, shift)
+        unused = rims[joint.forward].plain and joint.within
         rims[joint.reverse].unused = unused
         if unused:
             rims[joint.reverse].angle = np.nan
@@ -83,6 +85,9 @@ def _place(overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims,
         if slot.reverse >= 0 and contact[slot.reverse].present:
             was = REVERSE
         role, own_side, other_side, v = NONE, slot.side, nearest[s], chosen[s]
+        if v < 0 and was == FORWARD and out[s] <= SAME_OUTLINE * size and _stays(slot, points, before, arms) and (
+                slot.side < 0 or slot.corner or not _is_near(other[:count], at[s], SAME_POINT * size)):
+            continue
         if v >= 0:
             own_side, other_side = on[v, OWN], on[v, OTHER]
             for a in range(2):
@@ -121,7 +126,7 @@ def _place(overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims,
     if joint.radius[OTHER] > 0.0:
         changed |= _place_rim(joint, sides, OWN, r, interfaces, rim, back, back_shift, poses[r].turned[0], arms, points, before,
                               own[:count], lay)
-    joint.plain = rims[k].plain = plain and lies_within(joint, sides, slope, shift)
+    joint.plain = rims[k].plain = plain and joint.within
     return changed
 
 
@@ -174,10 +179,23 @@ def _nearest(places, taken, x, y, within):
 
 
 @njit
+def _stays(slot, points, before, arms):
+    """Whether a slot is a node of the slave that takes part where it is and did so in the step before, so that it brings itself."""
+    i, j = slot.forward, slot.reverse
+    if slot.free or points[i].count != 1 or points[i].idle or j >= 0 and not (points[j].idle and not before[j].located):
+        return False
+    for a in range(3):
+        if not before[i].arm[a] == points[i].arm[a] == arms[points[i].node, a]:
+            return False
+    return True
+
+
+@njit
 def _is_near(places, place, within):
     """Whether any of places (n, 2) is nearer than `within` [m]."""
     for v in range(len(places)):
-        if np.hypot(places[v, 0] - place[0], places[v, 1] - place[1]) < within:
+        x, y = abs(places[v, 0] - place[0]), abs(places[v, 1] - place[1])
+        if x < within and y < within and np.hypot(x, y) < within:
             return True
     return False
 

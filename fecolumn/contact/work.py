@@ -14,14 +14,15 @@ def book_impulses(gained, own, contact, other):
     """The terms of a step [J] after its impulses were replaced by others that gain `gained` [J] of kinetic energy: own, contact, other.
 
     own: of what happened, impact or friction; contact, other: what contact and the other of the two did before. What the impulses give back was taken by those in whose
-    place they are, first by their own term, then by contact, then by the other one: an impact never shows as a gain.
+    place they are, first by their own term, then by contact, then by the other one: neither impact nor friction ever shows as a gain. So what contact had made is the
+    first that they take.
     """
-    own += gained
-    back = max(own, 0.0)
-    own, least = own - back, max(contact, 0.0)
+    made = min(max(contact, 0.0), max(-gained, 0.0))
+    own, contact = own + gained + made, contact - made
+    back, least = max(own, 0.0), max(contact, 0.0)
     contact += back
-    back = min(max(contact - least, 0.0), back)
-    return own, contact - back, other + back
+    given = min(max(contact - least, 0.0), back, max(-other, 0.0))
+    return own - back, contact - given, other + given
 
 
 @njit
@@ -36,8 +37,8 @@ def move_anchors(points, interfaces, springs, listed, before, after):
 
 
 @njit
-def losses(points, interfaces, springs, listed, before, after):
-    """Energy [J] that friction and landings of the listed points (k,) add in a step, both below 0, and that the dashpots of a pad take."""
+def losses(points, interfaces, springs, listed, before, after, contact):
+    """Energy [J] that friction and landings of the listed points (k,) add in a step, both below 0, and that the dashpots of a pad take; contact: that all of contact adds."""
     friction, landed, on_pad = 0.0, 0.0, interfaces[0].on_pad
     for i in listed:
         if after[i].force[2] > 0:
@@ -45,4 +46,6 @@ def losses(points, interfaces, springs, listed, before, after):
             if before[i].force[2] <= 0 and not on_pad:
                 # a point of a rim that rolls may be pushed out: no landing
                 landed += min(after[i].force[2] * (after[i].relative[2] - before[i].relative[2]), 0.0)
+    # the gap of a point that goes along a rim or an outline is not the way of a body alone: landings take no more than contact does beside friction
+    landed = max(landed, min(contact - friction, 0.0))
     return friction, landed, dashpot_work(points, springs, before, after) if on_pad else 0.0

@@ -188,7 +188,7 @@ class Stepper:
             tied, taken = end_links(self.system.links.links, frames_at(column.centers(after.x)), after.rotation, start.ties, after.ties, hht.dt)
             after.static += tied
         contact = column.dot(step, worked) - rolling + after.static - start.static + taken
-        friction, landed, dashpots = losses(interface.points, interface.interfaces, springs, interface.near, before, after.contact)
+        friction, landed, dashpots = losses(interface.points, interface.interfaces, springs, interface.near, before, after.contact, contact)
         self.ledger.add(base_work=-np.dot((start.ground + after.ground) / 2, shaken), algorithmic=algorithmic - damping,
                         friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots, rolling=rolling, links=-taken)
         return contact

@@ -174,7 +174,7 @@ class ReducedAnalysis(Analysis):
     def _save(self) -> None:
         arrays = self._arrays()
         content = io.BytesIO()
-        np.savez(content, **arrays, **self.to_resume(), **(self.states.to_resume() if self.states else {}))
+        np.savez(content, **arrays, **self.engine.base_to_resume(), **self.to_resume(), **(self.states.to_resume() if self.states else {}))
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
@@ -190,9 +190,11 @@ class ReducedAnalysis(Analysis):
         for name, values in targets.items():
             if saved[name].shape != values.shape or not np.can_cast(saved[name].dtype, values.dtype, "equiv"):
                 raise ValueError(f"{name} does not fit")
+        base = saved["base.known"], saved["base.gathered"]
         self.resumed(saved)
         if self.states:
             self.states.resumed(saved)
         for name, values in targets.items():
             values[...] = saved[name]
+        self.engine.resume_base(*base)
         interpreted(list_present)(self.engine.work.problem, self.engine.work.points)

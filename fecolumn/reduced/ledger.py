@@ -74,7 +74,7 @@ def book(structure, scheme, work, start, end, ledger):
     tied, taken = end_links(structure.links, end.frames, end.rotation, start.ties, end.ties, dt)
     contact = done - rolling + end.whole[0].static + tied - start.whole[0].static + taken
     end.whole[0].static += tied
-    friction, landed, dashpots = losses(work.points, structure.interfaces, scheme.springs, near_points(work.problem), work.before, end.contact)
+    friction, landed, dashpots = losses(work.points, structure.interfaces, scheme.springs, near_points(work.problem), work.before, end.contact, contact)
     ledger[BASE] += moved_base
     ledger[FRICTION] += friction
     ledger[HIT] += landed

@@ -36,7 +36,7 @@ OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("bro
 class View(NamedTuple):
     """What is watched: center: (nb, 3) of mass in the reference configuration; body: the one of which top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape
     (3, m) are means over top and foot; stance: when it is lost, if it stands alone. limits: (nb,) tilts [rad] at which a body of many is lost, none for one
-    alone. feet: (ni, 3) of the interfaces in the reference configuration [m]; marks: (nm,) of MARK, their shapes (nm, 3, m). links: how many."""
+    alone. feet: (ni, 3) of the interfaces [m] and normals: (ni, 3) of them in the frames of their slaves, in the reference configuration; marks: (nm,) of MARK, their shapes (nm, 3, m). links: how many."""
 
     center: np.ndarray
     body: int
@@ -47,6 +47,7 @@ class View(NamedTuple):
     stance: Stance
     limits: np.ndarray
     feet: np.ndarray
+    normals: np.ndarray
     marks: np.ndarray
     shapes: np.ndarray
     links: int = 0
@@ -62,7 +63,7 @@ def view(model, weight: float, friction: float, cap: float = 0.0) -> View:
     share = model.areas / model.areas.sum()
     return View(np.array(model.center, float)[None], 0, model.top_arm, np.ascontiguousarray(model.top_shape), share @ model.arms,
                 np.einsum("i,iam->am", share, model.shapes), stance(model.arms, model.inertia, weight, friction, cap),
-                np.zeros(0), np.zeros((0, 3)), np.zeros(0, MARK), np.zeros((0, 3, 0)))
+                np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0, MARK), np.zeros((0, 3, 0)))
 
 
 @njit
@@ -123,9 +124,9 @@ def _observe_all(structure, points, poses, eye, motion, row):
     find_poses(structure.interfaces, motion.frames, motion.rotation, poses)
     first = place
     for k in range(len(structure.interfaces)):
-        T, foot = poses[k].turned, poses[k].foot
-        # of a slave that is drawn upside down the same
-        row[place] = np.arctan2(np.hypot(T[SLAVE, 2, 0], T[SLAVE, 2, 1]), abs(T[SLAVE, 2, 2]))
+        T, foot, normal = poses[k].turned[SLAVE], poses[k].foot, eye.normals[k]
+        x, y, z = T[2, 1] * normal[2] - T[2, 2] * normal[1], T[2, 2] * normal[0] - T[2, 0] * normal[2], T[2, 0] * normal[1] - T[2, 1] * normal[0]
+        row[place] = np.arctan2(np.hypot(np.hypot(x, y), z), T[2, 0] * normal[0] + T[2, 1] * normal[1] + T[2, 2] * normal[2])
         row[place + 1] = foot[2] - eye.feet[k, 2]
         row[place + 2], row[place + 3] = foot[0] - eye.feet[k, 0], foot[1] - eye.feet[k, 1]
         place += 5

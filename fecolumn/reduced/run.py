@@ -8,6 +8,7 @@ from fecolumn._borrowed import borrowed
 from fecolumn._compiled import compile_for, interpreted, njit
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.ball import from_center, lay_down
+from fecolumn.contact.gathered import gather_again, gathered_nodes
 from fecolumn.contact.joints import left_faces
 from fecolumn.contact.points import BASE
 from fecolumn.contact.projection import base_for_steps
@@ -383,3 +384,13 @@ class Engine:
         """Make the base's compliance known under the foot and two rows of its nodes around."""
         self.base.need(self.base.grid.around(self.ground_places(motion.frames["center"], motion.rotation), 2))
         self.surface = base_for_steps(self.base)
+
+    def base_to_resume(self) -> dict[str, np.ndarray]:
+        """Top nodes of the base whose compliance is known, and those that are gathered, for a checkpoint."""
+        return {"base.known": np.flatnonzero(self.surface.slot >= 0), "base.gathered": gathered_nodes(self.surface)}
+
+    def resume_base(self, known: np.ndarray, gathered: np.ndarray) -> None:
+        """Make known and gather the top nodes of the base that were so in a checkpoint."""
+        self.base.need(known)
+        self.surface = base_for_steps(self.base)
+        gather_again(self.surface, gathered)

@@ -7,7 +7,7 @@ import numpy as np
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.joints import joints_of
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import poses_of
+from fecolumn.contact.pose import SLAVE, poses_of
 from fecolumn.contact.tolerances import RIGID_GIVE
 from fecolumn.dynamics.links import links_of
 from fecolumn.dynamics.overturning import never_alone
@@ -79,6 +79,7 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
     if feet:
         surface = model.parts[body].model.surfaces[feet[0].slave_surface]
         foot = model.parts[body].model.arms[surface.nodes].mean(axis=0) + (feet[0].ball.radius * surface.normal if feet[0].ball else 0.0)
+    reference = poses_of(structure.interfaces, centers, rotations)
     stance = never_alone(model.parts[body].model.inertia, weight, cap)
     return View(centers, body, np.array(marks[place]["arm"]), np.ascontiguousarray(shapes[place]), foot, np.zeros((3, modes)), stance,
-                np.full(len(centers), float(lost)), np.array(poses_of(structure.interfaces, centers, rotations)["foot"]), marks, shapes, len(structure.links))
+                np.full(len(centers), float(lost)), np.array(reference["foot"]), np.array(reference["turned"][:, SLAVE, 2]), marks, shapes, len(structure.links))

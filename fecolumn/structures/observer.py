@@ -26,7 +26,8 @@ class StructureObserver:
         part = structure.parts[self.body]
         self.stance, self.top_arm = never_alone(part.model.inertia, system.weight, cap), part.model.marks[self._mark][0]
         self._centers, upright = (np.array([getattr(part, name) for part in structure.parts]) for name in ("center", "rotation"))
-        self._feet = poses_of(system.interface.interfaces, self._centers, upright)["foot"]
+        reference = poses_of(system.interface.interfaces, self._centers, upright)
+        self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
         standing = [joint for joint in structure.joints if joint.slave == self.body]
         nodes = part.model.surfaces[standing[0].slave_surface].nodes if standing else []
         self._foot_arm = part.model.arms[nodes].mean(axis=0) if standing else np.zeros(3)
@@ -45,10 +46,9 @@ class StructureObserver:
             row |= {f"body/{part.name}/displacement": moved[b], f"body/{part.name}/tilt": tilt_angle(R[b]), f"mark/{part.name}.top/displacement": tops[b]}
         poses = poses_of(interface.interfaces, moved + self._centers, R)
         normal = np.bincount(interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses))
-        for joint, pose, foot, force in zip(structure.joints, poses, self._feet, normal):
-            turned, risen = pose["turned"][SLAVE], pose["foot"] - foot
-            # of a slave that is drawn upside down the same
-            tilt = float(np.arctan2(np.hypot(turned[2, 0], turned[2, 1]), abs(turned[2, 2])))
+        for joint, pose, foot, first, force in zip(structure.joints, poses, self._feet, self._normals, normal):
+            now, risen = pose["turned"][SLAVE, 2], pose["foot"] - foot
+            tilt = float(np.arctan2(np.linalg.norm(np.cross(now, first)), now @ first))
             row |= {f"interface/{joint.name}/{name}": value for name, value in dict(tilt=tilt, rise=float(risen[2]), slide=risen[:2], force=float(force)).items()}
         for link, held, tie in zip(structure.links, system.links.links if system.links else (), state.ties):
             values = dict(tension=tie["force"], elongation=tie["length"] - held["length"], yielded=tie["flowed"], work=tie["work"])

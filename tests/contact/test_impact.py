@@ -101,6 +101,14 @@ def test_what_an_impact_gives_back_is_not_booked_as_its_gain():
         assert booked[0] <= 0 and booked[1] <= max(contact, 0.0) + 1e-15 and booked[2] <= 1e-15
 
 
+@pytest.mark.parametrize("gained, impact, contact, friction, booked", [
+    (-22.0, 0.0, 25.0, -1.0, (0.0, 3.0, -1.0)),  # what contact had made they take first
+    (-22.0, -1.0, 5.0, -1.0, (-18.0, 0.0, -1.0)),
+    (3.0, 0.0, 0.0, -1.0, (0.0, 2.0, 0.0))])  # and what friction has not taken it does not get back
+def test_impulses_that_come_in_place_of_others_first_undo_what_these_did(gained, impact, contact, friction, booked):
+    assert book_impulses(gained, impact, contact, friction) == pytest.approx(booked, abs=1e-14)
+
+
 def ring(radius, height, count):
     """Arms (count, 3) of points around a circle."""
     angles = 2 * np.pi * (np.arange(count) + 0.5) / count

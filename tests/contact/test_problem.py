@@ -5,6 +5,10 @@ import pytest
 from one_foot import DEEP, GIVES, Foot, answer, many
 from two_blocks import Blocks
 
+from fecolumn._compiled import interpreted
+from fecolumn.contact.interface import interface_of
+from fecolumn.contact.points import BEYOND, CONTACT, OVER, node_points
+from fecolumn.contact.problem import mark_close, room
 from fecolumn.contact.tolerances import CLOSE, NEAR, SHARE, SOLVED
 
 
@@ -79,6 +83,16 @@ def test_points_above_the_base_take_no_part():
     assert foot.problem.active.tolist() == [True, True, False, False]
     assert after["located"].tolist() == [True, True, True, False]
     assert after["force"][:, 2] == pytest.approx([1000.0, 0, 0, 0], rel=1e-9)
+
+
+def test_a_point_beyond_an_outline_is_found_anew_where_it_comes_back():
+    """It is put as high above the surface as the foot is wide: an impact from there would be booked with all the way."""
+    places = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+    points, contact = node_points(places, 0.5), np.zeros(2, CONTACT)
+    points["beyond"], contact["force"][:, 2] = [OVER, BEYOND], 1e3
+    after = contact.copy()
+    interpreted(mark_close)(room(points), points, interface_of(places), places[:, [1, 2, 0]], contact, after)
+    assert after["located"].tolist() == [True, False]
 
 
 def test_a_point_above_near_that_others_push_below_the_base_is_taken_in():

@@ -55,6 +55,31 @@ def test_interrupted_analysis_goes_on_to_the_last_digit(tmp_path):
     assert not (tmp_path / "two" / "checkpoint.npz").exists()
 
 
+@pytest.mark.parametrize("asked", [3, 6, 12, 18])
+def test_analysis_interrupted_while_it_wobbles_goes_on_to_the_last_digit(tmp_path, wobbled, asked):
+    """On an elastic plate: sums over its nodes are taken in the order in which the foot came to them, which a checkpoint keeps."""
+    times = iter([False] * asked + [True])
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(wobbling(), tmp_path / "two", quiet=True, stop=lambda: next(times))
+    simulation.run(wobbling(), tmp_path / "two", quiet=True)
+    again = history(tmp_path / "two")
+    for name, values in wobbled.items():
+        np.testing.assert_array_equal(values, again[name])
+
+
+def wobbling():
+    """The case of a column that rolls on its rim, and slides."""
+    return case_of(initial={"tilt_rad": 0.05, "spin_rad_s": [0.0, 0.0, 0.6]}, contact={"friction_coefficient": 0.2}, base={"kind": "plate"}, integration={"duration_s": 0.8})
+
+
+@pytest.fixture(scope="module")
+def wobbled(tmp_path_factory):
+    """Its history without interruption."""
+    folder = tmp_path_factory.mktemp("wobbled")
+    simulation.run(wobbling(), folder, quiet=True)
+    return history(folder)
+
+
 def test_rigid_is_the_reduced_engine_without_modes(tmp_path):
     rigid = simulation.run(case_of(integration={"engine": "rigid"}), tmp_path / "rigid", quiet=True)
     bare = simulation.run(case_of(integration={"n_modes": 0}), tmp_path / "bare", quiet=True)

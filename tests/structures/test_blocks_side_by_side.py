@@ -27,3 +27,5 @@ def test_two_blocks_beside_each_other_take_as_few_iterations_as_any(tmp_path, en
     beside = shaken(tmp_path, [(-0.2, 0, 0), (0.2, 0, 0)], joints, direction, engine)
     assert beside["steps"] == 20 and beside["cuts"] == 0 and beside["iterations"] <= 60 and beside["contact_iterations"] <= 4 * beside["iterations"]
     assert beside["energy_closure_rel"] < 1e-10 and 0 < beside["penetration_max_m"] < 1e-10
+    # of a vertical joint, too, the tilt is that from where it was closed
+    assert max(values["tilt_max_rad"] for values in beside["interfaces"].values()) < 1e-5
