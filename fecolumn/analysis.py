@@ -218,6 +218,10 @@ class Analysis:
             return Ending(outcome, f"at rest {last['time'] - self.motion_steps * dt:.3f} s after the motion's end, at {last['time']:.3f} s")
         return Ending(outcome, f"motion.rest_ceiling_s = {self.case.motion.rest_ceiling_s:g} s after the motion's end, at {last['time']:.3f} s")
 
+    def rigid_loss_share(self) -> float | None:
+        """Of the summary: energy that impacts took over what rigid-body theory says; None where that is not known."""
+        return None
+
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
         """What the point of no return was, from the last row of the history and the last rotation (3, 3)."""
         from fecolumn.dynamics.overturning import critical_tilt_along
@@ -264,6 +268,7 @@ class Analysis:
             penetration_max_m=float(rows["penetration"].max()), ranks=self.comm.size,
             wall_s=self.earlier_s + time.perf_counter() - self.began, cpu_s=self.cpu_s, s_per_step=self.stepping_s / max(self.step, 1),
             iterations=record.iterations, contact_iterations=record.contact_iterations, impacts=record.impacts,
+            rigid_loss_share=self.rigid_loss_share(),
             cuts=record.cuts, parts=record.parts, factorizations=factorizations, energy_closure_rel=energy_closure(rows),
             energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS})
         self.write_history()

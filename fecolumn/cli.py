@@ -206,7 +206,9 @@ def _analyse(case, folder, file, quiet) -> int:
     if MPI.COMM_WORLD.rank == 0:
         if not has_figures(folder):
             history_figures(folder)
-        print(f"{folder}: {peak_text(summary)}, {ending_text(summary)}; {summary['steps']} steps, "
+        share = summary.get("rigid_loss_share")
+        struck = "" if share is None else f"impacts took {share:.3g} of the rigid loss, "
+        print(f"{folder}: {peak_text(summary)}, {ending_text(summary)}; {struck}{summary['steps']} steps, "
               f"{1e3 * summary['s_per_step']:.2g} ms/step, energy closure {summary['energy_closure_rel']:.1e}")
     return 0
 

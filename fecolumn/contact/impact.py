@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.arrays import flat, largest, put_points
+from fecolumn.contact.arrays import flat, largest, marked, put_points
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.problem import IMPACT_FAILED, N_CONTACT, OK
@@ -130,32 +130,19 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
     free = np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
-    moment = _landing_moment(union, before, after, early, landing, dt) if lands \
+    moment = landing_moment(union, before, after, early, landing, dt) if lands \
         else _turning_moment(points, before, after, start, free, pushed, union, turning)
-    inner, inner_friction = np.empty((3 * m, 3 * m)), np.empty(m)
-    for i in range(m):
-        inner_friction[i] = friction[held[i]]
-        for j in range(m):
-            for a in range(3):
-                for b in range(3):
-                    inner[3 * i + a, 3 * j + b] = mobility[3 * held[i] + a, 3 * held[j] + b]
-    carried, second, velocity, taken = np.zeros(3 * k), np.zeros(3 * k), np.empty(3 * k), 0.0
-    guess_of_all, changed = np.empty(3 * k), np.empty(3 * k)
+    second, velocity, taken = np.zeros(3 * k), np.empty(3 * k), 0.0
+    carried, carried_before, guess_of_all, changed = np.zeros(3 * k), np.empty(3 * k), np.empty(3 * k), np.empty(3 * k)
     for attempt in range(2 if lands and moment > 0 else 1):
         share = moment if attempt == 0 else 0.0
         _between(start, free, share, velocity)
-        guess, approach = np.empty((m, 3)), np.empty((m, 3))
-        for i in range(m):
+        for j in range(k):
             for a in range(3):
-                approach[i, a] = velocity[3 * held[i] + a]
-                guess[i, a] = share * dt * before[union[held[i]]].force[a]
-        first, solved = _impulses(inner, approach, inner_friction, guess, counts)
+                carried_before[3 * j + a] = share * dt * before[union[j]].force[a]
+        carried, solved = _held_impulses(mobility, velocity, friction, held[:m], carried_before, counts)
         if not solved:
             return IMPACT_FAILED, False, impulses
-        carried[:] = 0.0
-        for i in range(m):
-            for a in range(3):
-                carried[3 * held[i] + a] = first[i, a]
         jump = mobility @ carried
         for j in range(3 * k):
             velocity[j], guess_of_all[j] = free[j] + jump[j], given[j] - carried[j]
@@ -197,6 +184,48 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
         for a in range(3):
             impulses[union[j], a] = changed[3 * j + a]
     return OK, True, impulses
+
+
+@njit
+def plastic_impact(mobility, friction, holds, start, end, given, moment, counts):
+    """Kinetic energy [J] that a plastic impact of points (k,) takes at a moment in a step, and the fastest approach before it [m/s]; both 0 where none is found.
+
+    holds: (k,) mask of those that carry until then. start, end: (3 k,) velocities at the ends of the step [m/s], end with the impulses `given` (3 k,) [N s]. moment: fraction of the step.
+    """
+    k = len(friction)
+    pushed, free, velocity = mobility @ given, np.empty(3 * k), np.empty(3 * k)
+    for j in range(3 * k):
+        free[j] = end[j] - pushed[j]
+    _between(start, free, moment, velocity)
+    carried, solved = _held_impulses(mobility, velocity, friction, marked(holds), np.zeros(3 * k), counts)
+    if not solved:
+        return 0.0, 0.0
+    jump, approach = mobility @ carried, 0.0
+    for j in range(3 * k):
+        velocity[j] += jump[j]
+    for j in range(k):
+        approach = max(approach, -velocity[3 * j + 2])
+    blow, solved = _flat_impulses(mobility, velocity, friction, given, counts)
+    return (-_work(blow, velocity, mobility @ blow), approach) if solved else (0.0, 0.0)
+
+
+@njit
+def _held_impulses(mobility, velocity, friction, held, guess, counts):
+    """Impulses (3 k,) of the points `held` (m,) alone, as `_impulses`; guess: (3 k,)."""
+    m, impulses = len(held), np.zeros(len(velocity))
+    inner, approach, start, mu = np.empty((3 * m, 3 * m)), np.empty((m, 3)), np.empty((m, 3)), np.empty(m)
+    for i in range(m):
+        mu[i] = friction[held[i]]
+        for a in range(3):
+            approach[i, a], start[i, a] = velocity[3 * held[i] + a], guess[3 * held[i] + a]
+            for j in range(m):
+                for b in range(3):
+                    inner[3 * i + a, 3 * j + b] = mobility[3 * held[i] + a, 3 * held[j] + b]
+    found, solved = _impulses(inner, approach, mu, start, counts)
+    for i in range(m):
+        for a in range(3):
+            impulses[3 * held[i] + a] = found[i, a]
+    return impulses, solved
 
 
 @njit
@@ -292,7 +321,7 @@ def _softened_impulses(compliance, velocity, friction, guess, allowed, counts):
 
 
 @njit
-def _landing_moment(union, before, after, early, landing, dt):
+def landing_moment(union, before, after, early, landing, dt):
     """Fraction of the step at which the landing points (mask) arrive, mean by their forces."""
     total = weights = 0.0
     for i in union:

@@ -170,6 +170,16 @@ def pull_links(links, ties, frames, rotation, later_frames, later_rotation, dt, 
 
 
 @njit
+def strain_of_links(links, ties):
+    """Strain energy [J] of links with `ties` (nl,)."""
+    energy = 0.0
+    for n in range(len(links)):
+        if not ties[n].broken:
+            energy += links[n].stiffness * _stretch(links[n], ties[n], ties[n].length) ** 2 / 2
+    return energy
+
+
+@njit
 def end_links(links, frames, rotation, before, after, dt):
     """Carry ties (nl,) on to the end of a step: strain energy at its end, energy that their dashpots, yielding and breaking have taken in it [J]."""
     kept = taken = 0.0

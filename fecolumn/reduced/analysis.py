@@ -136,6 +136,9 @@ class ReducedAnalysis(Analysis):
             self.states.write(self.folder, {"case_id": self.case.id, **self.code})
         return self.finish(off or self.ending(fallen, engine.motion.rotation[0]), self.model.dofs + self.base.dofs, engine.record, 0)
 
+    def rigid_loss_share(self) -> float | None:
+        return self.engine.rigid_loss_share
+
     def _advance(self, count: int) -> bool:
         """So many steps at most; whether the column is lost or at rest. Whatever error stops them, those made are noted.
 

@@ -10,7 +10,22 @@ from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
 
 # Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS [J]
 START, BASE, FRICTION, HIT, CONTACT_WORK, ALGORITHMIC, DAMPING, ROLLING, LINKS = range(9)
-N_PLACES = LINKS + 1
+N_TERMS = LINKS + 1
+# then, of `reduced.rigid_loss`: what impacts that are over have taken from the rigid motion, and what rigid bodies would have lost [J]; of the one that goes on its rigid loss, 0 of none, the energy
+# of the rigid motion before it [J], when it began and ends [s], and the fastest approach [m/s], 0 once nothing approaches
+TAKEN, RIGID_LOSS, IMPACT_LOSS, LEFT, BEGAN, ENDS, SPEED = range(N_TERMS, N_TERMS + 7)
+N_PLACES = SPEED + 1
+
+
+@njit
+def rigid_kinetic(structure, motion):
+    """Kinetic energy of the bodies' rigid motion [J]."""
+    total = 0.0
+    for b in range(len(motion.frames)):
+        v, w, J = motion.frames[b].velocity, motion.frames[b].spin, structure.bodies.body[b].inertia
+        for a in range(3):
+            total += structure.bodies.body[b].mass * v[a] * v[a] + w[a] * (J[a, 0] * w[0] + J[a, 1] * w[1] + J[a, 2] * w[2])
+    return total / 2
 
 
 @njit
@@ -18,12 +33,9 @@ def kinetic(structure, motion):
     """Kinetic energy [J]."""
     total = 0.0
     for b in range(len(motion.frames)):
-        v, w, J = motion.frames[b].velocity, motion.frames[b].spin, structure.bodies.body[b].inertia
-        for a in range(3):
-            total += structure.bodies.body[b].mass * v[a] * v[a] + w[a] * (J[a, 0] * w[0] + J[a, 1] * w[1] + J[a, 2] * w[2])
         for k in range(motion.modal.shape[2]):
             total += motion.modal[b, RATE, k] ** 2
-    return total / 2
+    return total / 2 + rigid_kinetic(structure, motion)
 
 
 @njit

@@ -12,7 +12,7 @@ from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.record import record
 from fecolumn.dynamics.energy import TERMS
 from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, Stance, fallen, stance
-from fecolumn.reduced.ledger import kinetic, strain, weight_energy
+from fecolumn.reduced.ledger import N_TERMS, kinetic, strain, weight_energy
 from fecolumn.reduced.elastic import COORDINATE
 from fecolumn.contact.pose import find_poses
 
@@ -102,7 +102,7 @@ def observe(structure, points, poses, eye, motion, ledger, iterations, row):
     row[16] = iterations
     row[17], row[18], row[19] = kinetic(structure, motion), strain(structure, motion), weight_energy(structure, eye.center, motion)
     closure = row[17] + row[18] + row[19]
-    for k in range(len(ledger)):
+    for k in range(N_TERMS):
         closure -= ledger[k]
         if k:
             row[19 + k] = ledger[k]

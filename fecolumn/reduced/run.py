@@ -37,7 +37,7 @@ from fecolumn.dynamics.record import Record
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.balls import roll_balls
 from fecolumn.reduced.equilibrium import equilibrate, work_of
-from fecolumn.reduced.ledger import N_PLACES
+from fecolumn.reduced.ledger import N_PLACES, RIGID_LOSS, TAKEN
 from fecolumn.dynamics.links import end_links, span
 from fecolumn.reduced.model import scheme, structure_of
 from fecolumn.reduced.elastic import COORDINATE, END, START
@@ -285,6 +285,13 @@ class Engine:
         row = np.empty((1, self.eye.width))
         advance(*self._arguments(self._schemes_of(self.hht), self.motion, self.spare, rows=row))
         return row[0]
+
+    @property
+    def rigid_loss_share(self) -> float | None:
+        """What impacts have taken over what those of rigid bodies would have; None where none counts, or they give back by a coefficient of restitution."""
+        if self.ledger[RIGID_LOSS] == 0 or self.structure.interfaces["restitution"].any():
+            return None
+        return float(self.ledger[TAKEN] / self.ledger[RIGID_LOSS])
 
     def mechanical(self) -> float:
         """Kinetic, strain and gravity energy now [J]."""

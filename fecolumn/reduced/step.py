@@ -8,7 +8,7 @@ from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
 from fecolumn.contact.ball import lay_down
 from fecolumn.contact.pose import SLAVE
-from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, touched, what_happens
+from fecolumn.contact.impact import LANDS, NOTHING, find_impact, landing_moment, mark_landing, mark_turning, touched, what_happens
 from fecolumn.contact.problem import N_IMPACTS, OK, list_present, near_points
 from fecolumn.contact.rolling import mark_rolling, plan_roll, roll_points, rolling_moment, stay
 from fecolumn.contact.tolerances import CREATED
@@ -20,6 +20,7 @@ from fecolumn.reduced.ledger import CONTACT_WORK, FRICTION, HIT, book, kinetic
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START, find_elastic, find_places, find_velocity
 from fecolumn.reduced.motion import push_bodies
 from fecolumn.contact.pose import find_poses
+from fecolumn.reduced.rigid_loss import begin_impact, follow_impact
 from fecolumn.reduced.rotation import orthonormal, turn_by
 
 
@@ -46,6 +47,8 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
     # the springs of a pad bring a landing foot to rest in their own time: there is no impact
     if answer == OK and not interfaces[0].on_pad:
         answer = _collide(structure, base, scheme, work, start, end, contact_work, booked, ledger, counts)
+        if answer == OK:
+            follow_impact(structure, work, end, scheme.dt, ledger)
     return answer
 
 
@@ -206,6 +209,9 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
         _find_velocities(structure, work, i, start, end)
         for a in range(3):
             arms[i, a] = points[i].arm[a] + elastic.point[END, i, a]
+    if happens == LANDS:
+        moment = landing_moment(touched(listed, before, end.contact), before, end.contact, work.early, work.landing, scheme.dt)
+        begin_impact(structure, work, start, end, scheme.dt, moment, booked, ledger)
     answer, pushed, impulses = find_impact(structure.bodies, base, points, interfaces, scheme.springs, listed, arms, work.poses[END], before, end.contact, work.early,
                                            work.late, work.landing, work.turning, happens == LANDS, scheme.dt, contact_work, counts)
     if answer != OK or not pushed:

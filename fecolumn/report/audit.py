@@ -75,17 +75,18 @@ def _energy(sweep: Sweep) -> str:
 def _table(sweep: Sweep) -> Table:
     rows = [(*(setting.values[axis] for axis in sweep.varied), setting.planned, len(setting.runs), setting.failed,
              *_median_and_worst(setting, "energy_closure_rel"), _largest(setting, "penetration_max_m"), _total(setting, "cuts"),
-             _mean(setting, "impacts"), *(_share(setting, term) for term in ("algorithmic", "impact", "friction")), *_first_and_last(setting))
+             _mean(setting, "impacts"), _mean(setting, "rigid_loss_share"), *(_share(setting, term) for term in ("algorithmic", "impact", "friction")), *_first_and_last(setting))
             for setting in sweep.settings]
     columns = (*axis_columns(sweep.varied), Column("planned", "planned"), Column("done", "done"), Column("failed", "failed"),
                Column("closure_median", "closure, median", number), Column("closure_worst", "worst", number),
                Column("penetration_max_m", "pene\N{SOFT HYPHEN}tration [mm]", lambda value: number(None if value is None else 1e3 * value)),
                Column("cuts", "step cuts", number), Column("impacts_mean", "impacts a run", number),
+               Column("rigid_loss_share_mean", "of the rigid loss [%]", _hundred),
                Column("algorithmic_share", "loss by HHT [%]", _hundred), Column("impact_share", "impact [%]", _hundred),
                Column("friction_share", "friction [%]", _hundred),
                Column("overturn_first_s overturn_last_s", "overturned at [s]", _span))
     return Table("audit", columns, rows, "Audit of every setting: analyses; relative closure error of the energy ledger; largest "
-                                         "penetration; step cuts; impacts; of the energy lost, the parts taken by numerical damping, impact "
+                                         "penetration; step cuts; impacts, and what they took of the loss that rigid bodies would have had at them, means; of the energy lost, the parts taken by numerical damping, impact "
                                          "and friction (sums over the motions; negative where energy was gained); first and last overturn.",
                  folded=len(rows) > _FOLD)
 

@@ -46,8 +46,9 @@ def test_interrupted_analysis_goes_on_to_the_last_digit(tmp_path):
         simulation.run(case_of(), tmp_path / "two", quiet=True, stop=lambda: next(asked))
     assert (tmp_path / "two" / "checkpoint.npz").is_file()
     assert len(history(tmp_path / "two")["time"]) == 1001
-    simulation.run(case_of(), tmp_path / "two", quiet=True)
+    resumed = simulation.run(case_of(), tmp_path / "two", quiet=True)
     summary = simulation.run(case_of(), tmp_path / "one", quiet=True)
+    assert resumed["rigid_loss_share"] == summary["rigid_loss_share"] > 0.5
     one, two = history(tmp_path / "one"), history(tmp_path / "two")
     assert len(one["time"]) == 1201 and summary["impacts"] > 0
     for name in one:
