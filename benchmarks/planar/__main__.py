@@ -35,6 +35,8 @@ from fecolumn.atomic import write_csv
 
 PARTS = ("column", "beside", "histories")
 PROGRAMS = (PACKAGE, SICONOS, BLOCK)
+#: Structures on which Siconos is run
+_PEER = ("two blocks", "five drums", "trilith")
 
 
 def column(args, folder: Path) -> None:
@@ -52,22 +54,24 @@ def column(args, folder: Path) -> None:
 def beside(args, folder: Path) -> None:
     """The planar program and the others on the whole motions."""
     table, panels, programs = [], {}, there(args.programs)
-    print("\n| structure | program | step [s] | motions | overturned: planar | it | D of peaks [-] | p | outcomes differ | McNemar's p | peaks off, median [-] | failed | steps unsolved |\n"
-          + "|---" * 13 + "|")
+    head = ("structure", "program", "step [s]", "motions", "overturned: planar", "it", "D of peaks [-]", "p",
+            "outcomes differ", "McNemar's p", "peaks off, median [-]", "failed", "steps unsolved")
+    print("", f"| {' | '.join(head)} |", "|---" * len(head) + "|", sep="\n")
     for name in args.structures:
         case = shaken()[name]
         found, numbers = {}, range(1, min(args.n, case.motions) + 1)
         for program in (PLANAR, *programs):
-            if (program == BLOCK and not case.closed) or (program == SICONOS and not case.peer):
+            if (program == BLOCK and not case.closed) or (program == SICONOS and name not in _PEER):
                 continue
             dt = args.dt if program in (PACKAGE, SICONOS) else FINE
             found[program] = every(response, [(name, program, number, dt, folder) for number in numbers], args.jobs)
             if program == PLANAR:
                 continue
             one = compared(found[PLANAR], found[program])
-            table.append([name, program, dt, one.n, *one.fallen, *astuple(one)[2:]])
-            print(f"\r| {name} | {program} | {dt:g} | {one.n} | {one.fallen[0]} | {one.fallen[1]} | {one.distance:.3f} | {one.p:.2g} | {one.differ} | {one.mcnemar:.2g} | {one.off:.2g} "
-                  f"| {one.failed} | {one.unsolved} |", flush=True)
+            table.append([name, program, f"{dt:g}", one.n, *one.fallen, *astuple(one)[2:]])
+            cells = (name, program, f"{dt:g}", one.n, *one.fallen, f"{one.distance:.3f}", f"{one.p:.2g}",
+                     one.differ, f"{one.mcnemar:.2g}", f"{one.off:.2g}", one.failed, one.unsolved)
+            print(f"\r| {' | '.join(map(str, cells))} |", flush=True)
         panels[name] = found
     names = [field.name for field in fields(Compared)]
     write_csv(folder / "beside.csv", [["structure", "program", "dt_s", "n", "fallen_planar", "fallen_program", *names[2:]], *table])

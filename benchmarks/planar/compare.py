@@ -47,7 +47,8 @@ def compared(one: list[Response], other: list[Response]) -> Compared:
     table, both = contingency(*fallen), ~(fallen[0] | fallen[1])
     off = float(np.median(np.abs(peaks[1][both] / peaks[0][both] - 1))) if both.any() else np.nan
     failed = sum(bool(response.failed) for response in (*one, *other))
-    return Compared(len(one), (int(fallen[0].sum()), int(fallen[1].sum())), test.statistic, test.p, flips(table), mcnemar(table), off, failed, sum(response.unsolved for response in other))
+    unsolved = sum(response.unsolved for response in other)
+    return Compared(len(one), (int(fallen[0].sum()), int(fallen[1].sum())), test.statistic, test.p, flips(table), mcnemar(table), off, failed, unsolved)
 
 
 def impacts(history: History) -> np.ndarray:
