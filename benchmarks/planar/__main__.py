@@ -1,13 +1,18 @@
 """The planar program alone and beside the package.
 
-    ./containers/run python -m benchmarks.planar [column beside histories] [STRUCTURE ...] [-n N] [--dt S] [-j JOBS] [-o DIR]
+    ./containers/run python -m benchmarks.planar [column beside histories] [STRUCTURE ...] [PROGRAM ...] [-n N] [--dt S] [-j JOBS] [-o DIR]
 
 column     least accelerations of a pulse that overturn the multi-drum column, by the planar program at --dt: column.csv, column.png (a quarter of an hour)
-beside     overturned, distance of the peaks' distributions and outcomes that differ, planar program and package: beside.csv, beside.png
-histories  how many single histories agree until the third impact, both programs at 1e-4 s: histories.csv
+beside     overturned, distance of the peaks' distributions and outcomes that differ, planar program and others: beside.csv, beside.png
+histories  how many single histories agree until the third impact, planar program and package at 1e-4 s: histories.csv
 
-The planar program makes steps of 1e-4 s, the package of --dt (1e-3 s). Structures by name in quotes, such as "two blocks"; none means all. What is done is kept in
-DIR/runs: the same command goes on after a kill, one with more motions makes only what is missing, other sources make all anew.
+The planar program makes steps of 1e-4 s, the package and Siconos of --dt (1e-3 s). Structures by name in quotes, such as "two blocks"; none means all. Programs set
+beside the planar one are fecolumn, Siconos (a peer of other authors, on two blocks, five drums and trilith; `python -m benchmarks.peers --install` installs it, it is
+left out where it is missing) and "equivalent block" (closed form, on the frame); none means all. Siconos on its three structures alone:
+
+    ./containers/run python -m benchmarks.planar beside "two blocks" "five drums" trilith Siconos
+
+What is done is kept in DIR/runs: the same command goes on after a kill, one with more motions makes only what is missing, other sources make all anew.
 """
 
 from __future__ import annotations
@@ -19,14 +24,19 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.peers.peer import Missing
 from benchmarks.planar import column as columns
+from benchmarks.planar import peer
 from benchmarks.planar.compare import AGREE, Compared, compared
-from benchmarks.planar.ensembles import BLOCK, PACKAGE, PLANAR, response, shaken
+from benchmarks.planar.ensembles import BLOCK, PACKAGE, PLANAR, SICONOS, response, shaken
 from benchmarks.planar.figure import collapse, distributions
 from benchmarks.planar.jobs import FINE, every, fell, until_third
 from fecolumn.atomic import write_csv
 
 PARTS = ("column", "beside", "histories")
+PROGRAMS = (PACKAGE, SICONOS, BLOCK)
+#: Structures on which Siconos is run
+_PEER = ("two blocks", "five drums", "trilith")
 
 
 def column(args, folder: Path) -> None:
@@ -42,24 +52,41 @@ def column(args, folder: Path) -> None:
 
 
 def beside(args, folder: Path) -> None:
-    """Both programs, and the closed form where there is one, on the whole motions."""
-    table, panels = [], {}
-    print("\n| structure | program | motions | overturned: planar | it | D of peaks [-] | p | outcomes differ | McNemar's p | peaks off, median [-] | failed |\n" + "|---" * 11 + "|")
+    """The planar program and the others on the whole motions."""
+    table, panels, programs = [], {}, there(args.programs)
+    head = ("structure", "program", "step [s]", "motions", "overturned: planar", "it", "D of peaks [-]", "p",
+            "outcomes differ", "McNemar's p", "peaks off, median [-]", "failed", "steps unsolved")
+    print("", f"| {' | '.join(head)} |", "|---" * len(head) + "|", sep="\n")
     for name in args.structures:
         case = shaken()[name]
         found, numbers = {}, range(1, min(args.n, case.motions) + 1)
-        for program in (PLANAR, PACKAGE, *((BLOCK,) if case.closed else ())):
-            dt = args.dt if program == PACKAGE else FINE
+        for program in (PLANAR, *programs):
+            if (program == BLOCK and not case.closed) or (program == SICONOS and name not in _PEER):
+                continue
+            dt = args.dt if program in (PACKAGE, SICONOS) else FINE
             found[program] = every(response, [(name, program, number, dt, folder) for number in numbers], args.jobs)
-        for program in list(found)[1:]:
+            if program == PLANAR:
+                continue
             one = compared(found[PLANAR], found[program])
-            table.append([name, program, one.n, *one.fallen, *astuple(one)[2:]])
-            print(f"\r| {name} | {program} | {one.n} | {one.fallen[0]} | {one.fallen[1]} | {one.distance:.3f} | {one.p:.2g} | {one.differ} | {one.mcnemar:.2g} | {one.off:.2g} | {one.failed} |",
-                  flush=True)
+            table.append([name, program, f"{dt:g}", one.n, *one.fallen, *astuple(one)[2:]])
+            cells = (name, program, f"{dt:g}", one.n, *one.fallen, f"{one.distance:.3f}", f"{one.p:.2g}",
+                     one.differ, f"{one.mcnemar:.2g}", f"{one.off:.2g}", one.failed, one.unsolved)
+            print(f"\r| {' | '.join(map(str, cells))} |", flush=True)
         panels[name] = found
     names = [field.name for field in fields(Compared)]
-    write_csv(folder / "beside.csv", [["structure", "program", "n", "fallen_planar", "fallen_program", *names[2:]], *table])
+    write_csv(folder / "beside.csv", [["structure", "program", "dt_s", "n", "fallen_planar", "fallen_program", *names[2:]], *table])
     print("wrote", *distributions(panels, folder / "beside"))
+
+
+def there(programs: list[str]) -> list[str]:
+    """Those of the programs that can be run; Siconos is said to be left out where it is not installed."""
+    if SICONOS in programs:
+        try:
+            peer.version()
+        except Missing as error:
+            print(f"Siconos is left out: {error} (python -m benchmarks.peers --install)", file=sys.stderr)
+            return [program for program in programs if program != SICONOS]
+    return programs
 
 
 def histories(args, folder: Path) -> None:
@@ -78,19 +105,20 @@ def histories(args, folder: Path) -> None:
 def main(arguments=None) -> int:
     names = list(shaken())
     parser = argparse.ArgumentParser(prog="python -m benchmarks.planar", description=__doc__.split("\n")[0])
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(PARTS)}; of {', '.join(names)}")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(PARTS)}; of {', '.join(names)}; of {', '.join(PROGRAMS)}")
     parser.add_argument("-n", type=int, default=100, help="motions of each structure, 1 to 115 (default: %(default)s)")
-    parser.add_argument("--dt", type=float, help="step [s] of the package in `beside` (1e-3), of the planar program in `column` (1e-4)")
+    parser.add_argument("--dt", type=float, help="step [s] of the package and of Siconos in `beside` (1e-3), of the planar program in `column` (1e-4)")
     parser.add_argument("-j", "--jobs", type=int, default=1, help="analyses at a time (default: %(default)s)")
     parser.add_argument("-o", "--output", metavar="DIR", default="results/planar")
     args = parser.parse_args(arguments)
-    if unknown := [name for name in args.names if name not in (*PARTS, *names)]:
-        parser.error(f"{', '.join(unknown)}: must be of {', '.join((*PARTS, *names))}")
+    if unknown := [name for name in args.names if name not in (*PARTS, *names, *PROGRAMS)]:
+        parser.error(f"{', '.join(unknown)}: must be of {', '.join((*PARTS, *names, *PROGRAMS))}")
     if not 1 <= args.n <= 115:
         parser.error(f"-n {args.n}: must be in [1, 115]")
     folder, step = Path(args.output), args.dt
     folder.mkdir(parents=True, exist_ok=True)
     args.structures = [name for name in names if name in args.names] or names
+    args.programs = [name for name in PROGRAMS if name in args.names] or list(PROGRAMS)
     for part in [part for part in PARTS if part in args.names] or PARTS:
         args.dt = step or (FINE if part == "column" else 1e-3)
         globals()[part](args, folder)

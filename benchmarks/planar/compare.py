@@ -25,6 +25,7 @@ class Compared:
     Attributes:
         fallen: overturned in each. distance, p: of the peaks' distributions (Kolmogorov and Smirnov, paired). differ: outcomes that differ; mcnemar: p of them.
         off: median, over motions that both survive, of the difference of the peaks over the other program's peak. failed: analyses that stopped early.
+        unsolved: steps of the other program whose friction problem was not solved to its tolerance.
     """
 
     n: int
@@ -35,6 +36,7 @@ class Compared:
     mcnemar: float
     off: float
     failed: int
+    unsolved: int
 
 
 def compared(one: list[Response], other: list[Response]) -> Compared:
@@ -45,7 +47,8 @@ def compared(one: list[Response], other: list[Response]) -> Compared:
     table, both = contingency(*fallen), ~(fallen[0] | fallen[1])
     off = float(np.median(np.abs(peaks[1][both] / peaks[0][both] - 1))) if both.any() else np.nan
     failed = sum(bool(response.failed) for response in (*one, *other))
-    return Compared(len(one), (int(fallen[0].sum()), int(fallen[1].sum())), test.statistic, test.p, flips(table), mcnemar(table), off, failed)
+    unsolved = sum(response.unsolved for response in other)
+    return Compared(len(one), (int(fallen[0].sum()), int(fallen[1].sum())), test.statistic, test.p, flips(table), mcnemar(table), off, failed, unsolved)
 
 
 def impacts(history: History) -> np.ndarray:

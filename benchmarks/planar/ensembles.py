@@ -18,7 +18,7 @@ from benchmarks.planar.advance import advance
 from benchmarks.planar.bodies import GRAVITY, Structure
 from fecolumn.atomic import write_bytes
 
-PLANAR, PACKAGE, BLOCK = "planar", "fecolumn", "equivalent block"
+PLANAR, PACKAGE, SICONOS, BLOCK = "planar", "fecolumn", "Siconos", "equivalent block"
 #: Between rows of the histories that are kept [s]
 EVERY = 1e-3
 _REST = 2.0  # [s]
@@ -68,6 +68,7 @@ class Response:
     Attributes:
         time: (n,) [s], each EVERY. top: (n,) [m] displacement of the observed body's top along x. tilt: (n, nb) [rad] of the bodies, without sign.
         fallen: whether it overturned. failed: why the program stopped before the end, if it did.
+        unsolved: steps whose friction problem was not solved to the program's tolerance.
     """
 
     time: np.ndarray
@@ -75,6 +76,7 @@ class Response:
     tilt: np.ndarray
     fallen: bool
     failed: str = ""
+    unsolved: int = 0
 
     @property
     def peak(self) -> float:
@@ -95,7 +97,7 @@ def planar(case: Shaken, ground: np.ndarray, dt: float) -> Response:
     """By the planar program."""
     found = advance(case.structure, ground, dt, every=round(EVERY / dt))
     moving = [number for number, body in enumerate(case.structure.bodies) if not body.fixed]
-    return Response(found.time, found.top(case.observed), np.abs(found.tilt[:, moving]), found.fallen)
+    return Response(found.time, found.top(case.observed), np.abs(found.tilt[:, moving]), found.fallen, unsolved=found.unsolved)
 
 
 def block(case: Shaken, ground: np.ndarray, dt: float) -> Response:
@@ -115,21 +117,22 @@ def response(name: str, program: str, number: int, dt: float, folder: Path, unti
     """
     from fecolumn.sources import DECIDING, digest_of, files_of
 
-    from benchmarks.planar import package
+    from benchmarks.planar import package, peer
 
-    made_by = digest_of([Path(__file__).with_name(own) for own in _OWN] + ([*files_of(DECIDING), Path(package.__file__)] if program == PACKAGE else []))
+    further = {PACKAGE: [*files_of(DECIDING), Path(package.__file__)], SICONOS: peer.SOURCES}
+    made_by = digest_of([*(Path(__file__).with_name(own) for own in _OWN), *further.get(program, ())])
     key = hashlib.sha256(f"{made_by} {until:.3f}".encode()).hexdigest()[:12]
     file = folder / "runs" / f"{name}-{program}-{dt:g}s-{number}-{key}.npz".replace(" ", "_")
     if file.exists():
         with np.load(file) as kept:
-            return Response(kept["time"], kept["top"], kept["tilt"], bool(kept["fallen"]), str(kept["failed"]))
+            return Response(kept["time"], kept["top"], kept["tilt"], bool(kept["fallen"]), str(kept["failed"]), int(kept["unsolved"]))
     case = shaken()[name]
     ground = motion(case, number, dt)
     if np.isfinite(until):
         ground = ground[:round(until / dt) + 1]
-    found = {PLANAR: planar, PACKAGE: package.respond, BLOCK: block}[program](case, ground, dt)
+    found = {PLANAR: planar, PACKAGE: package.respond, SICONOS: peer.respond, BLOCK: block}[program](case, ground, dt)
     content = io.BytesIO()
-    np.savez_compressed(content, time=found.time, top=found.top, tilt=found.tilt, fallen=found.fallen, failed=found.failed)
+    np.savez_compressed(content, time=found.time, top=found.top, tilt=found.tilt, fallen=found.fallen, failed=found.failed, unsolved=found.unsolved)
     file.parent.mkdir(parents=True, exist_ok=True)
     write_bytes(file, content.getvalue())
     return found
