@@ -127,7 +127,7 @@ def _parser() -> argparse.ArgumentParser:
 def _completion(args) -> int:
     from fecolumn import completion
 
-    print(completion.script(_parser()), end="")
+    print(completion.script(_parser(), args.shell))
     return 0
 
 

@@ -12,7 +12,7 @@ def boundary(pga, pgv_pga, overturned, at) -> np.ndarray | None:
     """PGA (m,) [g] at which P(overturn) is one half at values `at` (m,) [s] of PGV/PGA, by logit regression on both logarithms; None where there is none."""
     x = np.column_stack([np.ones(len(pga)), np.log(pga), np.log(pgv_pga)])
     try:
-        c = fit_binary(x, np.asarray(overturned, bool), "logit").coefficients
+        c = fit_binary(x, np.asarray(overturned, bool), "logit")[0].params
     except DegenerateData:
         return None
     return np.exp(-(c[0] + c[2] * np.log(at)) / c[1])

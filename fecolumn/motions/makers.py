@@ -23,7 +23,7 @@ def add_kinds(make, add_output, store) -> None:
     near_fault.set_defaults(command=_with(_near_fault, store))
 
     pulses = make.add_parser("pulses", help="acceleration pulses of closed form, every amplitude at every period")
-    pulses.add_argument("shape", choices=_SHAPES)
+    pulses.add_argument("shape", choices=tuple(_SHAPES))
     pulses.add_argument("--amplitudes", type=float, nargs="+", required=True, metavar="A_P", help="peak accelerations [m/s2]")
     pulses.add_argument("--periods", type=float, nargs="+", required=True, metavar="T_P", help="pulse periods [s]")
     pulses.add_argument("--cycles", type=int, default=1, metavar="N", help="of type_c (default: %(default)s)")

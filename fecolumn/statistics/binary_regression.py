@@ -1,11 +1,10 @@
-"""Maximum likelihood of yes-no data: P(yes) = link(X c), by Newton's method, with data that have no maximum refused."""
+"""Maximum likelihood of yes-no data by statsmodels: P(yes) = link(X c); data whose likelihood has no maximum are refused."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import warnings
 
 import numpy as np
-from scipy.special import expit, log_expit, log_ndtr
 
 _MAX_ITERATIONS, _TOLERANCE = 100, 1e-10
 
@@ -14,55 +13,43 @@ class DegenerateData(ValueError):
     """No curve can be fitted, as the likelihood has no maximum; the message says why."""
 
 
-@dataclass(frozen=True, slots=True)
-class BinaryFit:
-    """Maximum of the likelihood: c (p,), inverse of the observed information (p, p), log-likelihood."""
+def fit_binary(x: np.ndarray, yes: np.ndarray, link: str, groups=None):
+    """Fit c of P(yes) = link(x c) by Newton's method.
 
-    coefficients: np.ndarray
-    covariance: np.ndarray
-    loglik: float
-
-
-def fit_binary(x: np.ndarray, yes: np.ndarray, link: str) -> BinaryFit:
-    """Fit c of P(yes) = link(x c).
+    With `groups` the covariance of c is that of runs that hang together within a group: H^-1 (sum of g g^T over the groups) H^-1 G / (G - 1),
+    with the score g of each of G groups (Liang & Zeger 1986, Biometrika 73).
 
     Args:
         x: (n, p) with a column of ones first.
         yes: (n,) bool.
         link: "probit" or "logit"; both likelihoods are concave.
+        groups: (n,) label of each run; None takes all runs as independent.
+
+    Returns:
+        The result of statsmodels (`params`, `llf`, `get_influence()`, ...), covariance (p, p) of c, number of groups or None.
 
     Raises:
         DegenerateData: all or none yes; a column that repeats others; a plane that parts yes from no (Albert & Anderson 1984,
-            Biometrika 71).
+            Biometrika 71); one group only.
     """
+    from statsmodels.discrete.discrete_model import Logit, Probit
+
     refuse_degenerate(x, yes)
-    terms = _link(link)
-    sign = np.where(yes, 1.0, -1.0)[:, None] * x
-    return BinaryFit(*maximize(lambda c: _likelihood(terms, sign, c), np.zeros(x.shape[1])))
-
-
-def clustered_covariance(x: np.ndarray, yes: np.ndarray, link: str, fit: BinaryFit, groups) -> tuple[np.ndarray, int]:
-    """Covariance (p, p) of the coefficients where the runs of a group hang together, and the number of groups.
-
-    H^-1 (sum of g g^T over the groups) H^-1 G / (G - 1), with the score g of each of G groups (Liang & Zeger 1986, Biometrika 73).
-
-    Args:
-        x, yes, link: as of `fit_binary`; fit: its result.
-        groups: (n,) label of each run.
-
-    Raises:
-        DegenerateData: one group only.
-    """
-    labels, group = np.unique(np.asarray(groups), return_inverse=True)
-    if group.shape != yes.shape:
-        raise ValueError(f"groups {group.shape} and {yes.shape} runs: must have one length")
-    if labels.size < 2:
-        raise DegenerateData("all runs are of one motion: nothing is known of others")
-    sign = np.where(yes, 1.0, -1.0)[:, None] * x
-    _, slope, _ = _link(link)(sign @ fit.coefficients)
-    scores = np.zeros((labels.size, x.shape[1]))
-    np.add.at(scores, group, slope[:, None] * sign)
-    return labels.size / (labels.size - 1) * fit.covariance @ scores.T @ scores @ fit.covariance, labels.size
+    options, count, factor = {}, None, 1.0
+    if groups is not None:
+        labels, group = np.unique(np.asarray(groups), return_inverse=True)
+        if group.shape != yes.shape:
+            raise ValueError(f"groups {group.shape} and {yes.shape} runs: must have one length")
+        if (count := labels.size) < 2:
+            raise DegenerateData("all runs are of one motion: nothing is known of others")
+        options, factor = dict(cov_type="cluster", cov_kwds={"groups": group, "use_correction": False}), count / (count - 1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of data that all but part: told below
+        fit = {"probit": Probit, "logit": Logit}[link](yes.astype(float), x).fit(
+            method="newton", maxiter=_MAX_ITERATIONS, tol=_TOLERANCE, disp=False, **options)
+    if not fit.mle_retvals["converged"]:
+        raise DegenerateData("the likelihood rises without end: the data all but part into yes and no")
+    return fit, factor * fit.cov_params(), count
 
 
 def maximize(function, start: np.ndarray, inside=lambda c: True) -> tuple[np.ndarray, np.ndarray, float]:
@@ -112,24 +99,3 @@ def _separated(x: np.ndarray, yes: np.ndarray) -> bool:
     signed = np.where(yes, 1.0, -1.0)[:, None] * (x / np.abs(x).max(axis=0))
     found = linprog(-signed.sum(axis=0), A_ub=-signed, b_ub=np.zeros(yes.size), bounds=(-1, 1), method="highs")
     return bool(-found.fun > 1e-7)
-
-
-def _likelihood(terms, sign: np.ndarray, c: np.ndarray):
-    log_p, slope, curvature = terms(sign @ c)
-    return log_p.sum(), sign.T @ slope, sign.T @ (curvature[:, None] * sign)
-
-
-def _link(name: str):
-    return {"probit": _probit, "logit": _logit}[name]
-
-
-def _probit(eta: np.ndarray):
-    """ln Phi, its derivative, and minus its second derivative."""
-    log_p = log_ndtr(eta)
-    slope = np.exp(-0.5 * eta**2 - log_p) / np.sqrt(2 * np.pi)
-    return log_p, slope, slope * (slope + eta)
-
-
-def _logit(eta: np.ndarray):
-    """ln of the logistic function, its derivative, and minus its second derivative."""
-    return log_expit(eta), expit(-eta), expit(eta) * expit(-eta)

@@ -1,20 +1,20 @@
 """Fragility: probability of overturning over one or two intensity measures, from ensembles scaled or as they come.
 
 Runs of one motion scaled to several levels are not independent: their number overstates what is known. `groups` tells the motion
-of each run; the curve stays, and its intervals know of the motions (`clustered_covariance`). `bootstrap` with `groups` draws whole
+of each run; the curve stays, and its intervals know of the motions (`fit_binary`). `bootstrap` with `groups` draws whole
 motions. See `statistics.incremental` for the intensity at which each motion first overturns the column.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.special import expit, ndtr, stdtrit
 
 from fecolumn.statistics.bands import normal_quantile
-from fecolumn.statistics.binary_regression import DegenerateData, clustered_covariance, fit_binary
+from fecolumn.statistics.binary_regression import DegenerateData, fit_binary
 
 __all__ = ["Bootstrap", "DegenerateData", "Fragility", "LogitFragility", "Probability", "bootstrap", "lognormal", "logit", "log_columns"]
 
@@ -39,6 +39,8 @@ class Fragility:
         loglik: log-likelihood at the maximum.
         n, overturned: runs, and how many overturned.
         clusters: motions, where runs repeat them: intervals then take Student's t with one degree of freedom less; None for independent runs.
+        fit: what statsmodels has fitted, over a column of ones and ln im: fit.summary(), and fit.get_influence() of single runs;
+            None of a curve by another likelihood.
     """
 
     median: float
@@ -48,6 +50,7 @@ class Fragility:
     n: int
     overturned: int
     clusters: int | None = None
+    fit: object = field(default=None, repr=False, compare=False)
 
     @property
     def parameters(self) -> np.ndarray:
@@ -87,7 +90,7 @@ class LogitFragility:
         loglik: log-likelihood at the maximum; with one more intensity measure 2 (difference) is chi-square with one degree of
             freedom where that measure tells nothing.
         n, overturned: runs, and how many overturned.
-        clusters: as of Fragility.
+        clusters, fit: as of Fragility.
     """
 
     coefficients: np.ndarray
@@ -96,6 +99,7 @@ class LogitFragility:
     n: int
     overturned: int
     clusters: int | None = None
+    fit: object = field(default=None, repr=False, compare=False)
 
     @property
     def parameters(self) -> np.ndarray:
@@ -143,14 +147,12 @@ def lognormal(im, overturned, groups=None) -> Fragility:
     """
     im, overturned = np.asarray(im, float), np.asarray(overturned, bool)
     x = _data(im.reshape(-1), overturned)
-    fit = fit_binary(x, overturned, "probit")
-    a, b = fit.coefficients
+    fit, covariance, clusters = fit_binary(x, overturned, "probit", groups)
+    a, b = fit.params
     if b <= 0:
         raise DegenerateData("overturning gets rarer with the intensity measure: it has no lognormal fragility; logit() shows the trend")
-    to_shape, covariance, clusters = np.array([[-1 / b, a / b**2], [0.0, -1 / b**2]]), fit.covariance, None
-    if groups is not None:
-        covariance, clusters = clustered_covariance(x, overturned, "probit", fit, groups)
-    return Fragility(math.exp(-a / b), 1 / b, to_shape @ covariance @ to_shape.T, fit.loglik, overturned.size, int(overturned.sum()), clusters)
+    to_shape = np.array([[-1 / b, a / b**2], [0.0, -1 / b**2]])
+    return Fragility(math.exp(-a / b), 1 / b, to_shape @ covariance @ to_shape.T, float(fit.llf), overturned.size, int(overturned.sum()), clusters, fit)
 
 
 def logit(im, overturned, groups=None) -> LogitFragility:
@@ -166,11 +168,8 @@ def logit(im, overturned, groups=None) -> LogitFragility:
     """
     overturned = np.asarray(overturned, bool)
     x = _data(im, overturned)
-    fit = fit_binary(x, overturned, "logit")
-    covariance, clusters = fit.covariance, None
-    if groups is not None:
-        covariance, clusters = clustered_covariance(x, overturned, "logit", fit, groups)
-    return LogitFragility(fit.coefficients, covariance, fit.loglik, overturned.size, int(overturned.sum()), clusters)
+    fit, covariance, clusters = fit_binary(x, overturned, "logit", groups)
+    return LogitFragility(fit.params, covariance, float(fit.llf), overturned.size, int(overturned.sum()), clusters, fit)
 
 
 def bootstrap(im, overturned, fit=lognormal, groups=None, confidence: float = 0.95, resamples: int = 500, seed: int = 0) -> Bootstrap:

@@ -12,7 +12,7 @@ KINDS = {"tube": "steel tube with a cap plate", "solid": "marble cylinder", "blo
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn new`."""
     kinds = "; ".join(f"{name}: {what}" for name, what in KINDS.items())
-    parser.add_argument("kind", nargs="?", default="tube", choices=KINDS, metavar="KIND", help=f"{kinds} (default: %(default)s)")
+    parser.add_argument("kind", nargs="?", default="tube", choices=tuple(KINDS), metavar="KIND", help=f"{kinds} (default: %(default)s)")
     parser.add_argument("folder", metavar="DIR", help="folder for case.toml and study.toml, made if missing; nothing there is overwritten")
 
 

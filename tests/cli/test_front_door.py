@@ -101,13 +101,22 @@ def test_version_is_the_packages(capsys):
 
 @pytest.mark.parametrize("typed, offered", [
     ("fecolumn ", {"run", "study", "help"}), ("fecolumn st", {"study"}), ("fecolumn motions make ", {"seeded", "pulses"}),
-    ("fecolumn study x.toml --arr", {"--array-index", "--array-size"}), ("fecolumn new ", {"tube", "block"})])
-def test_bash_completes_commands_and_options(typed, offered, tmp_path, capsys):
+    ("fecolumn study x.toml --arr", {"--array-index", "--array-size"}), ("fecolumn new ", {"tube", "block"}), ("fecolumn run my_", {"my_case.toml"}),
+    ("fecolumn motions make pulses ", {"half_sine", "type_c"}), ("fecolumn verify --engine ", {"reduced", "rigid"})])
+def test_bash_completes_commands_options_choices_and_files(typed, offered, tmp_path, capsys):
     assert main(["completion", "bash"]) == 0
     words = typed.split(" ")
-    asked = f"COMP_WORDS=({' '.join(word or chr(39) * 2 for word in words)}); COMP_CWORD={len(words) - 1}; _fecolumn; printf '%s\\n' \"${{COMPREPLY[@]}}\""
-    result = subprocess.run(["bash", "-c", capsys.readouterr().out + asked], capture_output=True, text=True, check=True)
+    (tmp_path / "my_case.toml").touch()
+    asked = f"COMP_WORDS=({' '.join(word or chr(39) * 2 for word in words)}); COMP_CWORD={len(words) - 1}; _shtab_fecolumn fecolumn {words[-1] or chr(39) * 2}; printf '%s\\n' \"${{COMPREPLY[@]}}\""
+    result = subprocess.run(["bash", "-c", capsys.readouterr().out + asked], cwd=tmp_path, capture_output=True, text=True, check=True)
     assert offered <= set(result.stdout.split()) and result.stderr == ""
+
+
+@pytest.mark.parametrize("shell, begins", [("zsh", "#compdef fecolumn"), ("fish", "#")])
+def test_other_shells_get_a_script_of_their_own(shell, begins, capsys):
+    assert main(["completion", shell]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith(begins) and all(word in text for word in ("array-index", "half_sine", "doctor"))
 
 
 def test_a_reader_that_stops_early_is_no_error():

@@ -113,6 +113,34 @@ def test_runs_of_one_motion_at_several_scales_know_less_than_their_number_says()
     assert np.log(runs.upper[0] / runs.lower[0]) < 0.7 * np.log(motions.upper[0] / motions.lower[0])
 
 
+@pytest.mark.parametrize("fit", [lognormal, logit])
+def test_scores_of_whole_motions_make_the_covariance_that_is_documented(fit):
+    im, overturned = stripes(np.random.default_rng(9), 10)
+    motion, step = np.tile(np.arange(10), 8), 1e-5
+    x, own = np.column_stack([np.ones(im.size), np.log(im)]), fit(im, overturned, motion)
+    log_p = norm.logcdf if fit is lognormal else lambda eta: -np.log1p(np.exp(-eta))
+    sign = np.where(overturned, 1.0, -1.0)
+    score = np.stack([log_p(sign * (x @ (own.fit.params + e))) - log_p(sign * (x @ (own.fit.params - e))) for e in step * np.eye(2)], axis=1) / (2 * step)
+    groups = np.array([score[motion == one].sum(axis=0) for one in range(10)])
+    inverse = np.linalg.inv(-own.fit.model.hessian(own.fit.params))
+    expected = 10 / 9 * inverse @ groups.T @ groups @ inverse
+    found = own.covariance
+    if fit is lognormal:  # of (ln median, beta), back to (a, b)
+        a, b = own.fit.params
+        back = np.linalg.inv(np.array([[-1 / b, a / b**2], [0.0, -1 / b**2]]))
+        found = back @ found @ back.T
+    assert own.clusters == 10
+    np.testing.assert_allclose(found, expected, rtol=1e-5)
+
+
+def test_diagnostics_name_the_run_that_pulls_at_the_curve():
+    im, overturned = stripes(np.random.default_rng(1))
+    odd = int(np.argmin(im))
+    overturned[odd] = True  # at the least intensity
+    influence = lognormal(im, overturned).fit.get_influence()
+    assert int(np.argmax(influence.cooks_distance[0])) == odd
+
+
 @pytest.mark.parametrize("im, overturned, reason", [
     ([1, 2, 3], [0, 0, 0], "none of 3"), ([1, 2, 3], [1, 1, 1], "all of 3"), ([1, 2, 3, 4], [0, 0, 1, 1], "parts all runs"),
     ([1, 2, 2, 3], [0, 0, 1, 1], "parts all runs"), ([2, 2, 2], [0, 1, 0], "do not vary")])
