@@ -260,6 +260,8 @@ def read_toml(path, _heirs: tuple[Path, ...] = ()) -> dict:
     if len(heirs) >= _LONGEST_CHAIN:
         raise InputError(path, "extends", parent, f"at most {_LONGEST_CHAIN} files may extend one another")
     other = path.parent / parent
+    if not other.exists():
+        raise InputError(path, "extends", parent, f"no such file: {other}")
     inherited = read_toml(other, heirs)
     return merge(inherited if _same(other.parent, path.parent) else taken_over(inherited, other), tables)
 

@@ -214,8 +214,8 @@ def check(case: StructureCase, file) -> None:
     if not case.interfaces:
         refuse("interfaces", None, "missing; a structure needs a table [interfaces.NAME] at least, for what stands on the ground")
     for name, interface in case.interfaces.items():
-        _check_name(case, f"interfaces.{name}.slave", interface.slave, refuse, ground=False)
-        _check_name(case, f"interfaces.{name}.on", interface.on, refuse)
+        _check_name(case, f"interfaces.{name}", interface.slave, refuse, ground=False)
+        _check_name(case, f"interfaces.{name}", interface.on, refuse)
     for name, link in case.links.items():
         _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
         _check_name(case, f"links.{name}.to", link.to, refuse)

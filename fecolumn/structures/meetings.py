@@ -55,7 +55,7 @@ def _of_interface(case, name: str, faces, file) -> list[Meeting]:
         for master in masters:
             if master == slave:
                 continue
-            meetings, gaps = _of_pair(case, name, slave, master, faces)
+            meetings, gaps = _of_pair(case, name, slave, master, faces, master in slaves and slave in masters)
             found += meetings
             if not meetings and gaps:
                 gap, width, face = min(gaps, key=lambda one: abs(one[0]))
@@ -109,8 +109,11 @@ def zones_of(case, meeting: Meeting, slave: Face, points: np.ndarray, master: Fa
     return [(*start, *end, allowance) for start, end in spans.tolist()]
 
 
-def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list[tuple[float, float, int]]]:
-    """Meetings of two copies; and gap, slave's width [m] and slave's face of those faces that look at one another elsewhere."""
+def _of_pair(case, name: str, slave, master, faces, twice: bool) -> tuple[list[Meeting], list[tuple[float, float, int]]]:
+    """Meetings of two copies; and gap, slave's width [m] and slave's face of those faces that look at one another elsewhere.
+
+    twice: the two are looked at the other way round, too, so that of two faces one way is left out.
+    """
     found, gaps = [], []
     place = place_of(case, slave)
     for number, face in enumerate(faces[slave[0]]):
@@ -126,7 +129,7 @@ def _of_pair(case, name: str, slave, master, faces) -> tuple[list[Meeting], list
             continue
         offset = place - place_of(case, master)
         for other_number, other in enumerate(faces[master[0]]):
-            if np.linalg.norm(face.normal + other.normal) > _OPPOSITE or (slave[0] == master[0] and not _is_upper(face, slave, master)):
+            if np.linalg.norm(face.normal + other.normal) > _OPPOSITE or (twice and not _is_upper(face, slave, master)):
                 continue
             gap = -(face.offset + face.normal @ offset) - other.offset
             corners = (face.corners + offset) @ other.axes[:, :2]

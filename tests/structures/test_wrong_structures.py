@@ -31,7 +31,7 @@ WRONG = [
     (stack(links=dict(tie=LINK | dict(stiffness_n_m=0))), "links.tie.stiffness_n_m", "greater than 0"),
     (stack(links=dict(tie=LINK | dict(to_point_m=[0, 0, 0.3]))), "links.tie.to_point_m", "no length"),
     (stack(links=dict(tie=LINK | dict(kind="dashpot"))), "links.tie.damping_n_s_m", "greater than 0"),
-    (stack(interfaces=dict(joint=dict(on="lwoer"))), "interfaces.joint.on", "did you mean lower"),
+    (stack(interfaces=dict(joint=dict(on="lwoer"))), "interfaces.joint", "did you mean lower"),
     (stack(initial=dict(middle=dict(tilt_rad=0.1))), "initial.middle", "no such body"),
     (stack(bodies=dict(upper=dict(kind="ball"))), "bodies.upper.kind", "must be one of tube"),
     (stack(bodies=dict(upper=dict(heigth_m=1.0))), "bodies.upper.heigth_m", "did you mean bodies.upper.height_m"),
