@@ -49,6 +49,8 @@ def _interfaces(case, structure):
     yield f"{'interface':<50}{'points':>8}{'of them touch':>15}{'area [m2]':>12}{'friction':>10}{'rim':>8}"
     standing = standing_of(case, structure)
     for joint in structure.joints:
+        if joint.pair >= 0:
+            continue  # the other side of a joint that has its line
         surface = structure.parts[joint.slave].model.surfaces[joint.slave_surface]
         over = touching(standing, joint)
         yield f"{joint.name:<50}{len(surface.nodes):>8}{len(over):>15}{surface.areas[over].sum():>12.5g}{joint.friction:>10.3g}{'dome' if joint.ball and joint.ball.is_dome else 'round' if joint.round else 'edges':>8}"

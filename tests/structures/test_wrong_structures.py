@@ -128,7 +128,7 @@ def test_coarse_plate_on_columns_stands_on_their_heads_whichever_is_named_first(
 @pytest.mark.parametrize("joint, message", [
     (dict(between=["upper"]), "joint.between.*two names"), (dict(between=["ground", "ground"]), "joint.between.*must name a body"),
     (dict(between=["upper", "lower"], on="lower"), "joint.on.*must be left out beside between"), (dict(on="lower"), "joint.slave.*missing; or give"),
-    (dict(between=["upper", "nobody"]), "joint.on.*no such body")])
+    (dict(between=["upper", "nobody"]), "interfaces.joint.*no such body")])
 def test_wrong_bodies_of_a_joint_are_refused(joint, message):
     tables = stack()
     tables["interfaces"]["joint"] = joint
