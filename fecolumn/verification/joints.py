@@ -51,7 +51,7 @@ def draw(engine: str, figure) -> None:
 
 def two(engine: str, above: dict, below: dict | None = None, **more):
     """Engine of a body on a heavy one; above, below: keys beside those of a block."""
-    shape = dict(kind="block", length_m=2 * _B, width_m=2 * _W) if above.get("kind") != "cylinder" else {}
+    shape = dict(kind="block", length_m=2 * _B, width_m=2 * _W) if above.get("kind") not in ("cylinder", "tube") else {}
     stone = dict(youngs_modulus_pa=5e10, poissons_ratio=0.2) | shape
     heavy, light = dict(height_m=_BELOW, density_kg_m3=1e5), dict(height_m=2 * _H, density_kg_m3=100.0, at_m=[0.0, 0.0, _BELOW])
     tables = dict(bodies=dict(low=stone | heavy | (below or {}), up=stone | light | above), contact=dict(friction_coefficient=0.8, interior_points=0),
