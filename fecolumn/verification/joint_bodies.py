@@ -174,7 +174,7 @@ def met(corners: np.ndarray, towards: np.ndarray) -> tuple[float, np.ndarray, fl
 
 
 def tips(half: float, over: float, speed: float, friction: float, tilt: float) -> tuple[float, float, float]:
-    """Closed form of a block of half height H that slides flat over an edge and tips about it, sliding on.
+    """Closed form of a block of half height H that slides flat over an edge and tips about it, sliding on the same way.
 
     Args:
         half: length of the block [m]. over: way [m] from its middle to the edge at the start; speed [m/s]. tilt: at which it is read [rad].

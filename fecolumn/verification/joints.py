@@ -91,8 +91,9 @@ def _turned(engine: str):
         for place in places:
             make, corners, errors = engines(tables(engine, square | dict(turned_deg=angle, at_m=[*place, BELOW]), square)), region(angle, place, (_SQUARE, _SQUARE)), []
             for k in range(16):
-                # none through a corner of a region that is regular
-                towards = np.array([np.cos((k + 0.3) * np.pi / 8), np.sin((k + 0.3) * np.pi / 8)])
+                # of each sixteenth the direction farthest from a corner
+                ways = [np.array([np.cos(a), np.sin(a)]) for a in (k + np.array([0.1, 0.3, 0.5, 0.7])) * np.pi / 8]
+                towards = max(ways, key=lambda one: met(corners, one)[3])
                 way, normal, apart, longer = met(corners, towards)
                 # less than would press on a corner
                 errors.append(turns(make(), min(1.3, 1 + (longer - 1) / 2) * GRAVITY * way / H, towards, normal, apart, (_SQUARE**2 + H**2) / 3))

@@ -35,8 +35,8 @@ def rows():
         errors.append(tilt - rocks(0.15, 0.15, (0.15**2 + H**2) / 3).of(_LAST)[0])
     yield Row("square blocks, the upper turned by 5 and 45 deg, let go over an edge of their region: tilt before the impact, largest error over 0.05 rad", 0.0, max(np.abs(errors)) / TILT, 1e-4)
     drum = dict(kind="tube", outer_diameter_m=0.9, wall_m=0.3, element_size_m=None)
-    leans = [lean(drum | dict(height_m=1.6, at_m=[1e-6, 0.0, BELOW]), drum, towards) for towards in (0.0, 45.0, 90.0, 135.0)]
-    yield Row("equal drums, the upper slid by 1e-6 m: tilt in 4 directions, largest distance from their mean over it", 0.0, float(np.abs(leans - np.mean(leans)).max() / np.mean(leans)), 1e-6)
+    leans = [lean(drum | dict(height_m=1.6, at_m=[0.0, 0.0, BELOW]), drum, towards) for towards in (0.0, 45.0, 90.0, 135.0)]
+    yield Row("equal drums: tilt 0.1 s after the release in 4 directions, largest distance from their mean over it", 0.0, float(np.abs(leans - np.mean(leans)).max() / np.mean(leans)), 1e-6)
     yield Row("error of the energy balance of these over the energy moved", 0.0, max(closures), 1e-9)
 
 
