@@ -91,9 +91,17 @@ def two_sides(_: Work, target: Path) -> str:
     return "from verification.joints"
 
 
+def collapse(_: Work, target: Path) -> str:
+    """How the multi-drum column falls, drums computed by the rigid engine."""
+    from benchmarks.gallery.collapse import collapse as draw
+
+    return draw(target)
+
+
 #: Figures by name: place in the repository and the function that makes them, of (Work, target), which says from what.
 FIGURES = {"rocking": ("meshes/rocking.png", rocking), "cdf": ("benchmarks/cdf.png", cdf), "impact": ("fecolumn/manual/impact.png", impact),
-           "rolling": ("fecolumn/manual/rolling.png", rim), "two-sides": ("fecolumn/manual/two-sides.png", two_sides)}
+           "rolling": ("fecolumn/manual/rolling.png", rim), "two-sides": ("fecolumn/manual/two-sides.png", two_sides),
+           "collapse": ("fecolumn/manual/collapse.png", collapse)}
 
 
 def make(name: str, work: Work, root: Path = ROOT) -> str:

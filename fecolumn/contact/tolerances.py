@@ -121,6 +121,11 @@ REST = 1e-11
 #: Iterations to equilibrium within which the displacement of one must fall to this share, else none is found: a slender column needs a pad
 #: whose stiffness against tilting is 1.6 times its weight times the height of its centre.
 REST_ITERATIONS, REST_PROGRESS = 50, 0.5
+#: Iterations after which points keep the slides that they have made. Until then friction is that of
+#: a point's whole way, whatever the iterations did. Where all points of a joint slide, as of a light
+#: stone that a heavy one spreads below it, friction of 1.5 makes that balance unstable and the body
+#: goes to and fro; with slides kept, what goes back sticks. Most structures are at rest after four.
+SLIDES_KEPT = 20
 
 # --- Bodies that stand on moving ones -----------------------------------------------------------------------------------------------------------
 #: Way beyond the outline of a surface, over the width of the foot on it, within which a point still stands on it: feet as wide as what they stand on

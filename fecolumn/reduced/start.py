@@ -6,8 +6,9 @@ import numpy as np
 
 from fecolumn._compiled import interpreted
 from fecolumn.contact.points import may_touch
-from fecolumn.contact.problem import FAR_BASE, OK
-from fecolumn.contact.tolerances import FIRMER_TIMES, LINKS_FIRM
+from fecolumn.contact.problem import FAR_BASE, OK, near_points
+from fecolumn.contact.tolerances import FIRMER_TIMES, LINKS_FIRM, SLIDES_KEPT
+from fecolumn.contact.work import move_anchors
 from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
 from fecolumn.dynamics.links import end_links, fastest
 from fecolumn.reduced import motion as motions
@@ -53,15 +54,22 @@ def _settled(engine, firmness: float) -> motions.Motion:
     resting = resting_scheme(structure, engine.points, firmness)
     # of the turns, which move the bodies by so much wherever they stand
     reach = max(np.ptp(centers[:, :2], axis=0).max(), np.abs(centers[:, 2]).max())
+    steps = 0
 
     def proximal_step():
+        nonlocal steps
         while (answer := engine.settle(resting, start, end)) == FAR_BASE:
             engine.extend_base(end)
         if answer != OK:
             raise _Diverged("gravity equilibrium: contact does not converge")
         moved = max(np.abs(end.frames["center"] - start.frames["center"]).max(), np.abs(work.action.turn).max() * reach,
                     np.abs(work.elastic.point[1] - work.elastic.point[0]).max())
-        end.contact["anchor"] = work.before["anchor"]
+        steps += 1
+        if steps > SLIDES_KEPT:
+            interpreted(move_anchors)(work.points, structure.interfaces, resting.springs, near_points(work.problem),
+                                      work.before, end.contact)
+        else:
+            end.contact["anchor"] = work.before["anchor"]
         motions.copy(end, start)
         return moved
 

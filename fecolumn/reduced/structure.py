@@ -18,11 +18,12 @@ from fecolumn.reduced.observe import MARK, View
 LOST = np.pi / 4
 
 
-def structure_of(model, hht, gravity) -> tuple[Structure, np.ndarray]:
+def structure_of(model, hht, gravity, parts_of_step: int = 1) -> tuple[Structure, np.ndarray]:
     """Structure as steps of `hht` see it, and its points (P,) of POINT.
 
     Args:
         model: StructureModel, each part with the modes that are to move.
+        parts_of_step: in one of so many points land: what bodies that do not deform give in it is by its length.
     Raises:
         ValueError: a link is too stiff for the step; names it and the longest step.
     """
@@ -34,7 +35,7 @@ def structure_of(model, hht, gravity) -> tuple[Structure, np.ndarray]:
         damping[b, :m] = 2 * ratio * body.frequencies
         shrink = 1 / (1 + squares[b, :m] * hht.stiffness_factor / hht.mass_factor)
         own = body.shapes * (2 * shrink - shrink**2)
-        static = node_matrix(body.flexibility) - modal_sum(own, 1 / squares[b, :m]) if body.flexibility.any() else _least_give(body, hht.dt)
+        static = node_matrix(body.flexibility) - modal_sum(own, 1 / squares[b, :m]) if body.flexibility.any() else _least_give(body, hht.dt / parts_of_step)
         bodies.append(one_body(body.arms, static, modal_sum(own, np.ones(m)), float(body.mass), body.inertia))
         pushes.append(np.pad(own, ((0, 0), (0, 0), (0, modes - m))))
     whole, first = joined(bodies), np.cumsum([0] + [len(part.model.arms) for part in parts])

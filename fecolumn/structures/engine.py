@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from fecolumn.case import GRAVITY
+from fecolumn.contact.tolerances import PARTS
 from fecolumn.dynamics.hht import HHT
 from fecolumn.reduced.run import Engine
 from fecolumn.reduced.start import of_parts
@@ -38,7 +39,7 @@ def engine_of(case, model: StructureModel, file) -> Engine:
     standing, hht = upright(case, model), HHT(plan.dt_s, plan.alpha_hht)
 
     def build(step):
-        return structure_of(standing, step, gravity)
+        return structure_of(standing, step, gravity, PARTS if plan.substeps == "impacts" else 1)
 
     try:
         structure, _ = build(hht)

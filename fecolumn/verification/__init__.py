@@ -9,6 +9,6 @@ CASES = {
     "patch": FULL, "hertz": FULL, "bar_impact": (*FULL, "reduced"), "hht_scheme": (*FULL, "reduced"), "elastodynamics": FULL,
     "sliding": ELEMENTS, "rocking": ELEMENTS, "wobbling": ELEMENTS, "frames": (*FULL, "reduced"),
     "scaling": (*FULL, "reduced"), "invariance": (*FULL, "reduced"), "ledger": (*FULL, "reduced"),
-    "several_bodies": ("rigid",), "joints": REDUCED, "structures": ("reduced",), "structures_feet": REDUCED, "full_structures": ("corotated",), "rocking_models": MODELS, "rocking_tables": MODELS,
+    "several_bodies": ("rigid",), "joints": ("corotated", *REDUCED), "structures": ("reduced",), "structures_feet": REDUCED, "full_structures": ("corotated",), "rocking_models": MODELS, "rocking_tables": MODELS,
     "wobbling_models": MODELS, "podium": MODELS, "masonry": MODELS,
 }
