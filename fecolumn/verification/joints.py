@@ -40,7 +40,7 @@ def draw(engine: str, figure) -> None:
         axes.plot(ways, exact[:, place], color="0.5", label="closed form")
         axes.plot(ways, exact[:, place] * (1 + off[:, place]), "o", markersize=3, color="C3", label=f"{engine} engine")
         axes.set_xscale("symlog", linthresh=1e-9)
-        axes.set_xticks([-1e-2, -1e-5, -1e-8, 0, 1e-8, 1e-5, 1e-2], ["−1e-2", "−1e-5", "−1e-8", "0", "1e-8", "1e-5", "1e-2"])
+        axes.set_xticks([-1e-2, -1e-6, 0, 1e-6, 1e-2], ["−1e-2", "−1e-6", "0", "1e-6", "1e-2"])
         axes.set(xlabel="displacement of the upper block [m]", ylabel=f"rate {label} [rad/s]")
         axes.legend(frameon=False, fontsize=8)
     figure.tight_layout()
