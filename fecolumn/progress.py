@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import sys
 import time
 
@@ -30,7 +31,8 @@ class Bar:
             if self._bar is None:
                 from tqdm.auto import tqdm
 
-                self._bar = tqdm(total=self.total, file=self._stream, dynamic_ncols=True, leave=self._keep, bar_format="{percentage:3.0f} %|{bar:12}| {desc}")
+                self._bar = tqdm(total=self.total, file=self._stream, nrows=24, leave=self._keep, bar_format="{percentage:3.0f} %|{bar:12}| {desc}")
+            self._bar.ncols = _width(self._stream)
             self._bar.n = min(done, self.total)
             self._bar.set_description_str(words)
 
@@ -62,8 +64,8 @@ class Progress(Bar):
             left = "until at rest" if rests else self.left(step - self._first, self.total - self._first)
             end = f"at most {self.steps * self.dt:.2f} s" if rests and self.total < self.steps else f"{self.total * self.dt:.2f} s"
             mean = (record.iterations - self._iterations) / max(step - self._counted, 1)
-            self.draw(step, f"t {measures['time']:8.4f} of {end}  step {step}  tilt {measures['tilt']:.5f} rad  "
-                            f"contact {measures['active_nodes']:3d} nodes  iterations {mean:.1f}/step  left {left}")
+            self.draw(step, f"t {measures['time']:8.4f} of {end}  left {left}  step {step}  "
+                            f"tilt {measures['tilt']:.5f} rad  contact {measures['active_nodes']:3d} nodes  iterations {mean:.1f}/step")
             self._iterations, self._counted = record.iterations, step
 
 
@@ -79,6 +81,14 @@ class CountProgress(Bar):
         """Show that `done` are done where it is time to."""
         if self.due():
             self.draw(done, f"{done} of {self.total} {self._things}, left {self.left(done, self.total)}")
+
+
+def _width(stream) -> int | None:
+    """Columns of a terminal; None where it does not know, such as one without a screen."""
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or None
+    except (OSError, ValueError, AttributeError):
+        return None
 
 
 def clock(seconds: float) -> str:

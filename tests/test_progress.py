@@ -41,7 +41,7 @@ def test_bar_is_drawn_in_place_within_the_width_of_the_terminal(terminal, monkey
     progress.end()
     text = terminal[1]()
     lines = text.replace("\r\n", "\n").split("\r")
-    assert " 25 %|" in text and " 50 %|" in text and "t   1.0000 of 2.00 s  step 100" in text
+    assert " 25 %|" in text and " 50 %|" in text and "t   1.0000 of 2.00 s  left 0 s" in text
     assert text.count("\n") == 1 and text.endswith("\n") and max(len(line.strip()) for line in lines) <= 60
 
 
@@ -53,6 +53,15 @@ def test_counted_things_leave_nothing_on_the_terminal(terminal, monkeypatch):
     progress.end()
     text = terminal[1]()
     assert " 50 %|" in text and "2 of 4 pictures, left 0 s" in text and "\n" not in text and text.endswith("\r")
+
+
+def test_a_terminal_that_does_not_know_its_width_gets_the_whole_line(terminal, monkeypatch):
+    monkeypatch.setattr("sys.stderr", terminal[0])
+    fcntl.ioctl(terminal[0].fileno(), termios.TIOCSWINSZ, bytes(8))
+    bar = Bar(4)
+    bar.draw(1, words := "word " * 40 + "end")
+    bar.end()
+    assert words in terminal[1]()
 
 
 @pytest.mark.parametrize("total", [0, 10])
