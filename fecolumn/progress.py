@@ -13,7 +13,7 @@ class Bar:
 
     def __init__(self, total: float, quiet: bool = False, stream=None, pause_s: float = 0.3, keep: bool = True):
         self.total, self._quiet, self._stream, self._keep = total, quiet, stream or sys.stderr, keep
-        self._in_place = self._stream.isatty() or "ipykernel" in sys.modules
+        self._in_place = self._stream.isatty() or "ipykernel" in type(self._stream).__module__  # a notebook's
         self._pause_s, self._bar = pause_s if self._in_place else 10.0, None
         self._began = self._shown = time.monotonic()
 
