@@ -42,7 +42,7 @@ class Watch:
         return True  # a line a second
 
     def write(self, line: str) -> None:
-        self.notes.append((time.monotonic(), resident_mb(), line.removeprefix("\r\x1b[K").strip()))
+        self.notes.append((time.monotonic(), resident_mb(), line.strip()))
 
     def flush(self) -> None:
         pass

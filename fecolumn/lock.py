@@ -48,9 +48,9 @@ def alone(path: Path):
 
 
 def held(file: Path) -> bool:
-    """Whether a process holds the lock in `file`; one that was killed holds none, though its file may be left."""
+    """Whether a process holds the lock in `file` alone; one that was killed holds none, though its file may be left."""
     try:
-        with open(file) as lock:
+        with open(os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)) as lock:
             fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
     except FileNotFoundError:
         return False

@@ -1,69 +1,98 @@
-"""Progress lines: of one analysis, and of a count of things."""
+"""Progress: a bar of tqdm with words behind it, in place on a terminal and in a notebook; in a log the words alone, every ten seconds."""
 
 from __future__ import annotations
 
+import contextlib
+import os
 import sys
 import time
 
 
-class Progress:
-    """Writes t, step, tilt, contact nodes, iterations and the time left to stderr: in place on a terminal, every
-    ten seconds in a log."""
+class Bar:
+    """A bar of `total`, in any unit, on `stream` (default: stderr), drawn in place at most every `pause_s` [s]; `keep`: its last state stays."""
+
+    def __init__(self, total: float, quiet: bool = False, stream=None, pause_s: float = 0.3, keep: bool = True):
+        self.total, self._quiet, self._stream, self._keep = total, quiet, stream or sys.stderr, keep
+        self._in_place = self._stream.isatty() or "ipykernel" in type(self._stream).__module__  # a notebook's
+        self._pause_s, self._bar = pause_s if self._in_place else 10.0, None
+        self._began = self._shown = time.monotonic()
+
+    def due(self) -> bool:
+        """Whether it is time to draw."""
+        return not self._quiet and time.monotonic() - self._shown >= self._pause_s
+
+    def draw(self, done: float, words: str) -> None:
+        """Draw it; a log on a full disk, or a terminal that is gone, ends nothing."""
+        self._shown = time.monotonic()
+        with contextlib.suppress(OSError):
+            if not self._in_place:
+                print(words, file=self._stream, flush=True)
+                return
+            if self._bar is None:
+                from tqdm.auto import tqdm
+
+                self._bar = tqdm(total=self.total, file=self._stream, nrows=24, leave=self._keep, bar_format="{percentage:3.0f} %|{bar:12}| {desc}")
+            self._bar.ncols = _width(self._stream)
+            self._bar.n = min(done, self.total)
+            self._bar.set_description_str(words)
+
+    def left(self, done: float, total: float) -> str:
+        """Time that the rest takes at the pace so far."""
+        return clock((time.monotonic() - self._began) / done * (total - done))
+
+    def end(self) -> None:
+        """Close the line of a terminal."""
+        if self._bar is not None:
+            with contextlib.suppress(OSError):
+                self._bar.close()
+
+
+class Progress(Bar):
+    """t, step, tilt, contact nodes, iterations and the time left of one analysis."""
 
     def __init__(self, steps: int, dt: float, quiet: bool = False, until_rest_from: int | None = None):
         """`steps` to be made; from step `until_rest_from` on, where it is given, these are the most that are, and rest may come before."""
-        self.steps, self.dt, self.quiet, self._known = steps, dt, quiet, steps if until_rest_from is None else until_rest_from
-        self._terminal = sys.stderr.isatty()
-        self._began = self._shown = time.perf_counter()
-        self._first: int | None = None
-        self._iterations = 0
+        super().__init__(steps if until_rest_from is None else until_rest_from, quiet)
+        self.steps, self.dt, self._first = steps, dt, None
 
     def show(self, step: int, measures: dict, record) -> None:
-        """Show the state after `step`, at most a few times a second."""
-        now = time.perf_counter()
+        """Show the state after `step` where it is time to."""
         if self._first is None:
             self._first, self._iterations, self._counted = step - 1, record.iterations, step
-        if self.quiet or now - self._shown < (0.3 if self._terminal else 10.0):
-            return
-        left = _clock((now - self._began) / (step - self._first) * (self._known - step)) if step < self._known else "until at rest"
-        end = f"{self._known * self.dt:.2f} s" if step < self._known or self._known == self.steps else f"at most {self.steps * self.dt:.2f} s"
-        mean = (record.iterations - self._iterations) / max(step - self._counted, 1)
-        line = (f"t {measures['time']:8.4f} of {end}  step {step}  tilt {measures['tilt']:.5f} rad  "
-                f"contact {measures['active_nodes']:3d} nodes  iterations {mean:.1f}/step  left {left}")
-        print(("\r" + line + "\x1b[K") if self._terminal else line, end="" if self._terminal else "\n", file=sys.stderr, flush=True)
-        self._shown, self._iterations, self._counted = now, record.iterations, step
-
-    def end(self) -> None:
-        """Close the line on a terminal."""
-        if self._terminal and not self.quiet:
-            print(file=sys.stderr)
+        if self.due():
+            rests = step >= self.total
+            left = "until at rest" if rests else self.left(step - self._first, self.total - self._first)
+            end = f"at most {self.steps * self.dt:.2f} s" if rests and self.total < self.steps else f"{self.total * self.dt:.2f} s"
+            mean = (record.iterations - self._iterations) / max(step - self._counted, 1)
+            self.draw(step, f"t {measures['time']:8.4f} of {end}  left {left}  step {step}  "
+                            f"tilt {measures['tilt']:.5f} rad  contact {measures['active_nodes']:3d} nodes  iterations {mean:.1f}/step")
+            self._iterations, self._counted = record.iterations, step
 
 
-class CountProgress:
-    """Writes how many of a number of things are done and the time left to stderr: in place on a terminal, every ten seconds in a log."""
+class CountProgress(Bar):
+    """How many of a number of things are done, and the time left."""
 
     def __init__(self, total: int, things: str, quiet: bool = False):
         """`total` of `things`, such as "pictures"."""
-        self.total, self.things, self.quiet = total, things, quiet
-        self._terminal = sys.stderr.isatty()
-        self._began = self._shown = time.perf_counter()
+        super().__init__(total, quiet, keep=False)
+        self._things = things
 
     def show(self, done: int) -> None:
-        """Show that `done` are done, at most a few times a second."""
-        now = time.perf_counter()
-        if self.quiet or now - self._shown < (0.3 if self._terminal else 10.0):
-            return
-        line = f"{done} of {self.total} {self.things}, {100 * done / self.total:.0f} %, left {_clock((now - self._began) / done * (self.total - done))}"
-        print(("\r" + line + "\x1b[K") if self._terminal else line, end="" if self._terminal else "\n", file=sys.stderr, flush=True)
-        self._shown = now
-
-    def end(self) -> None:
-        """Clear the line on a terminal."""
-        if self._terminal and not self.quiet:
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+        """Show that `done` are done where it is time to."""
+        if self.due():
+            self.draw(done, f"{done} of {self.total} {self._things}, left {self.left(done, self.total)}")
 
 
-def _clock(seconds: float) -> str:
-    minutes, seconds = divmod(int(seconds), 60)
+def _width(stream) -> int | None:
+    """Columns of a terminal; None where it does not know, such as one without a screen."""
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or None
+    except (OSError, ValueError, AttributeError):
+        return None
+
+
+def clock(seconds: float) -> str:
+    """A time such as 1 h 05 min, 5 min 03 s or 3 s."""
+    minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
-    return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
+    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {seconds:02d} s" if minutes else f"{seconds} s"

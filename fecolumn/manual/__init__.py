@@ -6,7 +6,7 @@ from pathlib import Path
 
 FOLDER = Path(__file__).parent
 # in the order of reading
-TOPICS = ("quick-start", "cases", "keys", "motions", "studies", "statistics", "outputs", "pictures", "examples", "python", "clusters", "structures", "rocking", "rocking-structures", "theory", "algorithm", "changelog")
+TOPICS = ("quick-start", "cases", "keys", "motions", "studies", "statistics", "outputs", "pictures", "examples", "python", "clusters", "structures", "rocking", "rocking-structures", "theory", "algorithm", "contributing", "changelog")
 
 
 def add_arguments(parser) -> None:

@@ -17,7 +17,7 @@ from fecolumn.study.mixture import codes, listed
 from fecolumn.study.plan import ENSEMBLE_AXES
 from fecolumn.study.store import DONE
 
-_PACKAGES = ("numpy", "scipy", "numba", "matplotlib", "jinja2", "h5py", "petsc4py", "fenics-dolfinx", "gmsh")
+_PACKAGES = ("numpy", "scipy", "statsmodels", "numba", "matplotlib", "jinja2", "h5py", "petsc4py", "fenics-dolfinx", "gmsh")
 _RECORDED = {"motion": "Motion files (SHA-256)", "machine": "Machine"}
 _DIGEST = re.compile("[0-9a-f]{40,}")
 _KNOWN = ("id", "axes", "state", "reason", "wall_s", "version", "summary", "started", "log")

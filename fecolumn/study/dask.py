@@ -101,10 +101,13 @@ class DaskTeam:
         return [outcome for future in ended for outcome in self._outcomes(*self._in_hand.pop(future.key))]
 
     def _outcomes(self, future, batch: list[Task]) -> list[Outcome]:
+        from distributed import CancelledError
         from distributed.scheduler import KilledWorker
 
         try:
             return future.result()
+        except CancelledError:
+            raise self._lost() from None
         except KilledWorker as error:
             return list(outcomes_of_dead(batch, f"{error.allowed_failures + 1} workers died of it (out of memory?)"))
         except Exception as error:

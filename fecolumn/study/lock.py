@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 from fecolumn.atomic import disk_full
-from fecolumn.lock import open_lock
+from fecolumn.lock import held, open_lock
 from fecolumn.schema import InputError
 
 # Another driver that only looks holds a lock for an instant
@@ -44,7 +44,7 @@ class FolderLock:
             if share:
                 self._take(folder / f"{stem(share)}.lock")
                 for other in folder.glob("study-*-of-*.lock"):
-                    if not other.name.endswith((f"-of-{share[1]}.lock", ".workers.lock")) and _held(other):
+                    if not other.name.endswith((f"-of-{share[1]}.lock", ".workers.lock")) and held(other):
                         raise BlockingIOError
             for workers in [folder / f"{stem(share)}.workers.lock"] if share else folder.glob("study*.workers.lock"):
                 _wait_until_free(workers)
@@ -93,16 +93,6 @@ def hold_as_worker(folder: Path, share: tuple[int, int] | None):
     return lock
 
 
-def _held(file: Path) -> bool:
-    """Whether somebody holds a lock exclusively."""
-    with open_lock(file) as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return True
-    return False
-
-
 def _wait_until_free(file: Path) -> None:
     end = time.monotonic() + _WORKERS_WAIT_S
     while file.exists():
@@ -118,4 +108,4 @@ def _wait_until_free(file: Path) -> None:
 
 def _owners(folder: Path) -> str:
     return ", ".join(sorted(text for file in folder.glob("study*.lock")
-                            if not file.name.endswith(".workers.lock") and _held(file) and (text := file.read_text().strip())))
+                            if not file.name.endswith(".workers.lock") and held(file) and (text := file.read_text().strip())))

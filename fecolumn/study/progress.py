@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
+import math
 import time
 
+from fecolumn.progress import Bar, clock
 from fecolumn.study.outcome import DONE, FAILED, Outcome
 
-_LOG_INTERVAL_S = 10.0
 
-
-class Progress:
-    """Counts of a running study: rewritten in place on a terminal, a line now and then in a log file.
+class Progress(Bar):
+    """Counts of a running study.
 
     The remaining time is judged by the work, not by analyses: the longest come first. Time in which workers wait for what is made
     once on a machine is told, and left out of it.
@@ -24,12 +24,13 @@ class Progress:
     """
 
     def __init__(self, counts: dict[str, int], effort: float, workers: int, stream):
+        super().__init__(effort, stream=stream, pause_s=1.0)
         self.overturned, self.slid_off = counts.get("overturned", 0), counts.get("slid_off", 0)
-        self._total = sum(counts.values()) - self.overturned - self.slid_off
-        self._stream, self._tty, self._workers = stream, stream.isatty(), max(workers, 1)
+        self._analyses = sum(counts.values()) - self.overturned - self.slid_off
+        self._workers = max(workers, 1)
         self.done, self.failed = counts.get(DONE, 0), counts.get(FAILED, 0)
         self._remaining, self._worked, self.ended, self._busy_s = effort, 0.0, 0, 0.0
-        self._start, self._shown = time.monotonic(), -_LOG_INTERVAL_S
+        self._shown = -math.inf
         self._preparing, self._prepared_s, self._began_s = "", 0.0, 0.0
 
     def count(self, outcome: Outcome, effort: float) -> None:
@@ -61,40 +62,32 @@ class Progress:
 
     def line(self, elapsed_s: float) -> str:
         """The progress after `elapsed_s` of wall time [s]."""
-        parts = [f"{self.done + self.failed}/{self._total} analyses"]
+        parts = [f"{self.done + self.failed}/{self._analyses} analyses"]
         working_s = max(elapsed_s - self._prepared_s, 1e-9)
         if self._preparing:
-            parts.append(f"{self._preparing} ... {_clock(elapsed_s - self._began_s)}")
+            parts.append(f"{self._preparing} ... {clock(elapsed_s - self._began_s)}")
         if self.ended:
             rate = self.ended / working_s
             parts.append(f"{rate:.3g} a second" if rate >= 2 else f"{60 * rate:.3g} a minute")
-            if self.done + self.failed < self._total:
-                parts.append(f"{_clock(working_s * max(self._remaining, 0.0) / self._worked)} to go")
+            if self.done + self.failed < self._analyses:
+                parts.append(f"{clock(working_s * max(self._remaining, 0.0) / self._worked)} to go")
         parts += [f"{self.overturned} overturned", *([f"{self.slid_off} slid off"] if self.slid_off else []), f"{self.failed} failed"]
         return ", ".join(parts + ([f"workers {100 * self.busy(elapsed_s):.0f} % busy"] if self.ended else []))
 
     def show(self, preparing: str = "") -> None:
-        """Write the line, at most once a second on a terminal and every ten in a file; `preparing` as of `prepare`."""
-        now = time.monotonic()
-        self.prepare(preparing, now - self._start)
-        if now - self._shown >= (1.0 if self._tty else _LOG_INTERVAL_S):
-            self._shown = now
-            self._write(now)
+        """Draw the line where it is time to; `preparing` as of `prepare`."""
+        self.prepare(preparing, time.monotonic() - self._began)
+        if self.due():
+            self._tell()
 
     def end(self) -> None:
-        """Write the last state and close the line."""
+        """Draw the last state and close the line."""
         self._preparing = ""
-        self._write(time.monotonic())
-        if self._tty:
-            self._stream.write("\n")
+        self._tell()
+        super().end()
 
-    def _write(self, now: float) -> None:
-        line = self.line(max(now - self._start, 1e-9))
-        try:
-            self._stream.write(f"\r\x1b[K{line}" if self._tty else line + "\n")
-            self._stream.flush()
-        except OSError:
-            pass  # a log on a full disk, or a terminal that is gone, must not end the study
+    def _tell(self) -> None:
+        self.draw(self._worked, self.line(max(time.monotonic() - self._began, 1e-9)))
 
 
 def analysis_s(outcome: Outcome) -> float:
@@ -106,9 +99,3 @@ def analysis_s(outcome: Outcome) -> float:
         return measured
     plain = isinstance(stated, (int, float)) and not isinstance(stated, bool)
     return min(measured, stated) if plain and stated > 0 else measured
-
-
-def _clock(seconds: float) -> str:
-    minutes, seconds = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {seconds:02d} s" if minutes else f"{seconds} s"
