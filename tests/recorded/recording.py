@@ -18,7 +18,8 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).parent
-CASES, RECORD, ABOUT = HERE / "cases.toml", HERE / "histories.npz", HERE / "about.json"
+CASES = tuple(HERE / f"{name}.toml" for name in ("bases", "columns", "structures"))
+RECORD, ABOUT = HERE / "histories.npz", HERE / "about.json"
 #: How far a column may be off, over its peak; and how far rounding errors may have moved it where it is kept.
 TOLERANCE, BY_ROUNDING = 1e-9, 2e-10
 # Impacts until which a history is kept, and what one takes at least, over the change of the potential of the weight
@@ -54,7 +55,9 @@ def cases() -> dict[str, Recorded]:
     """All cases by name."""
     from fecolumn.schema import merge
 
-    text = tomllib.loads(CASES.read_text(encoding="utf-8"))
+    text = {}
+    for file in CASES:
+        text = merge(text, tomllib.loads(file.read_text(encoding="utf-8")))
 
     def whole(table: dict) -> dict:
         """A table above those that it is of."""
@@ -81,7 +84,7 @@ def analyse(tables: dict, folder) -> None:
 
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message=".*cuts the motion short")
-        run(case_from_tables(tables, CASES), Path(folder), quiet=True)
+        run(case_from_tables(tables, CASES[0]), Path(folder), quiet=True)
 
 
 def history(case: Recorded, rounding: float = 0.0) -> dict[str, np.ndarray]:
