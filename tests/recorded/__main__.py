@@ -1,7 +1,9 @@
-"""python tests/recorded [CASE ...] [--check]: make the record of the cases anew, all or those named; or say how far this code is off it.
+"""python tests/recorded [CASE ...] [--check]: make the record of the cases anew, all or those
+named; or say how far this code is off it.
 
-Every case is run twice: as it stands on one thread of linear algebra; and on two, with bodies made anew, and with densities and Young's moduli larger by
-1e-14 of themselves. What both differ by is what rounding errors make of it.
+Every case is run twice: as it stands, on one thread of linear algebra; and on two threads, with
+bodies made anew, and with densities and Young's moduli larger by 1e-14 of themselves. What both
+differ by is what rounding errors make of it.
 """
 
 from __future__ import annotations
@@ -26,17 +28,21 @@ import recording  # noqa: E402
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="python tests/recorded", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(prog="python tests/recorded", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", nargs="*", help="names of cases, all unless given")
-    parser.add_argument("--check", action="store_true", help="write nothing, tell the largest difference of each case")
-    parser.add_argument("--rounded", help=argparse.SUPPRESS)  # file for the histories with other rounding errors
+    parser.add_argument("--check", action="store_true",
+                        help="write nothing, tell the largest difference of each case")
+    # file for the histories with other rounding errors
+    parser.add_argument("--rounded", help=argparse.SUPPRESS)
     args = parser.parse_args()
     known = recording.cases()
     if unknown := [name for name in args.case if name not in known]:
         parser.error(f"no such case: {', '.join(unknown)}; known: {', '.join(known)}")
     chosen = {name: known[name] for name in args.case or known}
     if args.rounded:
-        Path(args.rounded).write_bytes(pickle.dumps({name: recording.history(case, recording.ROUNDING) for name, case in chosen.items()}))
+        rows = {name: recording.history(case, recording.ROUNDING) for name, case in chosen.items()}
+        Path(args.rounded).write_bytes(pickle.dumps(rows))
         return 0
     return check(chosen) if args.check else record(chosen, known)
 
@@ -46,17 +52,20 @@ def check(chosen: dict) -> int:
     histories, _ = recording.read()
     far = 0
     for name, case in chosen.items():
-        off = {column: values.max() for column, values in recording.differences(histories[name], recording.history(case)).items()}
+        found = recording.differences(histories[name], recording.history(case))
+        off = {column: values.max() for column, values in found.items()}
         worst = max(off, key=off.get)
         far += not off[worst] <= recording.TOLERANCE
         print(f"{off[worst]:8.1e} {worst:28s} {name}", flush=True)
-    print(f"{len(chosen) - far} of {len(chosen)} cases are within {recording.TOLERANCE:.0e} of their peaks")
+    print(f"{len(chosen) - far} of {len(chosen)} cases are within {recording.TOLERANCE:.0e} of "
+          "their peaks")
     return int(far > 0)
 
 
 def record(chosen: dict, known: dict) -> int:
     """Run the chosen cases twice and write the record."""
-    histories, about = recording.read() if recording.RECORD.is_file() and recording.ABOUT.is_file() else ({}, {})
+    there = recording.RECORD.is_file() and recording.ABOUT.is_file()
+    histories, about = recording.read() if there else ({}, {})
     with tempfile.TemporaryDirectory() as folder:
         file, ours, seconds = Path(folder) / "rounded", {}, {}
         command = [sys.executable, str(HERE), *chosen, "--rounded", str(file)]
@@ -73,10 +82,13 @@ def record(chosen: dict, known: dict) -> int:
         last = recording.third_impact(rows)
         histories[name], one = limited(name, recording.kept(rows, last), rounded[name])
         about[name] = one = one | {"ended_by": ended(one, last < len(rows["time"]))} | made_by
-        print(f"{seconds[name]:6.2f} s {one['rows']:5d} rows to {one['end_s']:.3f} s, {one['ended_by']}: {name}", flush=True)
-    histories = {name: histories[name] for name in known if name in histories}  # in the order of the cases; no others
-    recording.write({name: recording.thinned(rows) for name, rows in histories.items()}, about)
-    print(f"{len(histories)} cases, {recording.RECORD.stat().st_size / 1e3:.0f} kB in {recording.RECORD.name}")
+        print(f"{seconds[name]:6.2f} s {one['rows']:5d} rows to {one['end_s']:.3f} s, "
+              f"{one['ended_by']}: {name}", flush=True)
+    # in the order of the cases; no others
+    kept = {name: recording.thinned(histories[name]) for name in known if name in histories}
+    recording.write(kept, about)
+    size = recording.RECORD.stat().st_size
+    print(f"{len(kept)} cases, {size / 1e3:.0f} kB in {recording.RECORD.name}")
     return 0
 
 
@@ -86,8 +98,11 @@ def limited(name: str, rows: dict, rounded: dict) -> tuple[dict, dict]:
     moved = np.flatnonzero(~(off <= recording.BY_ROUNDING))
     n = int(moved[0]) if len(moved) else len(off)
     if n < recording.FEWEST:
-        raise SystemExit(f"{name}: rounding errors alone move its history by {off.max():.0e} of its peak, from step {n} on: record another case of this kind")
-    said = dict(rows=n, end_s=float(rows["time"][n - 1]), rounding=float(off[:n].max()), would_end_s=float(rows["time"][-1]), would_round=float(off.max()))
+        raise SystemExit(f"{name}: rounding errors alone move its history by {off.max():.0e} of "
+                         f"its peak, from step {n} on: record another case of this kind")
+    time = rows["time"]
+    said = dict(rows=n, end_s=float(time[n - 1]), rounding=float(off[:n].max()),
+                would_end_s=float(time[-1]), would_round=float(off.max()))
     return {column: values[:n] for column, values in rows.items()}, said
 
 
@@ -105,19 +120,23 @@ def origin() -> dict:
 
     from fecolumn.sources import code
 
-    commit = subprocess.run(["git", "-C", str(HERE), "describe", "--always", "--abbrev=12", "--dirty"], capture_output=True, text=True)
-    return code() | {"commit": commit.stdout.strip() or "unknown", "processor": get_host_cpu_name(), "python": platform.python_version(),
-                     "numpy": np.__version__, "numba": numba.__version__}
+    command = ["git", "-C", str(HERE), "describe", "--always", "--abbrev=12", "--dirty"]
+    commit = subprocess.run(command, capture_output=True, text=True).stdout.strip() or "unknown"
+    return code() | {"commit": commit, "processor": get_host_cpu_name(),
+                     "python": platform.python_version(), "numpy": np.__version__,
+                     "numba": numba.__version__}
 
 
 def rounding_environment() -> dict:
     """Environment of the second run: two threads, a cache of its own."""
-    return {key: value for key, value in os.environ.items() if key != "FECOLUMN_CACHE"} | {"OMP_NUM_THREADS": "2"}
+    own = {key: value for key, value in os.environ.items() if key != "FECOLUMN_CACHE"}
+    return own | {"OMP_NUM_THREADS": "2"}
 
 
 def cpu() -> float:
     """Processor time of this process and of those that it waited for [s]."""
-    return sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    who = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
+    return sum(sum(resource.getrusage(one)[:2]) for one in who)
 
 
 if __name__ == "__main__":
