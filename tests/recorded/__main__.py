@@ -11,7 +11,6 @@ from __future__ import annotations
 import argparse
 import os
 import pickle
-import platform
 import resource
 import subprocess
 import sys
@@ -115,16 +114,11 @@ def ended(one: dict, impacts: bool) -> str:
 
 def origin() -> dict:
     """Which code, processor and libraries make a record."""
-    import numba
-    from llvmlite.binding import get_host_cpu_name
-
     from fecolumn.sources import code
 
     command = ["git", "-C", str(HERE), "describe", "--always", "--abbrev=12", "--dirty"]
     commit = subprocess.run(command, capture_output=True, text=True).stdout.strip() or "unknown"
-    return code() | {"commit": commit, "processor": get_host_cpu_name(),
-                     "python": platform.python_version(), "numpy": np.__version__,
-                     "numba": numba.__version__}
+    return code() | {"commit": commit} | recording.here()
 
 
 def rounding_environment() -> dict:

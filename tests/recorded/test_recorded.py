@@ -1,5 +1,5 @@
-"""Histories keep to the record within 1e-9 of each column's peak, until the third impact; see
-recording.py. Cases that are not quick are of the verification suite."""
+"""Histories keep to the record within 1e-9 of each column's peak, until the third impact; on another
+processor within 1e-6. See recording.py. Cases that are not quick are of the verification suite."""
 
 import dataclasses
 import os
@@ -35,7 +35,8 @@ MARKED = [pytest.param(name, marks=() if case.quick else pytest.mark.verificatio
 @pytest.mark.parametrize("name", MARKED)
 def test_history_is_the_recorded_one(name):
     assert os.environ["OMP_NUM_THREADS"] == "1", "records are of one thread: OMP_NUM_THREADS=1"
-    lines = recording.told(name, HISTORIES[name], recording.history(CASES[name]))
+    lines = recording.told(name, HISTORIES[name], recording.history(CASES[name]),
+                           recording.tolerance_here(ABOUT[name]))
     assert not lines, "\n" + "\n".join(lines)
 
 
