@@ -241,4 +241,5 @@ def test_block_thrown_on_four_corners_has_more_than_one_lawful_end(siconos):
     problem, theirs = given[-1], found[-1]["nsgs"]["forces"]
     ours = solved(problem)
     assert violation(problem, theirs) < SOLVED
-    assert np.abs(problem.relative(ours) - problem.relative(theirs)).max() > 1e-3
+    # slips of 0.04 m/s that differ by a hundredth: ten thousand times what either leaves unsolved
+    assert np.abs(problem.relative(ours) - problem.relative(theirs)).max() > 1e4 * SOLVED
