@@ -43,7 +43,7 @@ def main(job_file, folder):
     pivot = np.array([radius, 0.0, 0.0])
     start = [*(pivot + job["turn"] @ (centre - pivot)), np.cos(tilt / 2), 0.0, np.sin(tilt / 2), 0.0]
     body = sk.NewtonEulerDS(start, [0.0] * 6, mass, np.diag(np.diag(job["inertia"])))
-    force = np.array([0.0, 0.0, -weight])  # Siconos keeps a pointer into it
+    force = np.array([0.0, 0.0, -weight])  # Siconos copies it
     body.setFExtPtr(force)
     system = sk.NonSmoothDynamicalSystem(0.0, dt * (steps + 1))
     system.insertDynamicalSystem(body)

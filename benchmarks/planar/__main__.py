@@ -11,7 +11,7 @@ of its scheme err by the step, at 1e-3 s every third outcome of two blocks is an
 name in quotes, such as "two blocks"; none means all. Programs beside the planar one are fecolumn,
 Siconos (of other authors; on two blocks, five drums and trilith; `python -m benchmarks.peers --install`
 installs it, it is left out where it is missing) and "equivalent block" (closed form, on the frame); none
-means all. Siconos on its three structures, about an hour on an idle core:
+means all. Siconos on its three structures, hours of one core:
 
     ./containers/run python -m benchmarks.planar beside "two blocks" "five drums" trilith Siconos
 
