@@ -5,18 +5,15 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-import meshio
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 
-from benchmarks.planar.structures import FRICTION, TAPERING
-from fecolumn.case import GRAVITY, case_from_tables
 from fecolumn.post.style import BLACK, GREY, PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
+from fecolumn.verification.multi_drum import DT, column_case, drums_of_column, pulse
 
-_DT = 1e-3
 # Times that are drawn [s]: the end of the first half of the pulse, that of the pulse, and the fall
 _DRAWN = (0.34, 1.02, 2.3, 3.3, 3.8, 4.12)
 # Between two pictures, above them and below the ground [m]
@@ -26,43 +23,16 @@ _STRIPS = 60
 _STONE = LinearSegmentedColormap.from_list("stone", ["#8C8170", "#F4EFE4"])
 
 
-def pulse(a: float, tp: float, rest: float, dt: float = _DT) -> np.ndarray:
-    """Ground accelerations (n, 3) [m/s2] at the ends of steps: a [g] along x for tp [s], -a/2 for twice as long, then rest [s]."""
-    time = dt * np.arange(1, round((3 * tp + rest) / dt) + 1)
-    return np.outer(a * GRAVITY * np.where(time <= tp + 1e-9, 1.0, np.where(time <= 3 * tp + 1e-9, -0.5, 0.0)), [1.0, 0.0, 0.0])
-
-
-def _drums() -> list[np.ndarray]:
-    """Outlines (4, 2) [m] of the seven drums and the capital as they stand: foot from left to right, head from left to right."""
-    heights, (wide, narrow) = np.array(TAPERING["heights"]), TAPERING["widths"]
-    levels = np.concatenate([[0.0], np.cumsum(heights)])
-    half = (wide + (narrow - wide) * levels / levels[-1]) / 2
-    return [np.array([[-a, low], [a, low], [-b, high], [b, high]]) for a, b, low, high in zip(half, half[1:], levels, levels[1:])]
-
-
-def column_case(folder: Path):
-    """Case of the column; the drums are mesh files in the folder, 1 m deep."""
-    bodies, joints = {}, {}
-    for k, ((a, low), (b, high)) in enumerate(drum[[1, 3]] for drum in _drums()):
-        file = folder / f"drum{k}.vtk"
-        corners = [[x * half, y / 2, z] for z, half in ((0.0, a), (high - low, b)) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-        meshio.Mesh(np.array(corners), [("hexahedron", [list(range(8))])]).write(file)
-        bodies[f"d{k}"] = dict(kind="mesh", mesh_file=str(file), density_kg_m3=TAPERING["density"], at_m=[0.0, 0.0, float(low)])
-        joints[f"j{k}"] = dict(between=[f"d{k}", f"d{k - 1}" if k else "ground"])
-    return case_from_tables(dict(bodies=bodies, interfaces=joints, contact=dict(friction_coefficient=FRICTION, interior_points=0),
-                                 integration=dict(engine="rigid", dt_s=_DT, duration_s=20.0)), "drums.toml")
-
-
 def _fall(a: float, tp: float) -> list[list[np.ndarray]]:
     """Drums (4, 2) [m] at each time that is drawn."""
     with tempfile.TemporaryDirectory() as folder:
         case = column_case(Path(folder))
         engine = engine_of(case, structure_model(case), "drums.toml")
-    ground, drums, drawn = pulse(a, tp, _DRAWN[-1]), _drums(), []
+    ground, drums, drawn = pulse(a, tp, _DRAWN[-1]), drums_of_column(), []
     centers = engine.motion.frames["center"].copy()
-    for step in range(round(_DRAWN[-1] / _DT)):
+    for step in range(round(_DRAWN[-1] / DT)):
         engine.advance(ground[step:step + 1])  # step by step, for past its point of no return it would end
-        if len(drawn) < len(_DRAWN) and step + 1 == round(_DRAWN[len(drawn)] / _DT):
+        if len(drawn) < len(_DRAWN) and step + 1 == round(_DRAWN[len(drawn)] / DT):
             places = zip(drums, centers[:, ::2], engine.motion.frames["center"][:, ::2], engine.motion.rotation[:, ::2, ::2])
             drawn.append([(drum - center) @ turned.T + place for drum, center, place, turned in places])
     return drawn
@@ -70,7 +40,7 @@ def _fall(a: float, tp: float) -> list[list[np.ndarray]]:
 
 def collapse(target: Path, a: float = 0.5, tp: float = 0.34) -> str:
     """Draw the fall under a pulse of a [g] and tp [s]; what is drawn, in words."""
-    drawn, standing = _fall(a, tp), _drums()
+    drawn, standing = _fall(a, tp), drums_of_column()
     shifts, right = [], 0.0
     for drums in drawn:
         every = np.concatenate([*drums, standing[0]])

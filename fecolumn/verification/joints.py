@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.case import GRAVITY
-from fecolumn.verification import joints_full, joints_moving
+from fecolumn.verification import joints_full, joints_moving, multi_drum
 from fecolumn.verification.joint_bodies import B, BELOW, DISPLACED, H, TILT, W, arms, engines, lifts, met, region, rocked, rocks, tables, turns, two
 from fecolumn.verification.result import Result, Row
 
@@ -22,7 +22,7 @@ def run(engine: str, long: bool = False) -> Result:
     """Rows of one engine."""
     if engine == "corotated":
         return Result(list(joints_full.rows()))
-    rows = [*_displaced(engine), *_lifts(engine), *_turned(engine), *_lets_go(engine), *joints_moving.rows(engine)]
+    rows = [*_displaced(engine), *_lifts(engine), *_turned(engine), *_lets_go(engine), *joints_moving.rows(engine), *(multi_drum.rows() if engine == "rigid" else ())]
     return Result(rows, lambda figure: draw(engine, figure))
 
 

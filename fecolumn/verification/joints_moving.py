@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn.dynamics.energy import TERMS
 from fecolumn.reduced.observe import ENERGY, WIDTH
-from fecolumn.verification.joint_bodies import B, BELOW, DISPLACED, DT, H, TILT, engines, tables, tips, two
+from fecolumn.verification.joint_bodies import B, BELOW, DISPLACED, DT, TILT, engines, tables, tips, two
 from fecolumn.verification.result import Row
 
 _IMPACTS = 3

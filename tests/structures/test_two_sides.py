@@ -5,7 +5,6 @@ import warnings
 import numpy as np
 import pytest
 
-from benchmarks.gallery.collapse import column_case, pulse
 from fecolumn.case import case_from_tables
 from fecolumn.reduced.observe import WIDTH
 from fecolumn.simulation import run
@@ -13,6 +12,7 @@ from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.joint_bodies import arms, region, rocked, rocks, two
 from fecolumn.verification.joints import displaced as errors_of
+from fecolumn.verification.multi_drum import column_case, pulse
 
 
 @pytest.mark.parametrize("displaced", [0.0, 1e-12, -1e-9, 1e-6, -1e-6, 1e-3, 1e-2, -1e-2])
