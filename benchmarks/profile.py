@@ -29,8 +29,11 @@ def shares():
     finally:
         profile.disable()
         stats = pstats.Stats(profile).stats
-        total = next(cumulative for (file, _, name), (_, _, _, cumulative, _) in stats.items()
-                     if file.endswith("dynamics/stepper.py") and name == "step")
+        total = next(
+            cumulative
+            for (file, _, name), (_, _, _, cumulative, _) in stats.items()
+            if file.endswith("dynamics/stepper.py") and name == "step"
+        )
         for (file, _, name), (_, _, _, cumulative, _) in stats.items():
             for (ending, function), part in PARTS.items():
                 if file.endswith(ending) and name == function:

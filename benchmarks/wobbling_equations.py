@@ -1,28 +1,37 @@
-"""Equations of motion of the wobbling column and frame, derived with sympy and written as compiled Python.
+"""Equations of motion of the wobbling column and frame, derived with sympy and written as compiled
+Python.
 
     ./containers/run python -m benchmarks.wobbling_equations
 
-Writes fecolumn/rocking/wobbling_equations.py. A rigid column of round foot rolls on its rim, which does not slip, and does not turn about
-its axis: turned by the tilt theta about the tangent at the rim's point phi, which stays where it stood. So the path of contact on the
-ground is the circle that the foot stood on, as long as the rim rolled. The derivation asks of positions and rotations alone:
+Writes fecolumn/rocking/wobbling_equations.py. A rigid column of round foot rolls on its rim, which
+does not slip, and does not turn about its axis: turned by the tilt theta about the tangent at the
+rim's point phi, which stays where it stood. So the path of contact on the ground is the circle that
+the foot stood on, as long as the rim rolled. The derivation asks of positions and rotations alone:
 
-- the rim's point on the ground and, in a frame, that below the slab move with ground and slab (nothing slips);
+- the rim's point on the ground and, in a frame, that below the slab move with ground and slab
+    (nothing slips);
 - the slab, carried by equal columns, keeps its direction: it translates;
-- T and V of one column with its share of the slab give Lagrange's equations, in the form that Hamilton gave them.
+- T and V of one column with its share of the slab give Lagrange's equations, in the form that
+    Hamilton gave them.
 """
 
 from __future__ import annotations
 
-import sympy as sp
 from pathlib import Path
+
+import sympy as sp
 from sympy.printing.pycode import pycode
 
 TARGET = Path(__file__).parents[1] / "fecolumn" / "rocking" / "wobbling_equations.py"
 
-tilt, azimuth, tilt_rate, azimuth_rate, spin = sp.symbols("tilt azimuth tilt_rate azimuth_rate spin")
+tilt, azimuth, tilt_rate, azimuth_rate, spin = sp.symbols(
+    "tilt azimuth tilt_rate azimuth_rate spin"
+)
 ground_x, ground_y, ground_z = sp.symbols("ground_x ground_y ground_z")
 #: Parameters of the compiled functions, in this order.
-BODY = sp.symbols("radius centre height mass slab across along stiffness pull gravity", positive=True)
+BODY = sp.symbols(
+    "radius centre height mass slab across along stiffness pull gravity", positive=True
+)
 radius, centre, height, mass, slab, across, along, stiffness, pull, gravity = BODY
 
 _HEAD = '''"""Equations of motion of the wobbling column and frame. Written by benchmarks.wobbling_equations with sympy {version}: do not edit.
@@ -44,18 +53,28 @@ from fecolumn._compiled import njit
 
 
 def turned(angle, axis: str):
-    """Rotation matrix about y or z, in half angles: 1 - cos, written as 2 sin^2 of half the angle, does not cancel where the angle is small."""
-    c, s = 1 - 2 * sp.sin(angle / 2)**2, 2 * sp.sin(angle / 2) * sp.cos(angle / 2)
-    return sp.Matrix([[c, 0, s], [0, 1, 0], [-s, 0, c]] if axis == "y" else [[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    """Rotation matrix about y or z, in half angles: 1 - cos, written as 2 sin^2 of half the angle,
+    does not cancel where the angle is small.
+    """
+    c, s = 1 - 2 * sp.sin(angle / 2) ** 2, 2 * sp.sin(angle / 2) * sp.cos(angle / 2)
+    return sp.Matrix(
+        [[c, 0, s], [0, 1, 0], [-s, 0, c]] if axis == "y" else [[c, -s, 0], [s, c, 0], [0, 0, 1]]
+    )
 
 
 def rate(expression):
-    """Time derivative of an expression of tilt and azimuth, where the azimuth is 0: ground and column look alike from every side."""
-    return (sp.diff(expression, tilt) * tilt_rate + sp.diff(expression, azimuth) * azimuth_rate).subs(azimuth, 0)
+    """Time derivative of an expression of tilt and azimuth, where the azimuth is 0: ground and
+    column look alike from every side.
+    """
+    return (
+        sp.diff(expression, tilt) * tilt_rate + sp.diff(expression, azimuth) * azimuth_rate
+    ).subs(azimuth, 0)
 
 
 def reduced(expression):
-    """An expression without azimuth as a polynomial in sin(tilt/2), cos(tilt/2) to the first power at most: zero if and only if it vanishes."""
+    """An expression without azimuth as a polynomial in sin(tilt/2), cos(tilt/2) to the first power
+    at most: zero if and only if it vanishes.
+    """
     sine, cosine = sp.symbols("sine cosine")
     found = sp.expand(expression.subs({sp.sin(tilt / 2): sine, sp.cos(tilt / 2): cosine}))
     found = sp.expand(sp.rem(found, cosine**2 - 1 + sine**2, cosine))
@@ -92,30 +111,52 @@ def derive() -> dict[str, sp.Expr]:
         return rate(place(point)) + angular.cross(here(at - place(point)))
 
     assert zero(velocity(0 * up, ground)), "the rim slips on the ground"
-    assert zero(velocity(0 * up, place(below_slab)) - rate(slab_shift)), "the rim slips below the slab"
+    assert zero(velocity(0 * up, place(below_slab)) - rate(slab_shift)), (
+        "the rim slips below the slab"
+    )
 
     axis = here(rotation * up)
     centre_velocity = rate(place(centre * up))
     spin_rate = angular.dot(axis)
-    kinetic = (mass * centre_velocity.dot(centre_velocity) + slab * rate(slab_shift).dot(rate(slab_shift))
-               + across * (angular.dot(angular) - spin_rate**2) + along * spin_rate**2) / 2
+    kinetic = (
+        mass * centre_velocity.dot(centre_velocity)
+        + slab * rate(slab_shift).dot(rate(slab_shift))
+        + across * (angular.dot(angular) - spin_rate**2)
+        + along * spin_rate**2
+    ) / 2
     opening, lift = here(place(height * up) - slab_shift - height * up), here(place(0 * up))
-    assert zero(opening.dot(opening) - lift.dot(lift)), "a tendon to the ground stretches otherwise than one to the slab"
-    assert zero(opening.dot(opening) - (2 * radius * sp.sin(tilt / 2))**2), "a tendon stretches otherwise than by 2 radius sin(tilt / 2)"
+    assert zero(opening.dot(opening) - lift.dot(lift)), (
+        "a tendon to the ground stretches otherwise than one to the slab"
+    )
+    assert zero(opening.dot(opening) - (2 * radius * sp.sin(tilt / 2)) ** 2), (
+        "a tendon stretches otherwise than by 2 radius sin(tilt / 2)"
+    )
 
     rates = (tilt_rate, azimuth_rate)
     inertia = sp.hessian(sp.expand(kinetic), rates)
     inertia = inertia.applyfunc(reduced)
     assert inertia[0, 1] == 0 and not inertia[0, 0].has(tilt), "tilt and azimuth do not part"
-    shift, top, slab_top = (here(one) for one in (mass * place(centre * up) + slab * slab_shift, place(height * up), slab_shift))
+    shift, top, slab_top = (
+        here(one)
+        for one in (mass * place(centre * up) + slab * slab_shift, place(height * up), slab_shift)
+    )
     assert shift[1] == 0, "the centre of mass leaves the plane of its tilt"
     stretch = 2 * radius * sp.sin(tilt / 2)
-    return {"tilt_inertia": inertia[0, 0], "azimuth_inertia": inertia[1, 1], "lever": shift[0], "rise": shift[2] - mass * centre,
-            "tendon": pull * stretch + stiffness * stretch**2 / 2, "top": top[0], "slab_shift": slab_top[0]}
+    return {
+        "tilt_inertia": inertia[0, 0],
+        "azimuth_inertia": inertia[1, 1],
+        "lever": shift[0],
+        "rise": shift[2] - mass * centre,
+        "tendon": pull * stretch + stiffness * stretch**2 / 2,
+        "top": top[0],
+        "slab_shift": slab_top[0],
+    }
 
 
 def rates_of(found) -> list[sp.Expr]:
-    """Rates of tilt, azimuth, tilt_rate, spin and of the work of the base [W], by Lagrange's equations."""
+    """Rates of tilt, azimuth, tilt_rate, spin and of the work of the base [W], by Lagrange's
+    equations.
+    """
     push = ground_x * sp.cos(azimuth) + ground_y * sp.sin(azimuth)
     across_push = ground_y * sp.cos(azimuth) - ground_x * sp.sin(azimuth)
     kinetic = found["tilt_inertia"] * tilt_rate**2 / 2 + spin**2 / (2 * found["azimuth_inertia"])
@@ -124,35 +165,76 @@ def rates_of(found) -> list[sp.Expr]:
     loaded = potential + ground_z * found["rise"] + push * found["lever"]
     turn = spin / found["azimuth_inertia"]
     fall = -(sp.diff(kinetic, tilt) + sp.diff(loaded, tilt)) / found["tilt_inertia"]
-    work = -(push * found["lever"].diff(tilt) + ground_z * found["rise"].diff(tilt)) * tilt_rate - across_push * found["lever"] * turn
+    work = (
+        -(push * found["lever"].diff(tilt) + ground_z * found["rise"].diff(tilt)) * tilt_rate
+        - across_push * found["lever"] * turn
+    )
     return [tilt_rate, turn, fall, -across_push * found["lever"], work]
 
 
 def base_force(found) -> list[sp.Expr]:
-    """Force of the ground on the column's foot [N] towards the azimuth, across it and up: the rate of the momentum of all masses."""
+    """Force of the ground on the column's foot [N] towards the azimuth, across it and up: the rate
+    of the momentum of all masses.
+    """
     push, across_push = sp.symbols("push across_push")
     lever, rise, turn = found["lever"], found["rise"], spin / found["azimuth_inertia"]
     fall = rates_of(found)[2].subs(ground_x * sp.cos(azimuth) + ground_y * sp.sin(azimuth), push)
-    spun = (-across_push * lever - found["azimuth_inertia"].diff(tilt) * tilt_rate * turn) / found["azimuth_inertia"]
+    spun = (-across_push * lever - found["azimuth_inertia"].diff(tilt) * tilt_rate * turn) / found[
+        "azimuth_inertia"
+    ]
     total = mass + slab
-    return [lever.diff(tilt, 2) * tilt_rate**2 + lever.diff(tilt) * fall - lever * turn**2 + total * push,
-            2 * lever.diff(tilt) * tilt_rate * turn + lever * spun + total * across_push,
-            rise.diff(tilt, 2) * tilt_rate**2 + rise.diff(tilt) * fall + total * (gravity + ground_z)]
+    return [
+        lever.diff(tilt, 2) * tilt_rate**2
+        + lever.diff(tilt) * fall
+        - lever * turn**2
+        + total * push,
+        2 * lever.diff(tilt) * tilt_rate * turn + lever * spun + total * across_push,
+        rise.diff(tilt, 2) * tilt_rate**2 + rise.diff(tilt) * fall + total * (gravity + ground_z),
+    ]
 
 
 def source() -> str:
     """The module's text."""
     found = derive()
     functions = [
-        ("rates", "tilt, azimuth, tilt_rate, spin, ground_x, ground_y, ground_z", rates_of(found),
-         "Rates of tilt, azimuth, tilt_rate, spin, and of the work that the base does [W]."),
-        ("force", "tilt, tilt_rate, spin, push, across_push, ground_z", base_force(found),
-         "Of the ground on the foot towards the azimuth, across it and up [N]; push, across_push: the ground's acceleration along the same."),
-        ("inertia", "tilt", [found["tilt_inertia"], found["azimuth_inertia"]], "Of tilt and of azimuth [kg m2]."),
-        ("potential", "tilt", [gravity * found["rise"], found["tendon"]], "Of gravity, 0 upright, and of the tendon [J]."),
-        ("moments", "tilt", [found["rise"].diff(tilt), found["lever"].diff(tilt), found["tendon"].diff(tilt)],
-         "What tilting asks: d/d tilt of weight's height and of horizontal lever [kg m], and of the tendon's energy [N m]."),
-        ("shifts", "tilt", [found["top"], found["slab_shift"]], "Displacement of the top's centre and of the slab towards the azimuth [m]."),
+        (
+            "rates",
+            "tilt, azimuth, tilt_rate, spin, ground_x, ground_y, ground_z",
+            rates_of(found),
+            "Rates of tilt, azimuth, tilt_rate, spin, and of the work that the base does [W].",
+        ),
+        (
+            "force",
+            "tilt, tilt_rate, spin, push, across_push, ground_z",
+            base_force(found),
+            "Of the ground on the foot towards the azimuth, across it and up [N]; "
+            "push, across_push: the ground's acceleration along the same.",
+        ),
+        (
+            "inertia",
+            "tilt",
+            [found["tilt_inertia"], found["azimuth_inertia"]],
+            "Of tilt and of azimuth [kg m2].",
+        ),
+        (
+            "potential",
+            "tilt",
+            [gravity * found["rise"], found["tendon"]],
+            "Of gravity, 0 upright, and of the tendon [J].",
+        ),
+        (
+            "moments",
+            "tilt",
+            [found["rise"].diff(tilt), found["lever"].diff(tilt), found["tendon"].diff(tilt)],
+            "What tilting asks: d/d tilt of weight's height and of horizontal lever "
+            "[kg m], and of the tendon's energy [N m].",
+        ),
+        (
+            "shifts",
+            "tilt",
+            [found["top"], found["slab_shift"]],
+            "Displacement of the top's centre and of the slab towards the azimuth [m].",
+        ),
     ]
     return _HEAD.format(version=sp.__version__) + "\n\n".join(_function(*one) for one in functions)
 
@@ -161,7 +243,9 @@ def _function(name, arguments, expressions, doc) -> str:
     steps, results = sp.cse(expressions, symbols=sp.numbered_symbols("x"), optimizations="basic")
     used = set().union(*(one.free_symbols for one in [*results, *(right for _, right in steps)]))
     lines = ["@njit(alone=True)", f"def {name}(body, {arguments}):", f'    """{doc}"""']
-    lines += [f"    {symbol.name} = body[{place}]" for place, symbol in enumerate(BODY) if symbol in used]
+    lines += [
+        f"    {symbol.name} = body[{place}]" for place, symbol in enumerate(BODY) if symbol in used
+    ]
     lines += [f"    {symbol.name} = {pycode(right)}" for symbol, right in steps]
     lines += [f"    return {', '.join(pycode(result) for result in results)}", ""]
     return "\n".join(lines)

@@ -1,18 +1,32 @@
-"""Rocking and sliding of free-standing columns: finite-element contact dynamics, judged by statistics.
+"""Rocking and sliding of free-standing columns: finite-element contact dynamics, judged by
+statistics.
 
-Units are SI everywhere. z points up, gravity along -z; displacements are relative to the base. A gap is positive when open,
-a contact pressure positive in compression.
+Units are SI everywhere. z points up, gravity along -z; displacements are relative to the base. A
+gap is positive when open, a contact pressure positive in compression.
 """
 
 __version__ = "0.7.0"
 
 # module, and the name there where it is another
-_HOMES = {"Case": "case", "load_case": "case:read_case", "case_from_tables": "case", "InputError": "schema", "run": "simulation",
-          "AnalysisFailed": "simulation", "run_study": "results.script", "load": "results.load", "AnalysisResult": "results.analysis",
-          "StudyResult": "results.study", "motion_file": "motions.array", "specimen_mesh": "mesh.specimen", "load_motion": "motions.load",
-          "ecdf": "statistics.ecdf",
-          # names of earlier versions
-          "read_case": "case", "read_history": "dynamics.history"}
+_HOMES = {
+    "Case": "case",
+    "load_case": "case:read_case",
+    "case_from_tables": "case",
+    "InputError": "schema",
+    "run": "simulation",
+    "AnalysisFailed": "simulation",
+    "run_study": "results.script",
+    "load": "results.load",
+    "AnalysisResult": "results.analysis",
+    "StudyResult": "results.study",
+    "motion_file": "motions.array",
+    "specimen_mesh": "mesh.specimen",
+    "load_motion": "motions.load",
+    "ecdf": "statistics.ecdf",
+    # names of earlier versions
+    "read_case": "case",
+    "read_history": "dynamics.history",
+}
 __all__ = list(_HOMES)
 
 

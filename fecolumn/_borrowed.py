@@ -1,7 +1,8 @@
 """Arrays that compiled code uses while its caller keeps them.
 
-numba counts the references to an array at each function that takes it, with an atomic operation. A step of the reduced engine hands some fifty arrays
-down its calls: counting them took as long as all its arithmetic on a rocking column.
+numba counts the references to an array at each function that takes it, with an atomic operation. A
+step of the reduced engine hands some fifty arrays down its calls: counting them took as long as all
+its arithmetic on a rocking column.
 """
 
 from __future__ import annotations
@@ -20,7 +21,11 @@ def _without_owner(context, builder, kind, value):
         return array._getvalue()
     if isinstance(kind, types.BaseTuple):
         for place, part in enumerate(kind.types):
-            value = builder.insert_value(value, _without_owner(context, builder, part, builder.extract_value(value, place)), place)
+            value = builder.insert_value(
+                value,
+                _without_owner(context, builder, part, builder.extract_value(value, place)),
+                place,
+            )
     return value
 
 
@@ -36,6 +41,7 @@ def _same(whole):
     return whole
 
 
-#: In compiled code: an array, or a tuple of arrays and others, to which references are not counted. Only for what the caller of the compiled function holds
-#: all the time, and not to be returned to Python.
+#: In compiled code: an array, or a tuple of arrays and others, to which references are not counted.
+#: Only for what the caller of the compiled function holds all the time, and not to be returned to
+#: Python.
 borrowed = _same if numba.config.DISABLE_JIT else _borrowed

@@ -12,8 +12,12 @@ from llvmlite.binding import get_host_cpu_name
 from fecolumn._kernel import Kernel, is_kept, is_tested
 from fecolumn.sources import digest_of
 
-# Folders of which compiled functions take code or constants, and the files that say how they are compiled
-_SOURCES, _HOW = ("fem", "contact", "dynamics", "reduced"), ("_borrowed.py", "_compiled.py", "_kernel.py")
+# Folders of which compiled functions take code or constants, and the files that say how they are
+# compiled
+_SOURCES, _HOW = (
+    ("fem", "contact", "dynamics", "reduced"),
+    ("_borrowed.py", "_compiled.py", "_kernel.py"),
+)
 
 
 def cache_folder() -> Path:
@@ -27,14 +31,22 @@ def cache_folder() -> Path:
 def compiled_folder(alone: tuple[str, ...] = ()) -> str:
     """Folder of the functions compiled from the present sources by this numba for this processor.
 
-    numba asks only whether a function's own file has changed: code compiled with what another file said before would be run.
+    numba asks only whether a function's own file has changed: code compiled with what another file
+    said before would be run.
 
-    Args:
-        alone: files of functions that take code and constants from these alone; () for those of the engines. They are kept in
-            $FECOLUMN_COMPILED where that is given: tests, whose cache of everything else is their own, need not compile them again.
+    Parameters
+    ----------
+    alone
+        files of functions that take code and constants from these alone; () for those of the
+        engines. They are kept in $FECOLUMN_COMPILED where that is given: tests, whose cache of
+        everything else is their own, need not compile them again.
     """
     package = Path(__file__).parent
-    taken = [Path(file) for file in alone] if alone else [path for name in _SOURCES for path in sorted((package / name).glob("*.py"))]
+    taken = (
+        [Path(file) for file in alone]
+        if alone
+        else [path for name in _SOURCES for path in sorted((package / name).glob("*.py"))]
+    )
     sources = digest_of([*taken, *(package / name for name in _HOW)])
     home = Path(alone and os.environ.get("FECOLUMN_COMPILED") or cache_folder())
     return str(home / f"compiled-{sources}-numba-{numba.__version__}-{get_host_cpu_name()}")
@@ -43,13 +55,16 @@ def compiled_folder(alone: tuple[str, ...] = ()) -> str:
 def njit(function=None, *, alone: bool | tuple[str, ...] = False, **options):
     """numba.njit with a cache on disk that knows all sources; a decorator, with or without options.
 
-    Args:
-        alone: whether the function takes code and constants from its own file alone, or from those beside it that are named, too, so that
-            no other file's change compiles it again.
+    Parameters
+    ----------
+    alone
+        whether the function takes code and constants from its own file alone, or from those beside
+        it that are named, too, so that no other file's change compiles it again.
     """
     if function is None:
         return lambda one: njit(one, alone=alone, **options)
-    # a division by zero gives what it gives in numpy: to raise Python's error each division would ask first, and each caller after
+    # a division by zero gives what it gives in numpy: to raise Python's error each division would
+    # ask first, and each caller after
     options.setdefault("error_model", "numpy")
     own, beside = Path(function.__code__.co_filename), () if alone is True else alone or ()
     files = (str(own), *(str(own.with_name(name)) for name in beside)) if alone else ()
@@ -65,16 +80,22 @@ def njit(function=None, *, alone: bool | tuple[str, ...] = False, **options):
 
 
 def compiled(function) -> bool:
-    """Whether a function of `njit` has been compiled on this machine, by whatever process, or is not to be compiled at all."""
+    """Whether a function of `njit` has been compiled on this machine, by whatever process, or is
+    not to be compiled at all.
+    """
     return numba.config.DISABLE_JIT or bool(function.signatures) or is_kept(function)
 
 
 def compile_for(function, arguments) -> None:
-    """Have a function of `njit` ready for arguments like these, without calling it: so that its first call costs what all cost."""
+    """Have a function of `njit` ready for arguments like these, without calling it: so that its
+    first call costs what all cost.
+    """
     if not numba.config.DISABLE_JIT:
         function.compile(tuple(numba.typeof(argument) for argument in arguments))
 
 
 def interpreted(function):
-    """A function of `njit` as plain Python, which calls compiled ones: for a single call it is not worth compiling it by itself."""
+    """A function of `njit` as plain Python, which calls compiled ones: for a single call it is not
+    worth compiling it by itself.
+    """
     return getattr(function, "py_func", function)

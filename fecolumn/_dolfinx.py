@@ -5,8 +5,9 @@ from __future__ import annotations
 import logging
 import weakref
 
-# Before dolfinx: its form compiler gives a root logger without handlers one that prints every call of the C compiler, and takes
-# Python's warnings for itself. What a compiler that fails says still goes to stderr.
+# Before dolfinx: its form compiler gives a root logger without handlers one that prints every call
+# of the C compiler, and takes Python's warnings for itself. What a compiler that fails says still
+# goes to stderr.
 logging.getLogger().addHandler(logging.NullHandler())
 
 import dolfinx  # noqa: E402
@@ -29,14 +30,20 @@ _TENSOR_ORDER = [0, 1, 3, 2, 4, 5, 7, 6]
 def create_brick_mesh(comm, points, cells):
     """Distributed mesh of 8-node bricks, or of tetrahedra.
 
-    Args:
-        comm: MPI communicator.
-        points: (n_points, 3) [m], read on rank 0.
-        cells: (n_cells, 8 or 4) point numbers in VTK order, read on rank 0.
+    Parameters
+    ----------
+    comm
+        MPI communicator.
+    points
+        (n_points, 3) [m], read on rank 0.
+    cells
+        (n_cells, 8 or 4) point numbers in VTK order, read on rank 0.
     """
     corners = cells.shape[1]
     if comm.rank == 0:
-        cells = np.ascontiguousarray(cells[:, _TENSOR_ORDER] if corners == 8 else cells, dtype=np.int64)
+        cells = np.ascontiguousarray(
+            cells[:, _TENSOR_ORDER] if corners == 8 else cells, dtype=np.int64
+        )
         points = np.ascontiguousarray(points, dtype=np.float64)
     else:
         cells, points = np.empty((0, corners), np.int64), np.empty((0, 3))
@@ -52,7 +59,11 @@ def create_brick_mesh(comm, points, cells):
 
 def vector_space(msh, order: int):
     """Continuous Lagrange space of displacement vectors."""
-    return fem.functionspace(msh, ("Lagrange", order, (3,))) if _MODERN else fem.VectorFunctionSpace(msh, ("Lagrange", order))
+    return (
+        fem.functionspace(msh, ("Lagrange", order, (3,)))
+        if _MODERN
+        else fem.VectorFunctionSpace(msh, ("Lagrange", order))
+    )
 
 
 def cellwise_space(msh, shape: tuple = ()):
@@ -60,7 +71,11 @@ def cellwise_space(msh, shape: tuple = ()):
     if _MODERN:
         return fem.functionspace(msh, ("DG", 0, shape) if shape else ("DG", 0))
     if shape:
-        return fem.TensorFunctionSpace(msh, ("DG", 0), shape) if len(shape) == 2 else fem.VectorFunctionSpace(msh, ("DG", 0), shape[0])
+        return (
+            fem.TensorFunctionSpace(msh, ("DG", 0), shape)
+            if len(shape) == 2
+            else fem.VectorFunctionSpace(msh, ("DG", 0), shape[0])
+        )
     return fem.FunctionSpace(msh, ("DG", 0))
 
 
@@ -80,9 +95,11 @@ def assemble_matrix(form) -> PETSc.Mat:
 
 
 def release_with(owner, *objects) -> weakref.finalize:
-    """Destroy PETSc objects when `owner` goes, or when the returned function is called: petsc4py alone would keep them for ever.
+    """Destroy PETSc objects when `owner` goes, or when the returned function is called: petsc4py
+    alone would keep them for ever.
 
-    The owner must not be part of a reference cycle: the garbage collector comes at other times on other ranks.
+    The owner must not be part of a reference cycle: the garbage collector comes at other times on
+    other ranks.
     """
     end = weakref.finalize(owner, _destroy, *objects)
     end.atexit = False

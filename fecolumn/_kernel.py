@@ -1,13 +1,18 @@
-"""Compilation of a call tree as one piece, where numba compiles every function of it again with everything it calls.
+"""Compilation of a call tree as one piece, where numba compiles every function of it again with
+everything it calls.
 
-numba optimises each compiled function together with all its callees and emits machine code for it, at every level of the call tree: the
-contact solver five times over. Here a function that is called by compiled code is only translated; optimisation and code are left to
-the function that Python calls (see numba's pull request 9566). A fourth of the time, the same digits.
+numba optimises each compiled function together with all its callees and emits machine code for it,
+at every level of the call tree: the contact solver five times over. Here a function that is called
+by compiled code is only translated; optimisation and code are left to the function that Python
+calls (see numba's pull request 9566). A fourth of the time, the same digits.
 
-In one piece LLVM sees, too, which references to arrays need no counting: those of `_borrowed.borrowed`, whose owner is nobody. numba keeps the counting out of line for a pass of its own
-that prunes it; put in place, all of it that meets nobody falls away with the arguments that hand nobody on. A step of a rocking column takes a third of the time.
+In one piece LLVM sees, too, which references to arrays need no counting: those of
+`_borrowed.borrowed`, whose owner is nobody. numba keeps the counting out of line for a pass of its
+own that prunes it; put in place, all of it that meets nobody falls away with the arguments that
+hand nobody on. A step of a rocking column takes a third of the time.
 
-This reaches into numba's internals, as they are in the versions TESTED. With any other version functions are compiled as numba does.
+This reaches into numba's internals, as they are in the versions TESTED. With any other version
+functions are compiled as numba does.
 """
 
 from __future__ import annotations
@@ -56,7 +61,11 @@ class _Library(JITCodeLibrary):
 
     def finalize(self):
         self._raise_if_finalized()
-        own = {function.name for function in self._final_module.functions if not function.is_declaration}
+        own = {
+            function.name
+            for function in self._final_module.functions
+            if not function.is_declaration
+        }
         for library in self._callees():
             self._reload_init.update(library._reload_init)
             if library is rtsys.library:
@@ -73,7 +82,9 @@ class _Library(JITCodeLibrary):
         self._final_module.verify()
         self._finalize_final_module()
         for variable in self._final_module.global_variables:
-            if variable.name.startswith(_ENVIRONMENT) and (environment := lookup_environment(variable.name)):
+            if variable.name.startswith(_ENVIRONMENT) and (
+                environment := lookup_environment(variable.name)
+            ):
                 self.codegen.set_env(variable.name, environment)
 
     def _callees(self) -> list:
@@ -88,7 +99,9 @@ class _Library(JITCodeLibrary):
         return list(found)
 
     def _for_entry(self):
-        """The translated code, such that several entries may take it in and drop what they do not use."""
+        """The translated code, such that several entries may take it in and drop what they do not
+        use.
+        """
         if self._translated is None:
             self._translated = self._final_module.clone()
             for function in self._translated.functions:
@@ -98,16 +111,30 @@ class _Library(JITCodeLibrary):
 
 
 def _counting():
-    """numba's code that counts references to arrays, to be put in place of each call."""
-    return llvm.parse_assembly(str(rtsys.library._get_module_for_linking()).replace("noinline", "alwaysinline"))
+    """Numba's code that counts references to arrays, to be put in place of each call."""
+    return llvm.parse_assembly(
+        str(rtsys.library._get_module_for_linking()).replace("noinline", "alwaysinline")
+    )
 
 
 def _executable(context, library, fndesc, env, emitted=CPUContext.get_executable):
-    """As CPUContext.get_executable; a function below the entry gets no address: only compiled code calls it."""
+    """As CPUContext.get_executable; a function below the entry gets no address: only compiled code
+    calls it.
+    """
     entry = _entries[-1]
-    if (fndesc.modname, fndesc.qualname) == (entry.__module__, entry.__qualname__) or library._finalized:
+    if (fndesc.modname, fndesc.qualname) == (
+        entry.__module__,
+        entry.__qualname__,
+    ) or library._finalized:
         return emitted(context, library, fndesc, env)
-    return _dynfunc.make_function(fndesc.lookup_module(), fndesc.qualname.split(".")[-1], f"translated {fndesc.qualname}", 0, env, (library,))
+    return _dynfunc.make_function(
+        fndesc.lookup_module(),
+        fndesc.qualname.split(".")[-1],
+        f"translated {fndesc.qualname}",
+        0,
+        env,
+        (library,),
+    )
 
 
 @contextlib.contextmanager
@@ -127,16 +154,22 @@ def _one_piece(entry):
 
 
 class Kernel(CPUDispatcher):
-    """A compiled function: an entry where Python calls it, a part of the caller where compiled code does."""
+    """A compiled function: an entry where Python calls it, a part of the caller where compiled code
+    does.
+    """
 
     def __init__(self, py_func, **options):
         super().__init__(py_func, **options)
         wrappers = dict(no_cpython_wrapper=True, no_cfunc_wrapper=True)
-        self._part = CPUDispatcher(py_func, **(options | dict(targetoptions=options.get("targetoptions", {}) | wrappers)))
+        self._part = CPUDispatcher(
+            py_func, **(options | dict(targetoptions=options.get("targetoptions", {}) | wrappers))
+        )
 
     def compile(self, sig):
         with contextlib.ExitStack() as stack:
-            if not self._keeps(sig):  # one process of this machine compiles; others wait and open what it made
+            if not self._keeps(
+                sig
+            ):  # one process of this machine compiles; others wait and open what it made
                 stack.enter_context(alone(Path(self.stats.cache_path) / self.__name__))
             stack.enter_context(_one_piece(self.py_func))
             return super().compile(sig)
@@ -144,14 +177,20 @@ class Kernel(CPUDispatcher):
     def _keeps(self, sig) -> bool:
         """Whether the form for these types is on disk.
 
-        It is not enough that some form is: two processes that each add one at once would give both the same number, and the form of
-        one would be run for the types of the other.
+        It is not enough that some form is: two processes that each add one at once would give both
+        the same number, and the form of one would be run for the types of the other.
         """
-        return self._cache._index_key(sig, self.targetctx.codegen()) in self._cache._cache_file._load_index()
+        return (
+            self._cache._index_key(sig, self.targetctx.codegen())
+            in self._cache._cache_file._load_index()
+        )
 
     def get_call_template(self, args, kws):
         # numba would compile a function again for each constant that it is called with
-        return self._part.get_call_template(tuple(types.unliteral(one) for one in args), {name: types.unliteral(one) for name, one in kws.items()})
+        return self._part.get_call_template(
+            tuple(types.unliteral(one) for one in args),
+            {name: types.unliteral(one) for name, one in kws.items()},
+        )
 
     def get_overload(self, sig):
         return self._part.get_overload(sig)

@@ -7,5 +7,11 @@ import re
 
 
 def launch_environment() -> dict[str, str]:
-    """This process's environment without what its own MPI left there: mpirun would take itself for a child of it."""
-    return {key: value for key, value in os.environ.items() if not re.match("OMPI_(?!ALLOW)|ORTE|PMI|PRTE", key)}
+    """This process's environment without what its own MPI left there: mpirun would take itself for
+    a child of it.
+    """
+    return {
+        key: value
+        for key, value in os.environ.items()
+        if not re.match("OMPI_(?!ALLOW)|ORTE|PMI|PRTE", key)
+    }

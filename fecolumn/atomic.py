@@ -11,7 +11,8 @@ import os
 import tempfile
 from pathlib import Path
 
-#: How the names of unfinished files begin, each followed by letters of its own. One that a killed process left may be deleted.
+#: How the names of unfinished files begin, each followed by letters of its own. One that a killed
+#: process left may be deleted.
 UNFINISHED = ".writing-"
 
 # of the disk, of the user's quota, of the size a file may have
@@ -28,10 +29,13 @@ def disk_full(error: BaseException | None) -> bool:
 
 
 def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file so that a reader, and a crash of the machine, sees the old content or the new, whoever else writes it, too.
+    """Write a file so that a reader, and a crash of the machine, sees the old content or the new,
+    whoever else writes it, too.
 
-    Raises:
-        OSError: disk full, folder gone; the old file is kept.
+    Raises
+    ------
+    OSError
+        disk full, folder gone; the old file is kept.
     """
     handle, partial = tempfile.mkstemp(prefix=UNFINISHED, dir=path.parent)
     try:
@@ -50,7 +54,9 @@ def write_bytes(path: Path, content: bytes) -> None:
 def _umask() -> int:
     """What new files of this process may not be, read without changing it for other threads."""
     with open("/proc/self/status") as status:
-        return next((int(line.split()[1], 8) for line in status if line.startswith("Umask:")), 0o022)
+        return next(
+            (int(line.split()[1], 8) for line in status if line.startswith("Umask:")), 0o022
+        )
 
 
 def write_json(path: Path, content) -> None:

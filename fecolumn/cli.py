@@ -1,4 +1,6 @@
-"""The command line: fecolumn new | mesh | run | resume | study | compare | report | fragility | render | rocking | motions | keys | help | verify | prepare | doctor | completion."""
+"""The command line: fecolumn new | mesh | run | resume | study | compare | report | fragility |
+render | rocking | motions | keys | help | verify | prepare | doctor | completion.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ import warnings
 
 
 def main(argv=None) -> int:
-    """Run a command; returns 0, 1 where an analysis failed, 2 where the input is refused, 130 after Ctrl-C."""
+    """Run a command; returns 0, 1 where an analysis failed, 2 where the input is refused, 130 after
+    Ctrl-C.
+    """
     arguments = list(sys.argv[1:] if argv is None else argv)
     if arguments[:1] == ["doctor"]:
         from fecolumn import doctor
@@ -21,7 +25,10 @@ def main(argv=None) -> int:
     from fecolumn.atomic import disk_full
     from fecolumn.schema import InputError
 
-    for stream in (sys.stdout, sys.stderr):  # a terminal that cannot write a folder's name must not end what is at work there
+    for stream in (
+        sys.stdout,
+        sys.stderr,
+    ):  # a terminal that cannot write a folder's name must not end what is at work there
         with contextlib.suppress(AttributeError):
             stream.reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
@@ -39,10 +46,18 @@ def main(argv=None) -> int:
     except Exception as error:
         code = 1
         if disk_full(error):
-            print("fecolumn: the disk is full; free room and run the same command again", file=sys.stderr)
-        elif isinstance(error, OSError) and error.filename is not None and error.strerror:  # of a file or folder the user named
+            print(
+                "fecolumn: the disk is full; free room and run the same command again",
+                file=sys.stderr,
+            )
+        elif (
+            isinstance(error, OSError) and error.filename is not None and error.strerror
+        ):  # of a file or folder the user named
             code = 2
-            print(f"fecolumn: {error.filename}: cannot be read or written ({error.strerror})", file=sys.stderr)
+            print(
+                f"fecolumn: {error.filename}: cannot be read or written ({error.strerror})",
+                file=sys.stderr,
+            )
         else:
             traceback.print_exc()
         _abandon_other_ranks(code)
@@ -84,13 +99,19 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.verification import command as verify
 
     parser = argparse.ArgumentParser(
-        prog="fecolumn", description="Rocking and sliding of free-standing columns: finite-element contact dynamics, judged by statistics.",
-        epilog="First steps: fecolumn new DIR, or fecolumn help quick-start. Every option of a command: fecolumn COMMAND --help.")
+        prog="fecolumn",
+        description="Rocking and sliding of free-standing columns: finite-element contact "
+        "dynamics, judged by statistics.",
+        epilog="First steps: fecolumn new DIR, or fecolumn help quick-start. Every option of "
+        "a command: fecolumn COMMAND --help.",
+    )
     parser.add_argument("--version", action="version", version=f"fecolumn {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
     def add(name, words, module=None, main=None):
-        command = commands.add_parser(name, help=words, description=f"{words[0].upper()}{words[1:]}.")
+        command = commands.add_parser(
+            name, help=words, description=f"{words[0].upper()}{words[1:]}."
+        )
         if module:
             module.add_arguments(command)
         if main or hasattr(module, "main"):
@@ -100,20 +121,37 @@ def _parser() -> argparse.ArgumentParser:
     add("new", "write a commented case and a study of it to start from", templates)
     mesh = add("mesh", "build and check the meshes of a case", main=_mesh)
     mesh.add_argument("case", metavar="CASE.toml")
-    mesh.add_argument("-o", "--output", required=True, metavar="DIR", help="folder for meshes, picture and table")
+    mesh.add_argument(
+        "-o", "--output", required=True, metavar="DIR", help="folder for meshes, picture and table"
+    )
     run = add("run", "run one analysis, or go on with it", main=_run)
     run.add_argument("case", metavar="CASE.toml")
-    run.add_argument("-o", "--output", required=True, metavar="DIR", help="result folder, one a case")
+    run.add_argument(
+        "-o", "--output", required=True, metavar="DIR", help="result folder, one a case"
+    )
     run.add_argument("-q", "--quiet", action="store_true", help="no progress line")
     resume = add("resume", "go on with an analysis from its last checkpoint", main=_resume)
     resume.add_argument("output", metavar="DIR", help="result folder of fecolumn run")
     resume.add_argument("-q", "--quiet", action="store_true", help="no progress line")
     add("study", "run a sweep of analyses and compare their CDFs", study)
-    add("compare", "compare two analyses, or two ensembles: settings, studies, computation and experiment", compare)
+    add(
+        "compare",
+        "compare two analyses, or two ensembles: settings, studies, computation and experiment",
+        compare,
+    )
     add("report", "write the report of a study: one HTML page, figures and tables", report)
-    add("fragility", "probability of overturning over one or two intensity measures, of a study or of your own table", fragility)
+    add(
+        "fragility",
+        "probability of overturning over one or two intensity measures, of a study or "
+        "of your own table",
+        fragility,
+    )
     add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)
-    add("rocking", "run a rocking model of rigid bodies in a motion or an ensemble; overturning spectra", rocking)
+    add(
+        "rocking",
+        "run a rocking model of rigid bodies in a motion or an ensemble; overturning spectra",
+        rocking,
+    )
     add("motions", "make, fit, look at and convert ground motions", motions)
     add("keys", "every key of a case and of a study: meaning, unit, range, default", keys)
     add("help", "the manual, topic by topic", manual)
@@ -140,21 +178,37 @@ def _mesh(args) -> int:
     if hasattr(case, "table"):
         from fecolumn.schema import InputError
 
-        raise InputError(args.case, case.table, None, "is a rocking model of rigid bodies, which has no mesh; fecolumn rocking tells its parameters")
+        raise InputError(
+            args.case,
+            case.table,
+            None,
+            "is a rocking model of rigid bodies, which has no mesh; fecolumn rocking "
+            "tells its parameters",
+        )
     _warn_of_motion(case, args.case)
     if hasattr(case, "bodies"):
         from fecolumn.structures.report import FILES, structure_report
 
         with written(args.output, "mesh", names=FILES) as draft:
-            print(structure_report(case, args.case, draft, lambda text: print(text, file=sys.stderr, flush=True)))
+            print(
+                structure_report(
+                    case, args.case, draft, lambda text: print(text, file=sys.stderr, flush=True)
+                )
+            )
         return 0
-    with written(args.output, "mesh", names=("specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt")) as draft:
+    with written(
+        args.output,
+        "mesh",
+        names=("specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt"),
+    ) as draft:
         print(mesh_report(case, draft, lambda text: print(text, file=sys.stderr, flush=True)))
     return 0
 
 
 def _warn_of_motion(case, file) -> None:
-    """Tell of a motion that an analysis of the case would cut short, or could not use; its mesh may be looked at all the same."""
+    """Tell of a motion that an analysis of the case would cut short, or could not use; its mesh may
+    be looked at all the same.
+    """
     from fecolumn.analysis import cut_text
     from fecolumn.motions.load import unsampled
     from fecolumn.schema import InputError
@@ -208,8 +262,12 @@ def _analyse(case, folder, file, quiet) -> int:
             history_figures(folder)
         share = summary.get("rigid_loss_share")
         struck = "" if share is None else f"impacts took {share:.3g} of the rigid loss, "
-        print(f"{folder}: {peak_text(summary)}, {ending_text(summary)}; {struck}{summary['steps']} steps, "
-              f"{1e3 * summary['s_per_step']:.2g} ms/step, energy closure {summary['energy_closure_rel']:.1e}")
+        print(
+            f"{folder}: {peak_text(summary)}, {ending_text(summary)}; "
+            f"{struck}{summary['steps']} steps, "
+            f"{1e3 * summary['s_per_step']:.2g} ms/step, energy closure "
+            f"{summary['energy_closure_rel']:.1e}"
+        )
     return 0
 
 

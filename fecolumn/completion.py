@@ -1,4 +1,6 @@
-"""`fecolumn completion SHELL`: commands, options, choices and names of files completed by the Tab key, as the parser declares them."""
+"""`fecolumn completion SHELL`: commands, options, choices and names of files completed by the Tab
+key, as the parser declares them.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +9,15 @@ import argparse
 
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn completion`."""
-    parser.add_argument("shell", choices=("bash", "zsh", "fish"), help="whose script is printed, one of %(choices)s")
+    parser.add_argument(
+        "shell", choices=("bash", "zsh", "fish"), help="whose script is printed, one of %(choices)s"
+    )
 
 
 def script(parser: argparse.ArgumentParser, shell: str) -> str:
-    """The script for a shell, by shtab; where a value is no word of a list, names of files are offered."""
+    """The script for a shell, by shtab; where a value is no word of a list, names of files are
+    offered.
+    """
     import shtab
 
     _offer_files(parser, shtab.FILE)

@@ -10,7 +10,9 @@ from fecolumn.files import is_file
 
 
 def content(source: str) -> str:
-    """Digest of the file `source`, or `source` itself where it is no file; with the number of a motion in an ensemble."""
+    """Digest of the file `source`, or `source` itself where it is no file; with the number of a
+    motion in an ensemble.
+    """
     file, mark, number = (source, "", "") if is_file(source) else source.rpartition("#")
     if not is_file(file):
         return source

@@ -1,7 +1,9 @@
-"""What this machine offers: the version of everything fecolumn rests on, and the traps it would step into.
+"""What this machine offers: the version of everything fecolumn rests on, and the traps it would
+step into.
 
-Stands alone: it needs neither the rest of the package nor any library it looks for. The libraries are looked at in a child
-process, in the order an analysis loads them, so that one that crashes is a line in the table and not the end of it.
+Stands alone: it needs neither the rest of the package nor any library it looks for. The libraries
+are looked at in a child process, in the order an analysis loads them, so that one that crashes is a
+line in the table and not the end of it.
 """
 
 from __future__ import annotations
@@ -24,7 +26,9 @@ INSTALL = "run through ./containers/run, which installs it"
 
 @dataclass(frozen=True)
 class Finding:
-    """One line of the table; `warning` names a trap and its remedy, `fit` is False if no analysis can run."""
+    """One line of the table; `warning` names a trap and its remedy, `fit` is False if no analysis
+    can run.
+    """
 
     component: str
     version: str
@@ -41,13 +45,21 @@ def origin(name: str) -> str:
 
 def loaded_libraries(pattern: str) -> list[str]:
     """Shared libraries of this process whose file name begins like this, those of wheels left out."""
-    files = {line.split()[-1] for line in Path("/proc/self/maps").read_text().splitlines() if ".so" in line}
-    return sorted(file for file in files if re.match(pattern, Path(file).name) and "site-packages" not in file)
+    files = {
+        line.split()[-1]
+        for line in Path("/proc/self/maps").read_text().splitlines()
+        if ".so" in line
+    }
+    return sorted(
+        file for file in files if re.match(pattern, Path(file).name) and "site-packages" not in file
+    )
 
 
 def look_at_machine() -> list[Finding]:
     """System, Python, compiler, cores, memory and environment variables."""
-    release = dict(re.findall(r'^(\w+)="?(.*?)"?$', Path("/etc/os-release").read_text(), re.MULTILINE))
+    release = dict(
+        re.findall(r'^(\w+)="?(.*?)"?$', Path("/etc/os-release").read_text(), re.MULTILINE)
+    )
     known = release.get("VERSION_CODENAME") in ("bookworm", "trixie")
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
     threads = os.environ.get("OMP_NUM_THREADS")
@@ -55,36 +67,64 @@ def look_at_machine() -> list[Finding]:
     foreign = "not the Python that Debian's dolfinx was built for: run through ./containers/run"
     crowded = "analyses side by side would fight for the cores: export OMP_NUM_THREADS=1"
     findings = [
-        Finding("system", release.get("PRETTY_NAME", "unknown"), platform.machine(), "" if known else untried),
-        Finding("Python", platform.python_version(), sys.prefix, "" if sys.base_prefix == "/usr" else foreign),
+        Finding(
+            "system",
+            release.get("PRETTY_NAME", "unknown"),
+            platform.machine(),
+            "" if known else untried,
+        ),
+        Finding(
+            "Python",
+            platform.python_version(),
+            sys.prefix,
+            "" if sys.base_prefix == "/usr" else foreign,
+        ),
         Finding("cores", str(len(os.sched_getaffinity(0))), f"of {os.cpu_count()}"),
         Finding("memory", f"{memory:.1f} GiB"),
         Finding("OMP_NUM_THREADS", threads or "unset", "", "" if threads == "1" else crowded),
     ]
     if not (shutil.which("mpicc") or shutil.which("cc")):
-        findings.append(Finding("C compiler", "missing", "", f"dolfinx compiles forms with it: {INSTALL}", fit=False))
+        findings.append(
+            Finding(
+                "C compiler", "missing", "", f"dolfinx compiles forms with it: {INSTALL}", fit=False
+            )
+        )
     if os.geteuid() == 0 and not os.environ.get("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"):
-        remedy = "Open MPI refuses root: export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"
+        remedy = (
+            "Open MPI refuses root: export OMPI_ALLOW_RUN_AS_ROOT=1 "
+            "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"
+        )
         findings.append(Finding("mpirun", "as root", "", remedy))
     if importlib.util.find_spec("netCDF4") and origin("netCDF4") != "Debian":
-        findings.append(Finding("netCDF4", "wheel", "", "crashes beside dolfinx: pip uninstall netCDF4"))
+        findings.append(
+            Finding("netCDF4", "wheel", "", "crashes beside dolfinx: pip uninstall netCDF4")
+        )
     return findings
 
 
-# ---- the libraries: each function returns (version, note, warning) and may raise ---------------------------------------
+# ---- the libraries: each function returns (version, note, warning) and may raise
+# ---------------------------------------
 
 
 def look_at_numpy():
     import numpy
 
     debian = origin("numpy") == "Debian"
-    return numpy.__version__, origin("numpy"), "" if debian else "petsc4py was built for Debian's numpy: pip uninstall numpy"
+    return (
+        numpy.__version__,
+        origin("numpy"),
+        "" if debian else "petsc4py was built for Debian's numpy: pip uninstall numpy",
+    )
 
 
 def look_at_scipy():
     import scipy.stats
 
-    return scipy.__version__, origin("scipy") + ("" if hasattr(scipy.stats, "ecdf") else ", without stats.ecdf"), ""
+    return (
+        scipy.__version__,
+        origin("scipy") + ("" if hasattr(scipy.stats, "ecdf") else ", without stats.ecdf"),
+        "",
+    )
 
 
 def look_at_mpi():
@@ -92,7 +132,11 @@ def look_at_mpi():
     from mpi4py import MPI
 
     trap = "mpi4py.futures needs petsc4py.init(comm=MPI.COMM_SELF) before dolfinx, or it hangs"
-    return re.split(r"[,\n]", MPI.Get_library_version())[0].strip(), f"mpi4py {mpi4py.__version__}; {trap}", ""
+    return (
+        re.split(r"[,\n]", MPI.Get_library_version())[0].strip(),
+        f"mpi4py {mpi4py.__version__}; {trap}",
+        "",
+    )
 
 
 def look_at_petsc():
@@ -101,8 +145,14 @@ def look_at_petsc():
 
     scalar = PETSc.ScalarType().dtype
     if scalar.kind != "f":
-        raise RuntimeError("complex scalars: apt install python3-dolfinx-real, and unset PETSC_DIR and PETSC_ARCH")
-    return ".".join(map(str, PETSc.Sys.getVersion())), f"petsc4py {petsc4py.__version__}, scalars real ({scalar})", ""
+        raise RuntimeError(
+            "complex scalars: apt install python3-dolfinx-real, and unset PETSC_DIR and PETSC_ARCH"
+        )
+    return (
+        ".".join(map(str, PETSc.Sys.getVersion())),
+        f"petsc4py {petsc4py.__version__}, scalars real ({scalar})",
+        "",
+    )
 
 
 def look_at_mumps():
@@ -118,7 +168,11 @@ def look_at_cholmod():
     try:
         _factor(PETSc, "cholesky", "cholmod")
     except PETSc.Error:
-        return "no", "MUMPS factors in its place", "a step in full order on one rank takes half as long again: a PETSc with SuiteSparse"
+        return (
+            "no",
+            "MUMPS factors in its place",
+            "a step in full order on one rank takes half as long again: a PETSc with SuiteSparse",
+        )
     return "yes", ", ".join(loaded_libraries("libcholmod")), ""
 
 
@@ -136,7 +190,8 @@ def look_at_blas():
     import numpy.linalg  # noqa: F401  loads BLAS
     from petsc4py import PETSc  # noqa: F401  loads BLAS
 
-    # Debian puts every BLAS behind the name libblas.so.3; the folder tells which it is, "blas" being the reference
+    # Debian puts every BLAS behind the name libblas.so.3; the folder tells which it is, "blas"
+    # being the reference
     library = Path(loaded_libraries(r"lib(open)?blas|libmkl_rt|libblis|libatlas")[0])
     slow = "the reference BLAS makes MUMPS three times slower: apt install libopenblas0-pthread"
     return library.parent.name, str(library), slow if library.parent.name == "blas" else ""
@@ -145,16 +200,26 @@ def look_at_blas():
 def look_at_dolfinx():
     import dolfinx.io
 
-    return dolfinx.__version__, "with VTXWriter" if hasattr(dolfinx.io, "VTXWriter") else "no VTXWriter: fields go to XDMF", ""
+    return (
+        dolfinx.__version__,
+        "with VTXWriter" if hasattr(dolfinx.io, "VTXWriter") else "no VTXWriter: fields go to XDMF",
+        "",
+    )
 
 
 def look_at_h5py():
     if origin("h5py") != "Debian":  # not imported: it may take the process down
-        raise RuntimeError(f"a wheel in {origin('h5py')}, which crashes beside dolfinx: pip uninstall h5py")
+        raise RuntimeError(
+            f"a wheel in {origin('h5py')}, which crashes beside dolfinx: pip uninstall h5py"
+        )
     import h5py
 
     beside = ", ".join(Path(file).name for file in loaded_libraries("libhdf5_(openmpi|mpich).so"))
-    return h5py.__version__, f"Debian, HDF5 {h5py.version.hdf5_version}, beside dolfinx's {beside or '(not loaded)'}", ""
+    return (
+        h5py.__version__,
+        f"Debian, HDF5 {h5py.version.hdf5_version}, beside dolfinx's {beside or '(not loaded)'}",
+        "",
+    )
 
 
 def look_at_gmsh():
@@ -170,8 +235,15 @@ def look_at_pyvista():
     plotter = pyvista.Plotter(off_screen=True, window_size=(64, 64))
     plotter.add_mesh(pyvista.Sphere())
     blank = plotter.screenshot(None, return_img=True).std() == 0
-    note = f"VTK {'.'.join(map(str, pyvista.vtk_version_info))}, {type(plotter.render_window).__name__}"
-    return pyvista.__version__, note, "draws blank pictures: apt install libegl1 libgl1" if blank else ""
+    note = (
+        f"VTK {'.'.join(map(str, pyvista.vtk_version_info))}, "
+        f"{type(plotter.render_window).__name__}"
+    )
+    return (
+        pyvista.__version__,
+        note,
+        "draws blank pictures: apt install libegl1 libgl1" if blank else "",
+    )
 
 
 def look_at_other(name: str):
@@ -193,7 +265,11 @@ def look_at_library(name: str) -> Finding:
     try:
         return Finding(name, *LIBRARIES[name]())
     except Exception as error:  # noqa: BLE001  a broken library may raise anything
-        state = "missing" if isinstance(error, ModuleNotFoundError) or "NoneType" in str(error) else "broken"
+        state = (
+            "missing"
+            if isinstance(error, ModuleNotFoundError) or "NoneType" in str(error)
+            else "broken"
+        )
         reason = " ".join(str(error).split())[:200]
         remedy = reason if re.search("pip |apt ", reason) else f"{reason}: {INSTALL}"
         return Finding(name, state, "", remedy, fit=name in OPTIONAL)
@@ -202,23 +278,36 @@ def look_at_library(name: str) -> Finding:
 def look_at_libraries() -> list[Finding]:
     """Every library's line, from a child process, and another child after each crash."""
     # a child is no rank of the MPI job that the doctor may be part of
-    environment = {k: v for k, v in os.environ.items() if not re.match("OMPI_(?!ALLOW)|ORTE|PMI|PRTE", k)}
+    environment = {
+        k: v for k, v in os.environ.items() if not re.match("OMPI_(?!ALLOW)|ORTE|PMI|PRTE", k)
+    }
     findings, left = [], list(LIBRARIES)
     while left:
         command = [sys.executable, "-P", __file__, "--child", *left]
-        child = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-        found = [Finding(**json.loads(line[1:])) for line in child.stdout.splitlines() if line.startswith("@{")]
+        child = subprocess.run(
+            command, env=environment, capture_output=True, text=True, check=False
+        )
+        found = [
+            Finding(**json.loads(line[1:]))
+            for line in child.stdout.splitlines()
+            if line.startswith("@{")
+        ]
         findings += found
         left = left[len(found) :]
         if left:
             name = left.pop(0)
-            remedy = f"ends the process with exit code {child.returncode}; to see why: python -c 'import {name.lower()}'"
+            remedy = (
+                f"ends the process with exit code {child.returncode}; to see why: python -c "
+                f"'import {name.lower()}'"
+            )
             findings.append(Finding(name, "crashes", "", remedy, fit=name in OPTIONAL))
     return findings
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Print the table and the warnings; 0 if analyses can run here, 1 if something essential is missing or broken."""
+    """Print the table and the warnings; 0 if analyses can run here, 1 if something essential is
+    missing or broken.
+    """
     parser = argparse.ArgumentParser(prog="fecolumn doctor", description=__doc__.splitlines()[0])
     parser.add_argument("--child", nargs="+", help=argparse.SUPPRESS)
     for name in (child := parser.parse_args(argv).child) or []:
@@ -226,13 +315,20 @@ def main(argv: list[str] | None = None) -> int:
     if child:
         return 0
     findings = look_at_machine() + look_at_libraries()
-    wide = [max(len(getattr(finding, column)) for finding in findings) for column in ("component", "version")]
+    wide = [
+        max(len(getattr(finding, column)) for finding in findings)
+        for column in ("component", "version")
+    ]
     for finding in findings:
-        print(f"{finding.component:{wide[0]}}  {finding.version:{wide[1]}}  {finding.note}".rstrip())
+        print(
+            f"{finding.component:{wide[0]}}  {finding.version:{wide[1]}}  {finding.note}".rstrip()
+        )
     print()
     for finding in findings:
         if finding.warning:
-            print(f"{'warning' if finding.fit else 'ERROR'}: {finding.component}: {finding.warning}")
+            print(
+                f"{'warning' if finding.fit else 'ERROR'}: {finding.component}: {finding.warning}"
+            )
     fit = all(finding.fit for finding in findings)
     print("fit to run" if fit else "NOT fit to run")
     return 0 if fit else 1

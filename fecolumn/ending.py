@@ -4,23 +4,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-#: Outcomes. Only a column at rest has shown its residual slide, and only one that is not lost, overturned or slid off, its peak.
+#: Outcomes. Only a column at rest has shown its residual slide, and only one that is not lost,
+#: overturned or slid off, its peak.
 AT_REST, STILL_ROCKING, OVERTURNED, SLID_OFF = "at rest", "still rocking", "overturned", "slid off"
 
-#: Names of a share of columns: of those that overturned, and of those that overturned or slid off where both are counted together.
+#: Names of a share of columns: of those that overturned, and of those that overturned or slid off
+#: where both are counted together.
 P_OVERTURN, P_LOST = "P(overturn)", "P(lost: overturned or slid off)"
 
-#: A column whose foot meets the edge of the base has come as near to it before as it goes in a step and this share of the foot's width; else a step went astray.
+#: A column whose foot meets the edge of the base has come as near to it before as it goes in a step
+#: and this share of the foot's width; else a step went astray.
 EDGE = 0.05
 
-#: A column is at rest when its mechanical energy above gravity equilibrium is below this share of the energy that lifts it onto its edge.
-#: A slender column with this energy rocks with 1/2000 of its critical tilt, and as nothing feeds it, never with more again.
+#: A column is at rest when its mechanical energy above gravity equilibrium is below this share of
+#: the energy that lifts it onto its edge. A slender column with this energy rocks with 1/2000 of
+#: its critical tilt, and as nothing feeds it, never with more again.
 REST_SHARE = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """outcome: one of the words above; ended_by: what stopped the analysis, in words, with its time [s]."""
+    """outcome: one of the words above; ended_by: what stopped the analysis, in words, with its time
+    [s].
+    """
 
     outcome: str
     ended_by: str
@@ -29,33 +35,57 @@ class Ending:
 def ending_text(summary: dict) -> str:
     """What became of the column, for a reader, from the summary of its analysis."""
     if summary["overturned"]:
-        return f"overturned ({summary.get('ended_by') or 'at {:.3f} s'.format(summary['overturn_time_s'])})"
+        return (
+            "overturned "
+            f"({summary.get('ended_by') or 'at {:.3f} s'.format(summary['overturn_time_s'])})"
+        )
     if lost(summary):
         return f"{SLID_OFF} ({summary['ended_by']})"
-    text = f"{summary.get('outcome', 'standing')}, residual slide {1e3 * summary['residual_slide_m']:.3f} mm"
+    text = (
+        f"{summary.get('outcome', 'standing')}, residual slide "
+        f"{1e3 * summary['residual_slide_m']:.3f} mm"
+    )
     if summary.get("outcome") == STILL_ROCKING:
-        text = f"{STILL_ROCKING} at {summary['duration_s']:.3f} s with {energy_text(summary['energy_left_j'], summary['energy_to_overturn_j'])}"
+        text = (
+            f"{STILL_ROCKING} at {summary['duration_s']:.3f} s with "
+            f"{energy_text(summary['energy_left_j'], summary['energy_to_overturn_j'])}"
+        )
     if summary.get("motion_cut_at_s") is not None:
-        text += f"; the motion was cut at {summary['motion_cut_at_s']:g} s, by integration.duration_s"
+        text += (
+            f"; the motion was cut at {summary['motion_cut_at_s']:g} s, by integration.duration_s"
+        )
     return text
 
 
 def energy_text(left: float, barrier: float) -> str:
-    """Energy left [J] beside that which overturns a column, or the weakest part of a structure, slowly [J]: what moves may have more, and all of a structure has."""
+    """Energy left [J] beside that which overturns a column, or the weakest part of a structure,
+    slowly [J]: what moves may have more, and all of a structure has.
+    """
     if left <= barrier:
         return f"{left:.3g} J of the {barrier:.3g} J to overturn"
-    return f"{left:.3g} J" + (f", more than the {barrier:.3g} J that overturn it slowly" if barrier else "")
+    return f"{left:.3g} J" + (
+        f", more than the {barrier:.3g} J that overturn it slowly" if barrier else ""
+    )
 
 
 def cut_short(summaries) -> str:
-    """How many of some analyses ended within their motion, and what that means, from their summaries; "" where none did."""
+    """How many of some analyses ended within their motion, and what that means, from their
+    summaries; "" where none did.
+    """
     summaries = list(summaries)
-    ends = [summary["motion_cut_at_s"] for summary in summaries if summary.get("motion_cut_at_s") is not None and not lost(summary)]
+    ends = [
+        summary["motion_cut_at_s"]
+        for summary in summaries
+        if summary.get("motion_cut_at_s") is not None and not lost(summary)
+    ]
     if not ends:
         return ""
     low, high = min(ends), max(ends)
-    return (f"{len(ends)} of {len(summaries)} analyses cut their motion short, at {low:g}{f' to {high:g}' if high > low else ''} s by "
-            "integration.duration_s: peaks and outcomes are of that part alone")
+    return (
+        f"{len(ends)} of {len(summaries)} analyses cut their motion short, at "
+        f"{low:g}{f' to {high:g}' if high > low else ''} s by "
+        "integration.duration_s: peaks and outcomes are of that part alone"
+    )
 
 
 def lost(summary: dict) -> bool:
@@ -64,5 +94,7 @@ def lost(summary: dict) -> bool:
 
 
 def peak_text(summary: dict) -> str:
-    """Largest top displacement of an analysis, for a reader; of a column that is lost it is only where the analysis stopped."""
+    """Largest top displacement of an analysis, for a reader; of a column that is lost it is only
+    where the analysis stopped.
+    """
     return f"u_max {'> ' if lost(summary) else ''}{1e3 * summary['u_max_m']:.3f} mm"

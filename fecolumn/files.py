@@ -1,4 +1,6 @@
-"""Files that a user names, read whatever they turn out to be: devices, pipes, folders, files without end, names that cannot be."""
+"""Files that a user names, read whatever they turn out to be: devices, pipes, folders, files
+without end, names that cannot be.
+"""
 
 from __future__ import annotations
 
@@ -24,10 +26,13 @@ def is_file(path) -> bool:
 
 
 def read_bytes(path, most: int = MOST_BYTES) -> bytes:
-    """Content of a regular file of at most `most` bytes; neither a device nor a pipe can hold the reader up.
+    """Content of a regular file of at most `most` bytes; neither a device nor a pipe can hold the
+    reader up.
 
-    Raises:
-        Unreadable: no such file, a folder, a device, a pipe, too large, or not to be read by this user.
+    Raises
+    ------
+    Unreadable
+        no such file, a folder, a device, a pipe, too large, or not to be read by this user.
     """
     try:
         with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
@@ -35,7 +40,9 @@ def read_bytes(path, most: int = MOST_BYTES) -> bytes:
             if not stat.S_ISREG(status.st_mode):
                 raise Unreadable("is a device or a pipe; a file is needed")
             if status.st_size > most:
-                raise Unreadable(f"is too large ({status.st_size / 1e6:.0f} MB, at most {most / 1e6:g} MB)")
+                raise Unreadable(
+                    f"is too large ({status.st_size / 1e6:.0f} MB, at most {most / 1e6:g} MB)"
+                )
             return file.read()
     except (FileNotFoundError, NotADirectoryError):
         raise Unreadable("no such file") from None
@@ -56,8 +63,10 @@ def read_bytes(path, most: int = MOST_BYTES) -> bytes:
 def read_json(path, most: int = MOST_BYTES):
     """What a JSON file holds; numbers that are none (NaN, Infinity) are refused.
 
-    Raises:
-        Unreadable: as `read_bytes`, or not valid JSON.
+    Raises
+    ------
+    Unreadable
+        as `read_bytes`, or not valid JSON.
     """
     content = read_bytes(path, most)
     try:

@@ -1,4 +1,6 @@
-"""Locks of the kernel (flock): they end with their process, however it ends, and Linux keeps them over NFS, too."""
+"""Locks of the kernel (flock): they end with their process, however it ends, and Linux keeps them
+over NFS, too.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +15,17 @@ from pathlib import Path
 def open_lock(file):
     """A lock's file open for reading and writing, made if need be.
 
-    Raises:
-        OSError: it cannot be opened, or is a pipe or a device, which could hold its opener up.
+    Raises
+    ------
+    OSError
+        it cannot be opened, or is a pipe or a device, which could hold its opener up.
     """
     handle = os.open(file, os.O_RDWR | os.O_CREAT | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         os.close(handle)
-        raise FileExistsError(errno.EEXIST, "a device or a pipe is in the place of a lock", str(file))
+        raise FileExistsError(
+            errno.EEXIST, "a device or a pipe is in the place of a lock", str(file)
+        )
     return open(handle, "r+")
 
 
@@ -27,10 +33,10 @@ def open_lock(file):
 def alone(path: Path):
     """Hold the right to make `path`; who comes second waits. It ends with the process that has it.
 
-        if not path.exists():
-            with alone(path):
-                if not path.exists():
-                    ...
+    if not path.exists():
+        with alone(path):
+            if not path.exists():
+                ...
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     file = path.parent / f".{path.name}.lock"
@@ -39,7 +45,8 @@ def alone(path: Path):
         fcntl.flock(lock, fcntl.LOCK_EX)
         if _still(lock, file):
             break
-        lock.close()  # its last holder has taken the file away meanwhile: others lock another one by now
+        # its last holder has taken the file away meanwhile: others lock another one by now
+        lock.close()
     try:
         yield
     finally:
@@ -48,7 +55,9 @@ def alone(path: Path):
 
 
 def held(file: Path) -> bool:
-    """Whether a process holds the lock in `file` alone; one that was killed holds none, though its file may be left."""
+    """Whether a process holds the lock in `file` alone; one that was killed holds none, though its
+    file may be left.
+    """
     try:
         with open(os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)) as lock:
             fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)

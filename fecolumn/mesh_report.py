@@ -23,7 +23,10 @@ _STUBBY = 2.0
 
 
 def mesh_report(case: Case, folder, say=lambda text: None) -> str:
-    """Write .msh, .xdmf, picture and table of a case's meshes into `folder`; returns the table. `say` is told the estimate first."""
+    """Write .msh, .xdmf, picture and table of a case's meshes into `folder`; returns the table.
+
+    `say` is told the estimate first.
+    """
     folder = Path(folder)
     expected = estimate(case)
     say(str(expected))
@@ -31,14 +34,23 @@ def mesh_report(case: Case, folder, say=lambda text: None) -> str:
     folder.mkdir(parents=True, exist_ok=True)
     write_meshes(specimen, folder)
     picture(specimen, folder / "mesh.png")
-    lines = [str(expected), ", ".join(f"{key} = {getattr(case.mesh, key):g} m" for key in ("fine_size_m", "coarse_size_m", "cap_size_m", "base_size_m")), "",
-             f"{'part':<16}{'nodes':>8}{'elements':>10}{'dofs':>9}{'smallest scaled Jacobian':>27}"]
+    lines = [
+        str(expected),
+        ", ".join(
+            f"{key} = {getattr(case.mesh, key):g} m"
+            for key in ("fine_size_m", "coarse_size_m", "cap_size_m", "base_size_m")
+        ),
+        "",
+        f"{'part':<16}{'nodes':>8}{'elements':>10}{'dofs':>9}{'smallest scaled Jacobian':>27}",
+    ]
     for mesh in (specimen.body, specimen.base):
         jacobian = scaled_jacobian(mesh)
         for part in sorted(set(mesh.part.tolist())):
             nodes = len(mesh.part_nodes(part))
             inside = mesh.part == part
-            lines.append(f"{PART_NAMES[part]:<16}{nodes:>8}{inside.sum():>10}{expected.dofs[part]:>9}{jacobian[inside].min():>27.3f}")
+            lines.append(
+                f"{PART_NAMES[part]:<16}{nodes:>8}{inside.sum():>10}{expected.dofs[part]:>9}{jacobian[inside].min():>27.3f}"
+            )
     lines += ["", f"{'quantity':<66}{'unit':<8}{'mesh':>14}{'closed form':>14}{'difference':>12}"]
     for row in quality_table(case, specimen):
         exact = f"{row.exact:>14.6g}{100 * row.difference:>11.3f}%" if row.exact is not None else ""
@@ -52,23 +64,35 @@ def mesh_report(case: Case, folder, say=lambda text: None) -> str:
 
 
 def bending_theory(case: Case) -> float | None:
-    """First free-free bending frequency [Hz] of the bare column as a Timoshenko beam; None of a user's mesh and of a stubby column."""
+    """First free-free bending frequency [Hz] of the bare column as a Timoshenko beam; None of a
+    user's mesh and of a stubby column.
+    """
     column, material = case.column, case.material
     if column.mesh_file:
         return None
     elastic = material.youngs_modulus_pa, material.poissons_ratio, material.density_kg_m3
     if column.shape == "block":
         sides = sorted((column.length_m, column.width_m))
-        return rectangle_bending_frequency(*sides, column.height_m, *elastic) if column.height_m > _STUBBY * sides[0] else None
+        return (
+            rectangle_bending_frequency(*sides, column.height_m, *elastic)
+            if column.height_m > _STUBBY * sides[0]
+            else None
+        )
     outer = column.outer_diameter_m / 2
     inner = 0.0 if is_solid(case) else outer - column.wall_m
-    return free_free_bending_frequency(outer, inner, column.height_m, *elastic) if column.height_m > _STUBBY * 2 * outer else None
+    return (
+        free_free_bending_frequency(outer, inner, column.height_m, *elastic)
+        if column.height_m > _STUBBY * 2 * outer
+        else None
+    )
 
 
 def _bending(case: Case, specimen) -> tuple[float, float | None, str]:
-    """First bending frequency [Hz] of the bare column's finite elements and ties, its closed form, and of what it is.
+    """First bending frequency [Hz] of the bare column's finite elements and ties, its closed form,
+    and of what it is.
 
-    Of the lowest modes it is the one that moves most like a bent beam: a stubby column may twist or stretch at a lower frequency.
+    Of the lowest modes it is the one that moves most like a bent beam: a stubby column may twist or
+    stretch at a lower frequency.
     """
     from mpi4py import MPI
 

@@ -1,4 +1,6 @@
-"""What a case must leave out where its engine is a rocking model of rigid bodies, and where there is nothing to make a step in parts for."""
+"""What a case must leave out where its engine is a rocking model of rigid bodies, and where there
+is nothing to make a step in parts for.
+"""
 
 from __future__ import annotations
 
@@ -11,23 +13,63 @@ def check_model(case, models, refuse) -> None:
     if engine not in models:
         return
     if engine not in OF_COLUMN:
-        refuse("integration.engine", engine, f"needs a table of its own, [{engine.removeprefix('rocking_')}]; of a [column] there are {' and '.join(OF_COLUMN)}")
-    for section, key in (("contact", "restitution"), ("contact", "rolling_resistance"), ("material", "damping_ratio"), ("output", "fields_every_s")):
+        refuse(
+            "integration.engine",
+            engine,
+            f"needs a table of its own, [{engine.removeprefix('rocking_')}]; of a "
+            f"[column] there are {' and '.join(OF_COLUMN)}",
+        )
+    for section, key in (
+        ("contact", "restitution"),
+        ("contact", "rolling_resistance"),
+        ("material", "damping_ratio"),
+        ("output", "fields_every_s"),
+    ):
         if value := getattr(getattr(case, section), key):
-            refuse(f"{section}.{key}", value, f"must be 0 where integration.engine = {engine!r}: a rigid model with an impact law of its own")
+            refuse(
+                f"{section}.{key}",
+                value,
+                f"must be 0 where integration.engine = {engine!r}: a rigid model with "
+                "an impact law of its own",
+            )
     if case.base.kind == "pad":
-        refuse("base.kind", "pad", f"must be plate or unbounded where integration.engine = {engine!r}: it stands on rigid ground")
+        refuse(
+            "base.kind",
+            "pad",
+            f"must be plate or unbounded where integration.engine = {engine!r}: it "
+            "stands on rigid ground",
+        )
     if case.initial.moves:
         key = "velocity_m_s" if any(case.initial.velocity_m_s) else "spin_rad_s"
-        refuse(f"initial.{key}", list(getattr(case.initial, key)), f"must be 0 where integration.engine = {engine!r}; it starts from initial.tilt_rad")
+        refuse(
+            f"initial.{key}",
+            list(getattr(case.initial, key)),
+            f"must be 0 where integration.engine = {engine!r}; it starts from initial.tilt_rad",
+        )
 
 
 def check_substeps(case, models, refuse) -> None:
-    """integration.substeps where it would say nothing: of a rocking model, an engine of `models`, and of contact without impacts."""
+    """integration.substeps where it would say nothing: of a rocking model, an engine of `models`,
+    and of contact without impacts.
+    """
     value, engine = case.integration.substeps, case.integration.engine
     if value != "rolling" and engine in models:
-        refuse("integration.substeps", value, f"has no effect where integration.engine = {engine!r}: leave it out")
+        refuse(
+            "integration.substeps",
+            value,
+            f"has no effect where integration.engine = {engine!r}: leave it out",
+        )
     if value == "impacts" and case.contact.impact == "none":
-        refuse("integration.substeps", value, "must be rolling or none where contact.impact = 'none': there are no impacts to find in a step")
+        refuse(
+            "integration.substeps",
+            value,
+            "must be rolling or none where contact.impact = 'none': there are no "
+            "impacts to find in a step",
+        )
     if value == "impacts" and case.base.kind == "pad":
-        refuse("integration.substeps", value, "must be rolling or none where base.kind = 'pad', whose springs take the place of impacts")
+        refuse(
+            "integration.substeps",
+            value,
+            "must be rolling or none where base.kind = 'pad', whose springs take the "
+            "place of impacts",
+        )

@@ -12,12 +12,15 @@ _OF_STUDY = (("case",), ("case", "extends"))
 
 
 def absolute(path: str, folder: Path) -> str:
-    """A path that a file in `folder` states, for files elsewhere; names of records, such as "lick:12", stay."""
+    """A path that a file in `folder` states, for files elsewhere; names of records, such as
+    "lick:12", stay.
+    """
     return path if not path or ":" in path or Path(path).is_absolute() else str(folder / path)
 
 
 def taken_over(tables: dict, file) -> dict:
-    """Tables of a case or a study with the paths that `file` states made absolute, so that a file of another folder may take them over.
+    """Tables of a case or a study with the paths that `file` states made absolute, so that a file
+    of another folder may take them over.
 
     Keys may be dotted ("motion.source"), and stand in the tables and lists of a study's axes.
     """
@@ -26,7 +29,9 @@ def taken_over(tables: dict, file) -> dict:
 
 def _absolute(value, key: tuple[str, ...], folder: Path):
     if isinstance(value, dict):
-        return {name: _absolute(one, (*key, *name.split(".")), folder) for name, one in value.items()}
+        return {
+            name: _absolute(one, (*key, *name.split(".")), folder) for name, one in value.items()
+        }
     if isinstance(value, list):
         return [_absolute(one, key, folder) for one in value]
     return absolute(value, folder) if isinstance(value, str) and _names_file(key) else value
@@ -34,6 +39,10 @@ def _absolute(value, key: tuple[str, ...], folder: Path):
 
 def _names_file(key: tuple[str, ...]) -> bool:
     """Whether the key of these words names a file."""
-    if len(key) > 2 and key[-3] == "bodies" and any(key[-1] in names for names in OF_BODIES.values()):
+    if (
+        len(key) > 2
+        and key[-3] == "bodies"
+        and any(key[-1] in names for names in OF_BODIES.values())
+    ):
         return True
     return key in _OF_STUDY or len(key) > 1 and key[-1] in OF_SECTIONS.get(key[-2], ())

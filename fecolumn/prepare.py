@@ -1,4 +1,6 @@
-"""What is compiled on each machine, compiled before somebody waits for it: finite-element forms and contact."""
+"""What is compiled on each machine, compiled before somebody waits for it: finite-element forms and
+contact.
+"""
 
 from __future__ import annotations
 
@@ -8,23 +10,32 @@ from pathlib import Path
 
 # A short tube of few bricks: what is compiled does not depend on it
 _TUBE = dict(
-    column=dict(outer_diameter_m=0.1, wall_m=0.02, height_m=0.3, fine_height_m=0.0), base=dict(length_m=0.2, width_m=0.2, thickness_m=0.05),
-    mesh=dict(fine_size_m=0.02, coarse_size_m=0.03, base_size_m=0.05))
+    column=dict(outer_diameter_m=0.1, wall_m=0.02, height_m=0.3, fine_height_m=0.0),
+    base=dict(length_m=0.2, width_m=0.2, thickness_m=0.05),
+    mesh=dict(fine_size_m=0.02, coarse_size_m=0.03, base_size_m=0.05),
+)
 _PODIUM = dict(podium=dict(column_mass_kg=1.0, floor_mass_kg=10.0, width_m=0.1, height_m=0.5))
 
 
 def prepare(say) -> None:
-    """Run one step of every engine, which compiles what is missing on this machine; seconds where nothing is.
+    """Run one step of every engine, which compiles what is missing on this machine; seconds where
+    nothing is.
 
-    Args:
-        say: told what is done and how long it took.
+    Parameters
+    ----------
+    say
+        told what is done and how long it took.
     """
     from fecolumn.case import case_from_tables
     from fecolumn.simulation import run
 
     for engine in ("full", "reduced", "housner", "wobbling", "podium"):
         began = time.perf_counter()
-        case = case_from_tables((_PODIUM if engine == "podium" else _TUBE) | dict(integration=dict(engine=engine, duration_s=1e-3, dt_s=1e-3)), "fecolumn prepare")
+        case = case_from_tables(
+            (_PODIUM if engine == "podium" else _TUBE)
+            | dict(integration=dict(engine=engine, duration_s=1e-3, dt_s=1e-3)),
+            "fecolumn prepare",
+        )
         with tempfile.TemporaryDirectory() as folder:
             run(case, Path(folder) / engine, file="fecolumn prepare", quiet=True)
         say(f"{engine} engine ready after {time.perf_counter() - began:.0f} s")

@@ -1,4 +1,6 @@
-"""Progress: a bar of tqdm with words behind it, in place on a terminal and in a notebook; in a log the words alone, every ten seconds."""
+"""Progress: a bar of tqdm with words behind it, in place on a terminal and in a notebook; in a log
+the words alone, every ten seconds.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +11,22 @@ import time
 
 
 class Bar:
-    """A bar of `total`, in any unit, on `stream` (default: stderr), drawn in place at most every `pause_s` [s]; `keep`: its last state stays."""
+    """A bar of `total`, in any unit, on `stream` (default: stderr), drawn in place at most every
+    `pause_s` [s]; `keep`: its last state stays.
+    """
 
-    def __init__(self, total: float, quiet: bool = False, stream=None, pause_s: float = 0.3, keep: bool = True):
+    def __init__(
+        self,
+        total: float,
+        quiet: bool = False,
+        stream=None,
+        pause_s: float = 0.3,
+        keep: bool = True,
+    ):
         self.total, self._quiet, self._stream, self._keep = total, quiet, stream or sys.stderr, keep
-        self._in_place = self._stream.isatty() or "ipykernel" in type(self._stream).__module__  # a notebook's
+        self._in_place = (
+            self._stream.isatty() or "ipykernel" in type(self._stream).__module__
+        )  # a notebook's
         self._pause_s, self._bar = pause_s if self._in_place else 10.0, None
         self._began = self._shown = time.monotonic()
 
@@ -31,7 +44,13 @@ class Bar:
             if self._bar is None:
                 from tqdm.auto import tqdm
 
-                self._bar = tqdm(total=self.total, file=self._stream, nrows=24, leave=self._keep, bar_format="{percentage:3.0f} %|{bar:12}| {desc}")
+                self._bar = tqdm(
+                    total=self.total,
+                    file=self._stream,
+                    nrows=24,
+                    leave=self._keep,
+                    bar_format="{percentage:3.0f} %|{bar:12}| {desc}",
+                )
             self._bar.ncols = _width(self._stream)
             self._bar.n = min(done, self.total)
             self._bar.set_description_str(words)
@@ -50,8 +69,12 @@ class Bar:
 class Progress(Bar):
     """t, step, tilt, contact nodes, iterations and the time left of one analysis."""
 
-    def __init__(self, steps: int, dt: float, quiet: bool = False, until_rest_from: int | None = None):
-        """`steps` to be made; from step `until_rest_from` on, where it is given, these are the most that are, and rest may come before."""
+    def __init__(
+        self, steps: int, dt: float, quiet: bool = False, until_rest_from: int | None = None
+    ):
+        """`steps` to be made; from step `until_rest_from` on, where it is given, these are the most
+        that are, and rest may come before.
+        """
         super().__init__(steps if until_rest_from is None else until_rest_from, quiet)
         self.steps, self.dt, self._first = steps, dt, None
 
@@ -61,11 +84,23 @@ class Progress(Bar):
             self._first, self._iterations, self._counted = step - 1, record.iterations, step
         if self.due():
             rests = step >= self.total
-            left = "until at rest" if rests else self.left(step - self._first, self.total - self._first)
-            end = f"at most {self.steps * self.dt:.2f} s" if rests and self.total < self.steps else f"{self.total * self.dt:.2f} s"
+            left = (
+                "until at rest"
+                if rests
+                else self.left(step - self._first, self.total - self._first)
+            )
+            end = (
+                f"at most {self.steps * self.dt:.2f} s"
+                if rests and self.total < self.steps
+                else f"{self.total * self.dt:.2f} s"
+            )
             mean = (record.iterations - self._iterations) / max(step - self._counted, 1)
-            self.draw(step, f"t {measures['time']:8.4f} of {end}  left {left}  step {step}  "
-                            f"tilt {measures['tilt']:.5f} rad  contact {measures['active_nodes']:3d} nodes  iterations {mean:.1f}/step")
+            self.draw(
+                step,
+                f"t {measures['time']:8.4f} of {end}  left {left}  step {step}  "
+                f"tilt {measures['tilt']:.5f} rad  contact "
+                f"{measures['active_nodes']:3d} nodes  iterations {mean:.1f}/step",
+            )
             self._iterations, self._counted = record.iterations, step
 
 
@@ -80,7 +115,9 @@ class CountProgress(Bar):
     def show(self, done: int) -> None:
         """Show that `done` are done where it is time to."""
         if self.due():
-            self.draw(done, f"{done} of {self.total} {self._things}, left {self.left(done, self.total)}")
+            self.draw(
+                done, f"{done} of {self.total} {self._things}, left {self.left(done, self.total)}"
+            )
 
 
 def _width(stream) -> int | None:
@@ -95,4 +132,10 @@ def clock(seconds: float) -> str:
     """A time such as 1 h 05 min, 5 min 03 s or 3 s."""
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
-    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {seconds:02d} s" if minutes else f"{seconds} s"
+    return (
+        f"{hours} h {minutes:02d} min"
+        if hours
+        else f"{minutes} min {seconds:02d} s"
+        if minutes
+        else f"{seconds} s"
+    )

@@ -17,9 +17,11 @@ from fecolumn.schema import InputError
 
 @contextlib.contextmanager
 def held(folder: Path, case: Case, comm, file):
-    """Hold the folder for one process; yields the function that makes it this case's, for when the analysis has started.
+    """Hold the folder for one process; yields the function that makes it this case's, for when the
+    analysis has started.
 
-    Nothing is written where it is another case's, and what does not start leaves the folder free for any case.
+    Nothing is written where it is another case's, and what does not start leaves the folder free
+    for any case.
     """
     refusal, lock, made, known = None, None, False, folder / "case.json"
     if comm.rank == 0:
@@ -29,13 +31,20 @@ def held(folder: Path, case: Case, comm, file):
             if known.is_file():
                 other = read_json(known)["id"]
                 if other != case.id:
-                    refusal = "-o", str(folder), f"holds the results of another case ({other}, this one is {case.id}); give a new folder"
+                    refusal = (
+                        "-o",
+                        str(folder),
+                        f"holds the results of another case ({other}, this one is "
+                        f"{case.id}); give a new folder",
+                    )
             elif any(folder.iterdir()) and not (folder / ".lock").exists():
                 refusal = "-o", str(folder), "must be a new or empty folder, or one of this case"
             if refusal is None:
                 lock = open_lock(folder / ".lock")
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                if not os.path.samestat(os.fstat(lock.fileno()), os.stat(folder / ".lock")):  # its holder has just given the folder up
+                if not os.path.samestat(
+                    os.fstat(lock.fileno()), os.stat(folder / ".lock")
+                ):  # its holder has just given the folder up
                     raise BlockingIOError
         except (BlockingIOError, FileNotFoundError):
             refusal = "-o", str(folder), "another run is writing into this folder"
@@ -48,7 +57,11 @@ def held(folder: Path, case: Case, comm, file):
         except OSError as error:
             if disk_full(error):
                 raise
-            refusal = "-o", str(folder), f"cannot be written ({error.strerror}); give another folder"
+            refusal = (
+                "-o",
+                str(folder),
+                f"cannot be written ({error.strerror}); give another folder",
+            )
     refusal = comm.bcast(refusal)
     if refusal:
         raise InputError(file, *refusal)

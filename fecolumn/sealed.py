@@ -1,7 +1,8 @@
 """HDF5 files that are known to be whole before the HDF5 library reads them.
 
-The library trusts what a file says of itself: one byte that has changed may end the process. A file of ours ends with a seal, the
-checksum of all before it, which HDF5 does not look at. A file without one is first read from end to end by another process.
+The library trusts what a file says of itself: one byte that has changed may end the process. A file
+of ours ends with a seal, the checksum of all before it, which HDF5 does not look at. A file without
+one is first read from end to end by another process.
 """
 
 from __future__ import annotations
@@ -58,8 +59,10 @@ def sealed(content: bytes) -> bytes:
 def open_whole(path):
     """An HDF5 file open for reading, once it is known that it can be read.
 
-    Raises:
-        Unreadable: no such file, no HDF5 file, or damaged.
+    Raises
+    ------
+    Unreadable
+        no such file, no HDF5 file, or damaged.
     """
     import h5py
 
@@ -90,14 +93,27 @@ def _fault(path: str, version) -> str:
     if not content.startswith(_SIGNATURE):
         return "is no HDF5 file"
     length = len(content) - len(sealed(b""))
-    if content[length:length + len(_SEAL)] == _SEAL:
-        return "" if sealed(content[:length]) == content else "is damaged: it is not what its checksum says"
+    if content[length : length + len(_SEAL)] == _SEAL:
+        return (
+            ""
+            if sealed(content[:length]) == content
+            else "is damaged: it is not what its checksum says"
+        )
     del content
     try:
-        reader = subprocess.run([sys.executable, "-c", _READER, path], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                stderr=subprocess.DEVNULL, timeout=_PATIENCE_S, text=True, errors="replace")
+        reader = subprocess.run(
+            [sys.executable, "-c", _READER, path],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            timeout=_PATIENCE_S,
+            text=True,
+            errors="replace",
+        )
     except subprocess.TimeoutExpired:
         return f"cannot be read as HDF5 within {_PATIENCE_S:g} s: damaged"
     if reader.returncode < 0:
-        return f"is damaged: reading it ended the reader by {signal.Signals(-reader.returncode).name}"
+        return (
+            f"is damaged: reading it ended the reader by {signal.Signals(-reader.returncode).name}"
+        )
     return f"is no HDF5 file, or damaged ({reader.stdout.strip()})" if reader.returncode else ""

@@ -19,21 +19,42 @@ from fecolumn.summary import NAME, read_summary
 __all__ = ["AnalysisFailed", "read_folder_case", "run"]
 
 
-def run(case: Case | StructureCase | TableCase | str | Path, folder, *, comm=None, file: str = "", quiet: bool = False, stop=lambda: False) -> dict:
+def run(
+    case: Case | StructureCase | TableCase | str | Path,
+    folder,
+    *,
+    comm=None,
+    file: str = "",
+    quiet: bool = False,
+    stop=lambda: False,
+) -> dict:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
 
-    Args:
-        case: what to analyse, or its file.
-        folder: result folder; one case has one folder.
-        comm: MPI communicator, all of MPI.COMM_WORLD unless given.
-        file: the case's file, for messages where `case` is none.
-        quiet: no progress on stderr.
-        stop: asked after every step whether to save and raise KeyboardInterrupt; see `fecolumn.interrupt`.
+    Parameters
+    ----------
+    case
+        what to analyse, or its file.
+    folder
+        result folder; one case has one folder.
+    comm
+        MPI communicator, all of MPI.COMM_WORLD unless given.
+    file
+        the case's file, for messages where `case` is none.
+    quiet
+        no progress on stderr.
+    stop
+        asked after every step whether to save and raise KeyboardInterrupt; see
+        `fecolumn.interrupt`.
 
-    Raises:
-        InputError: the case is none that can be analysed, the folder belongs to another case, or the motion cannot be used.
-        TypeError: `case` is neither a Case nor a path.
-        AnalysisFailed: a step did not converge after all cuts.
+    Raises
+    ------
+    InputError
+        the case is none that can be analysed, the folder belongs to another case, or the motion
+        cannot be used.
+    TypeError
+        `case` is neither a Case nor a path.
+    AnalysisFailed
+        a step did not converge after all cuts.
     """
     from mpi4py import MPI
 
@@ -43,15 +64,25 @@ def run(case: Case | StructureCase | TableCase | str | Path, folder, *, comm=Non
     if isinstance(case, (str, Path)):
         case, file = read_case(case), str(case)
     if not isinstance(case, (Case, StructureCase, TableCase)):
-        raise TypeError(f"run takes a Case or the path of a case file, not {type(case).__name__}; see fecolumn.read_case")
+        raise TypeError(
+            f"run takes a Case or the path of a case file, not {type(case).__name__}; "
+            "see fecolumn.read_case"
+        )
     folder, file = Path(folder), file or "case"
     case = finished(case, file) if isinstance(case, Case) else case
     with held(folder, case, comm, file) as claim:
         summary, damage = comm.bcast(_earlier_summary(folder, case.id) if comm.rank == 0 else None)
         if summary:
-            found, present = code_text(summary.get("version"), summary.get("sources")), code_text(**code())
+            found, present = (
+                code_text(summary.get("version"), summary.get("sources")),
+                code_text(**code()),
+            )
             if found != present and comm.rank == 0:
-                warnings.warn(f"{folder} holds the result of other code, {found}, which is kept; this is {present}; a new folder starts afresh", stacklevel=2)
+                warnings.warn(
+                    f"{folder} holds the result of other code, {found}, which is kept; "
+                    f"this is {present}; a new folder starts afresh",
+                    stacklevel=2,
+                )
             return summary
         if damage and comm.rank == 0:
             warnings.warn(f"{folder / NAME} {damage}; the analysis is made again", stacklevel=2)
@@ -75,7 +106,12 @@ def _analysis_class(case, comm, file) -> type[Analysis]:
 
         return FullAnalysis
     if comm.size > 1:
-        raise InputError(file, "integration.engine", case.integration.engine, "runs on one process: start it without mpirun")
+        raise InputError(
+            file,
+            "integration.engine",
+            case.integration.engine,
+            "runs on one process: start it without mpirun",
+        )
     if structure:
         from fecolumn.structures.analysis import StructureAnalysis
 

@@ -1,4 +1,6 @@
-"""Which code made a result: version of the package, and a digest of the sources that decide what an analysis gives."""
+"""Which code made a result: version of the package, and a digest of the sources that decide what an
+analysis gives.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,23 @@ from fecolumn import __version__
 
 _PACKAGE = Path(__file__).parent
 # Folders and files of which results depend; what only reads, writes, waits or tells is left out
-DECIDING = ("_dolfinx.py", "analysis.py", "case.py", "contact", "content.py", "dynamics", "ending.py", "fem", "material", "mesh", "motions", "reduced", "rocking", "sizes.py", "structures")
+DECIDING = (
+    "_dolfinx.py",
+    "analysis.py",
+    "case.py",
+    "contact",
+    "content.py",
+    "dynamics",
+    "ending.py",
+    "fem",
+    "material",
+    "mesh",
+    "motions",
+    "reduced",
+    "rocking",
+    "sizes.py",
+    "structures",
+)
 
 
 def digest_of(paths) -> str:
@@ -22,15 +40,22 @@ def digest_of(paths) -> str:
 
 
 def files_of(names) -> list[Path]:
-    """Sources that `names` mean, in a lasting order: files of the package, and the .py and .toml files of its folders.
+    """Sources that `names` mean, in a lasting order: files of the package, and the .py and .toml
+    files of its folders.
 
-    Raises:
-        FileNotFoundError: the package has no such file or folder.
+    Raises
+    ------
+    FileNotFoundError
+        the package has no such file or folder.
     """
     files = []
     for name in names:
         place = _PACKAGE / name
-        found = [place] if place.is_file() else sorted(path for path in place.rglob("*") if path.suffix in (".py", ".toml"))
+        found = (
+            [place]
+            if place.is_file()
+            else sorted(path for path in place.rglob("*") if path.suffix in (".py", ".toml"))
+        )
         if not found:
             raise FileNotFoundError(f"the package has no source {name}")
         files += found
@@ -39,7 +64,9 @@ def files_of(names) -> list[Path]:
 
 @functools.cache
 def package_digest() -> str:
-    """Digest of DECIDING as it is now: results of the same case and the same digest are of the same code."""
+    """Digest of DECIDING as it is now: results of the same case and the same digest are of the same
+    code.
+    """
     return digest_of(files_of(DECIDING))
 
 
@@ -50,4 +77,7 @@ def code() -> dict[str, str]:
 
 def code_text(version, sources) -> str:
     """Code for a reader, such as "fecolumn 0.2.0 (sources 3f0c9a1b2d4e5f60)"."""
-    return f"fecolumn {version or 'of unknown version'} ({f'sources {sources}' if sources else 'sources not recorded'})"
+    return (
+        f"fecolumn {version or 'of unknown version'} "
+        f"({f'sources {sources}' if sources else 'sources not recorded'})"
+    )

@@ -8,19 +8,36 @@ from pathlib import Path
 from fecolumn.files import Unreadable, read_json
 
 NAME = "summary.json"
-# What tables, figures and statistics take from every summary, whichever function wrote it: numbers of at least 0
+# What tables, figures and statistics take from every summary, whichever function wrote it: numbers
+# of at least 0
 _NUMBERS = ("u_max_m", "residual_slide_m", "steps", "wall_s", "s_per_step", "energy_closure_rel")
 # The same of summaries that have them
-_OPTIONAL = ("tilt_max_rad", "duration_s", "overturn_time_s", "cpu_s", "dofs", "iterations", "contact_iterations", "impacts", "cuts", "parts",
-             "factorizations", "ranks", "dt", "motion_cut_at_s")
+_OPTIONAL = (
+    "tilt_max_rad",
+    "duration_s",
+    "overturn_time_s",
+    "cpu_s",
+    "dofs",
+    "iterations",
+    "contact_iterations",
+    "impacts",
+    "cuts",
+    "parts",
+    "factorizations",
+    "ranks",
+    "dt",
+    "motion_cut_at_s",
+)
 _MOST_BYTES = 10_000_000
 
 
 def read_summary(folder: Path, case_id: str) -> dict:
     """The summary in a result folder.
 
-    Raises:
-        Unreadable: there is none, it is damaged, or it is of another case.
+    Raises
+    ------
+    Unreadable
+        there is none, it is damaged, or it is of another case.
     """
     summary = read_json(Path(folder) / NAME, _MOST_BYTES)
     if fault := fault_of(summary, case_id):
@@ -38,11 +55,17 @@ def fault_of(summary, case_id: str) -> str:
         return "overturned must be true or false"
     for name in (*_NUMBERS, *(name for name in _OPTIONAL if summary.get(name) is not None)):
         value = summary.get(name)
-        if not isinstance(value, (int, float)) or isinstance(value, bool) or not 0 <= value < math.inf:
+        if (
+            not isinstance(value, (int, float))
+            or isinstance(value, bool)
+            or not 0 <= value < math.inf
+        ):
             return f"{name} must be a number of at least 0"
         if isinstance(value, int) and value > 1e300:
             return f"{name} is too large"
     energy = summary.get("energy_j", {})
-    if not isinstance(energy, dict) or not all(isinstance(value, (int, float)) and abs(value) < 1e300 for value in energy.values()):
+    if not isinstance(energy, dict) or not all(
+        isinstance(value, (int, float)) and abs(value) < 1e300 for value in energy.values()
+    ):
         return "energy_j must be a table of numbers"
     return ""

@@ -1,7 +1,9 @@
-"""What the tests make once, column models above all, goes into a cache that lives as long as they do.
+"""What the tests make once, column models above all, goes into a cache that lives as long as they
+do.
 
-A model that other code made before is so never taken for one of the code under test, and nothing is left in the user's cache.
-Compiled functions alone stay in the user's: their folder is named after all sources, and to compile takes a minute.
+A model that other code made before is so never taken for one of the code under test, and nothing is
+left in the user's cache. Compiled functions alone stay in the user's: their folder is named after
+all sources, and to compile takes a minute.
 """
 
 import atexit
@@ -16,7 +18,9 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 def _cache_of_the_tests() -> str:
     from fecolumn._compiled import cache_folder, compiled_folder
 
-    os.environ["FECOLUMN_COMPILED"] = str(cache_folder())  # of functions that take code from their own file alone
+    os.environ["FECOLUMN_COMPILED"] = str(
+        cache_folder()
+    )  # of functions that take code from their own file alone
     compiled = Path(compiled_folder())
     compiled_folder.cache_clear()
     compiled.mkdir(parents=True, exist_ok=True)
@@ -25,6 +29,8 @@ def _cache_of_the_tests() -> str:
     return folder
 
 
-if "PYTEST_XDIST_WORKER" not in os.environ:  # workers of pytest-xdist share the cache of the process that started them
+if (
+    "PYTEST_XDIST_WORKER" not in os.environ
+):  # workers of pytest-xdist share the cache of the process that started them
     os.environ["FECOLUMN_CACHE"] = _cache_of_the_tests()
     atexit.register(shutil.rmtree, os.environ["FECOLUMN_CACHE"], ignore_errors=True)

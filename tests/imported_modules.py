@@ -1,4 +1,6 @@
-"""What the package's modules import from one another, functions' own imports included, found without running them."""
+"""What the package's modules import from one another, functions' own imports included, found
+without running them.
+"""
 
 import ast
 from collections.abc import Iterable
@@ -10,7 +12,9 @@ ROOT = Path(__file__).parents[1] / "fecolumn"
 def module_file(name: str) -> Path | None:
     """Source of a module of the package, None where `name` is none."""
     place = ROOT.parent / name.replace(".", "/")
-    return next((file for file in (place.with_suffix(".py"), place / "__init__.py") if file.is_file()), None)
+    return next(
+        (file for file in (place.with_suffix(".py"), place / "__init__.py") if file.is_file()), None
+    )
 
 
 def imports(file: Path, functions: bool = True) -> Iterable[Path]:
@@ -30,11 +34,17 @@ def imports(file: Path, functions: bool = True) -> Iterable[Path]:
 
 
 def closure(*names: str, stop: Iterable[str] = ()) -> set[str]:
-    """Sources, such as "fem/body.py", that the named ones import, and they themselves; those of `stop` are not followed."""
+    """Sources, such as "fem/body.py", that the named ones import, and they themselves; those of
+    `stop` are not followed.
+    """
     found, left = set(), list(names)
     while left:
         name = left.pop()
         if name not in found:
             found.add(name)
-            left += [str(file.relative_to(ROOT)) for file in imports(ROOT / name)] if name not in stop else []
+            left += (
+                [str(file.relative_to(ROOT)) for file in imports(ROOT / name)]
+                if name not in stop
+                else []
+            )
     return found

@@ -32,7 +32,10 @@ with alone(target):
 
 
 def _all(code, *arguments):
-    processes = [subprocess.Popen([sys.executable, "-c", code, *map(str, given)], stderr=subprocess.PIPE) for given in zip(*arguments)]
+    processes = [
+        subprocess.Popen([sys.executable, "-c", code, *map(str, given)], stderr=subprocess.PIPE)
+        for given in zip(*arguments)
+    ]
     return [process.communicate(timeout=120)[1].decode() for process in processes]
 
 
@@ -71,7 +74,10 @@ def test_longest_name_that_the_file_system_takes_can_be_written(tmp_path):
 
 def test_what_is_made_once_is_made_once_whoever_wants_it(tmp_path):
     assert _all(_MAKE, [tmp_path / "thing"] * 4, [tmp_path / "made"] * 4) == [""] * 4
-    assert (tmp_path / "made").read_text() == "made\n" and sorted(os.listdir(tmp_path)) == ["made", "thing"]
+    assert (tmp_path / "made").read_text() == "made\n" and sorted(os.listdir(tmp_path)) == [
+        "made",
+        "thing",
+    ]
 
 
 @pytest.mark.timeout(10)

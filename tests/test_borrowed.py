@@ -77,6 +77,16 @@ for function in (all_of, counted):
 
 def test_references_to_borrowed_arrays_are_not_counted(tmp_path):
     (tmp_path / "borrower.py").write_text(BORROWER)
-    environment = os.environ | {"FECOLUMN_CACHE": str(tmp_path / "cache"), "PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])}
-    ran = subprocess.run([sys.executable, "-c", LOOK], env=environment, text=True, capture_output=True, timeout=300, check=True)
+    environment = os.environ | {
+        "FECOLUMN_CACHE": str(tmp_path / "cache"),
+        "PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path]),
+    }
+    ran = subprocess.run(
+        [sys.executable, "-c", LOOK],
+        env=environment,
+        text=True,
+        capture_output=True,
+        timeout=300,
+        check=True,
+    )
     assert ran.stdout.split() == ["False", "True"]

@@ -13,8 +13,13 @@ from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.schema import InputError
 
 SPECIMEN = Path("meshes/stout.toml").resolve()
-YOUNGER = {("material", "damping_ratio"): 0.02, ("contact", "restitution"): 0.5, ("contact", "rolling_resistance"): 1e-3,
-           ("initial", "velocity_m_s"): [0.1, 0.0, 0.0], ("initial", "spin_rad_s"): [0.0, 0.0, 1.0]}
+YOUNGER = {
+    ("material", "damping_ratio"): 0.02,
+    ("contact", "restitution"): 0.5,
+    ("contact", "rolling_resistance"): 1e-3,
+    ("initial", "velocity_m_s"): [0.1, 0.0, 0.0],
+    ("initial", "spin_rad_s"): [0.0, 0.0, 1.0],
+}
 
 
 def _folder(path, acceleration="0.1"):
@@ -47,13 +52,22 @@ def test_studies_older_than_younger_keys_keep_the_names_of_their_results(tmp_pat
     case = read_case(file)
     tables = dataclasses.asdict(case)
     del tables["title"], tables["output"], tables["flange"]
-    younger = {"motion": ("delay_s", "resample_s", "rest_ceiling_s"), "mesh": ("limit_dofs",), "column": ("shape", "length_m", "width_m"), "material": ("damping_ratio",),
-               "contact": ("restitution", "rolling_resistance", "interior_points"), "initial": ("velocity_m_s", "spin_rad_s"),
-               "base": ("kind", "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"), "integration": ("substeps",)}
+    younger = {
+        "motion": ("delay_s", "resample_s", "rest_ceiling_s"),
+        "mesh": ("limit_dofs",),
+        "column": ("shape", "length_m", "width_m"),
+        "material": ("damping_ratio",),
+        "contact": ("restitution", "rolling_resistance", "interior_points"),
+        "initial": ("velocity_m_s", "spin_rad_s"),
+        "base": ("kind", "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"),
+        "integration": ("substeps",),
+    }
     for section, keys in younger.items():
         for key in keys:
             del tables[section][key]
-    tables["motion"]["source"] = hashlib.sha256((tmp_path / "case" / "motion.csv").read_bytes()).hexdigest()
+    tables["motion"]["source"] = hashlib.sha256(
+        (tmp_path / "case" / "motion.csv").read_bytes()
+    ).hexdigest()
     assert case.id == hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:12]
     file.write_text(file.read_text() + "delay_s = 1e-12\n")
     assert read_case(file).id != case.id
@@ -61,14 +75,24 @@ def test_studies_older_than_younger_keys_keep_the_names_of_their_results(tmp_pat
 
 def test_ids_of_the_specimens_stay():
     """Sizes that are stated are taken as stated; keys that came later say nothing at their default."""
-    assert [read_case(SPECIMEN.with_name(name)).id for name in ("specimen.toml", "stout.toml")] == ["0ce1264dcd58", "c687d7053dad"]
+    assert [read_case(SPECIMEN.with_name(name)).id for name in ("specimen.toml", "stout.toml")] == [
+        "0ce1264dcd58",
+        "c687d7053dad",
+    ]
 
 
-@pytest.mark.parametrize("lines, words", [
-    ("stiffness_n_m3 = 1e8", ["base.stiffness_n_m3 = 100000000.0", "is of a pad", "'plate'"]),
-    ("damping_ratio = 0.1\nkind = \"unbounded\"", ["base.damping_ratio = 0.1", "is of a pad", "'unbounded'"]),
-    ("kind = \"pad\"", ["base.stiffness_n_m3", "must be greater than 0 N/m3"]),
-    ("kind = \"spring\"", ["base.kind", "one of plate, unbounded, pad"])])
+@pytest.mark.parametrize(
+    "lines, words",
+    [
+        ("stiffness_n_m3 = 1e8", ["base.stiffness_n_m3 = 100000000.0", "is of a pad", "'plate'"]),
+        (
+            'damping_ratio = 0.1\nkind = "unbounded"',
+            ["base.damping_ratio = 0.1", "is of a pad", "'unbounded'"],
+        ),
+        ('kind = "pad"', ["base.stiffness_n_m3", "must be greater than 0 N/m3"]),
+        ('kind = "spring"', ["base.kind", "one of plate, unbounded, pad"]),
+    ],
+)
 def test_keys_of_a_pad_belong_to_a_pad_and_a_pad_needs_its_stiffness(tmp_path, lines, words):
     file = _folder(tmp_path / "case") / "case.toml"
     file.write_text(file.read_text() + f"[base]\n{lines}\n")
@@ -83,12 +107,14 @@ def test_unbounded_base_needs_no_room_for_the_foot(tmp_path):
     file.write_text(text)
     with pytest.raises(InputError, match="base.length_m"):
         read_case(file)
-    file.write_text(text + "kind = \"unbounded\"\n")
+    file.write_text(text + 'kind = "unbounded"\n')
     assert len(specimen_mesh(read_case(file)).base.cells) == 0
 
 
 @pytest.mark.parametrize("section, key", YOUNGER)
-def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set(tmp_path, section, key):
+def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set(
+    tmp_path, section, key
+):
     first = read_case(SPECIMEN).id
     value = YOUNGER[section, key]
     (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[{section}]\n{key} = {value}\n')
@@ -98,12 +124,21 @@ def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set
     assert read_case(tmp_path / "case.toml").id == first
 
 
-@pytest.mark.parametrize("text, key", [
-    ("[contact]\nrestitution = 1.1", "contact.restitution"), ("[material]\ndamping_ratio = -0.1", "material.damping_ratio"),
-    ("[contact]\nrolling_resistance = 0.5", "contact.rolling_resistance"), ("[initial]\nspin_rad_s = [0, 1]", "initial.spin_rad_s"),
-    ("[initial]\nvelocity_m_s = 1", "initial.velocity_m_s"),
-    ('[contact]\nimpact = "none"\nrestitution = 0.5', "contact.restitution"),
-    ('[integration]\nkinematics = "total_lagrangian"\n[material]\ndamping_ratio = 0.02', "material.damping_ratio")])
+@pytest.mark.parametrize(
+    "text, key",
+    [
+        ("[contact]\nrestitution = 1.1", "contact.restitution"),
+        ("[material]\ndamping_ratio = -0.1", "material.damping_ratio"),
+        ("[contact]\nrolling_resistance = 0.5", "contact.rolling_resistance"),
+        ("[initial]\nspin_rad_s = [0, 1]", "initial.spin_rad_s"),
+        ("[initial]\nvelocity_m_s = 1", "initial.velocity_m_s"),
+        ('[contact]\nimpact = "none"\nrestitution = 0.5', "contact.restitution"),
+        (
+            '[integration]\nkinematics = "total_lagrangian"\n[material]\ndamping_ratio = 0.02',
+            "material.damping_ratio",
+        ),
+    ],
+)
 def test_losses_and_starts_that_cannot_be_are_refused_by_name(tmp_path, text, key):
     (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{text}\n')
     with pytest.raises(InputError, match=key):
@@ -114,23 +149,37 @@ def test_losses_and_starts_that_cannot_be_are_refused_by_name(tmp_path, text, ke
 @pytest.mark.parametrize("key, value", [("tolerance", 1e-9), ("max_iterations", 40)])
 def test_keys_that_an_engine_would_ignore_are_refused_with_what_to_do(tmp_path, engine, key, value):
     def case(text):
-        (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[integration]\nengine = "{engine}"\n{text}\n')
+        (tmp_path / "case.toml").write_text(
+            f'extends = "{SPECIMEN}"\n[integration]\nengine = "{engine}"\n{text}\n'
+        )
         return read_case(tmp_path / "case.toml")
 
-    with pytest.raises(InputError, match=rf"case.toml: integration.{key} = {value}: has no effect where integration.engine = '{engine}'.*leave it out"):
+    with pytest.raises(
+        InputError,
+        match=rf"case.toml: integration.{key} = {value}: has no effect where "
+        rf"integration.engine = '{engine}'.*leave it out",
+    ):
         case(f"{key} = {value}")
     assert case(f"{key} = {DEFAULT[key]}").id == case("").id
 
 
 def test_a_block_has_no_rim_to_resist_rolling(tmp_path):
     block = Path("fecolumn/templates/block.toml").resolve()
-    (tmp_path / "case.toml").write_text(f'extends = "{block}"\n[contact]\nrolling_resistance = 1e-3\n')
+    (tmp_path / "case.toml").write_text(
+        f'extends = "{block}"\n[contact]\nrolling_resistance = 1e-3\n'
+    )
     with pytest.raises(InputError, match="contact.rolling_resistance.*only a round foot rolls"):
         read_case(tmp_path / "case.toml")
 
 
-@pytest.mark.parametrize("column", ['shape = "solid"\nouter_diameter_m = 0.5\nheight_m = 1.6', 'shape = "block"\nlength_m = 0.4\nwidth_m = 0.3\nheight_m = 1.2',
-                                    "outer_diameter_m = 0.02\nwall_m = 0.0015\nheight_m = 0.15"])
+@pytest.mark.parametrize(
+    "column",
+    [
+        'shape = "solid"\nouter_diameter_m = 0.5\nheight_m = 1.6',
+        'shape = "block"\nlength_m = 0.4\nwidth_m = 0.3\nheight_m = 1.2',
+        "outer_diameter_m = 0.02\nwall_m = 0.0015\nheight_m = 0.15",
+    ],
+)
 def test_finishing_a_finished_case_changes_nothing(tmp_path, column):
     (tmp_path / "case.toml").write_text(f"[column]\n{column}\n")
     case = read_case(tmp_path / "case.toml")

@@ -36,7 +36,10 @@ def test_only_what_was_written_before_is_removed(tmp_path):
     _write(tmp_path, "index.html", "tables/a.csv", alone=True)
     assert _files(tmp_path) == [MARK, "figures/thesis.png", "index.html", "tables/a.csv"]
     _write(tmp_path, "figures/c.png", alone=True)
-    assert _files(tmp_path) == [MARK, "figures/c.png", "figures/thesis.png"] and not (tmp_path / "tables").exists()
+    assert (
+        _files(tmp_path) == [MARK, "figures/c.png", "figures/thesis.png"]
+        and not (tmp_path / "tables").exists()
+    )
 
 
 def test_file_of_the_user_in_the_way_is_not_written_over(tmp_path):
@@ -59,10 +62,22 @@ def test_what_fails_leaves_the_folder_as_it_was(tmp_path):
     with pytest.raises(RuntimeError), written(tmp_path, "report", alone=True) as draft:
         (draft / "index.html").write_text("half")
         raise RuntimeError
-    assert _files(tmp_path) == [MARK, "index.html"] and (tmp_path / "index.html").read_text() == "report"
+    assert (
+        _files(tmp_path) == [MARK, "index.html"]
+        and (tmp_path / "index.html").read_text() == "report"
+    )
 
 
-@pytest.mark.parametrize("mark", ["[]", "{", '{"written": 3}', '{"written": {"report": ["../mine"]}}', '{"written": {"report": ["/etc/passwd"]}}'])
+@pytest.mark.parametrize(
+    "mark",
+    [
+        "[]",
+        "{",
+        '{"written": 3}',
+        '{"written": {"report": ["../mine"]}}',
+        '{"written": {"report": ["/etc/passwd"]}}',
+    ],
+)
 def test_damaged_or_hostile_mark_is_told(tmp_path, mark):
     (tmp_path / "mine").write_text("mine")
     (tmp_path / "out").mkdir()
@@ -72,20 +87,52 @@ def test_damaged_or_hostile_mark_is_told(tmp_path, mark):
     assert (tmp_path / "mine").exists()
 
 
-@pytest.mark.parametrize("occupy", [lambda path: path.write_text("mine"), lambda path: h5py.File(path, "w").close(), os.mkdir])
+@pytest.mark.parametrize(
+    "occupy",
+    [lambda path: path.write_text("mine"), lambda path: h5py.File(path, "w").close(), os.mkdir],
+)
 def test_ensemble_is_not_written_over_something_else(tmp_path, capsys, occupy):
     occupy(tmp_path / "mine.h5")
     before = (tmp_path / "mine.h5").stat()
-    assert main(["motions", "make", "pulses", "one_sine", "--amplitudes", "2", "--periods", "0.5", "-o", str(tmp_path / "mine.h5")]) == 2
+    assert (
+        main(
+            [
+                "motions",
+                "make",
+                "pulses",
+                "one_sine",
+                "--amplitudes",
+                "2",
+                "--periods",
+                "0.5",
+                "-o",
+                str(tmp_path / "mine.h5"),
+            ]
+        )
+        == 2
+    )
     assert "no ensemble of motions" in capsys.readouterr().err
     assert (tmp_path / "mine.h5").stat().st_mtime_ns == before.st_mtime_ns
 
 
 def test_table_of_the_user_beside_an_ensemble_is_not_written_over(tmp_path, capsys):
     (tmp_path / "records.csv").write_text("time,ax\n")
-    make = ["motions", "make", "pulses", "one_sine", "--amplitudes", "2", "--periods", "0.5", "-o", str(tmp_path / "records.h5")]
+    make = [
+        "motions",
+        "make",
+        "pulses",
+        "one_sine",
+        "--amplitudes",
+        "2",
+        "--periods",
+        "0.5",
+        "-o",
+        str(tmp_path / "records.h5"),
+    ]
     assert main(make) == 2 and "no table of an ensemble" in capsys.readouterr().err
-    assert (tmp_path / "records.csv").read_text() == "time,ax\n" and not (tmp_path / "records.h5").exists()
+    assert (tmp_path / "records.csv").read_text() == "time,ax\n" and not (
+        tmp_path / "records.h5"
+    ).exists()
     (tmp_path / "records.csv").unlink()
     assert main(make) == main(make) == 0  # its own it may write over
 
@@ -94,5 +141,23 @@ def test_fitted_model_is_not_written_over_a_case(tmp_path, capsys):
     (tmp_path / "case.toml").write_text("title = 'mine'\n")
     rows = "".join(f"{0.01 * i:.2f},{np.sin(i):.4f},{np.cos(i):.4f}\n" for i in range(1500))
     (tmp_path / "r.csv").write_text("time [s],ax [m/s2],ay [m/s2]\n" + rows)
-    assert main(["motions", "fit", str(tmp_path / "r.csv"), "-n", "20", "--iterations", "1", "-o", str(tmp_path / "case.toml")]) == 2
-    assert "no model of motions fit" in capsys.readouterr().err and (tmp_path / "case.toml").read_text() == "title = 'mine'\n"
+    assert (
+        main(
+            [
+                "motions",
+                "fit",
+                str(tmp_path / "r.csv"),
+                "-n",
+                "20",
+                "--iterations",
+                "1",
+                "-o",
+                str(tmp_path / "case.toml"),
+            ]
+        )
+        == 2
+    )
+    assert (
+        "no model of motions fit" in capsys.readouterr().err
+        and (tmp_path / "case.toml").read_text() == "title = 'mine'\n"
+    )

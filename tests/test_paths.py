@@ -10,7 +10,10 @@ from fecolumn.schema import InputError
 from fecolumn.study.plan import read_plan
 
 COLUMN = '[column]\nshape = "block"\nlength_m = 0.3\nwidth_m = 0.2\nheight_m = 1.0\n'
-BODIES = '[bodies.cube]\nkind = "mesh"\nmesh_file = "cube.vtk"\nrigid = true\n[interfaces.foot]\nslave = "cube"\non = "ground"\n'
+BODIES = (
+    '[bodies.cube]\nkind = "mesh"\nmesh_file = "cube.vtk"\nrigid = '
+    'true\n[interfaces.foot]\nslave = "cube"\non = "ground"\n'
+)
 
 
 def _write(file, text):
@@ -23,30 +26,50 @@ def _cube(file):
     import meshio
 
     file.parent.mkdir(parents=True, exist_ok=True)
-    points = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float) * 0.3
+    points = (
+        np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float)
+        * 0.3
+    )
     meshio.Mesh(points, [("hexahedron", [list(range(8))])]).write(file)
     return file
 
 
 @pytest.fixture
 def three(tmp_path):
-    """A case that extends one of another folder, which extends one of a third; each says something with a path, and files of these names lie elsewhere, too."""
+    """A case that extends one of another folder, which extends one of a third; each says something
+    with a path, and files of these names lie elsewhere, too.
+    """
     for folder in ("a", "b", "c"):
-        _write(tmp_path / folder / "motion.csv", f"time [s],ax [g]\n0,0\n0.01,0.{ord(folder)}\n0.02,0\n")
+        _write(
+            tmp_path / folder / "motion.csv",
+            f"time [s],ax [g]\n0,0\n0.01,0.{ord(folder)}\n0.02,0\n",
+        )
     _write(tmp_path / "a" / "case.toml", COLUMN + '[motion]\nsource = "motion.csv"\n')
     _write(tmp_path / "b" / "case.toml", 'extends = "../a/case.toml"\n[motion]\nscale = 0.5\n')
-    _write(tmp_path / "c" / "case.toml", 'extends = "../b/case.toml"\n[contact]\nfriction_coefficient = 0.4\n')
+    _write(
+        tmp_path / "c" / "case.toml",
+        'extends = "../b/case.toml"\n[contact]\nfriction_coefficient = 0.4\n',
+    )
     return tmp_path
 
 
 def test_motion_of_a_chain_over_three_folders_is_that_beside_the_file_that_names_it(three):
     case = read_case(three / "c" / "case.toml")
-    assert case.motion.source == str(three / "a" / "motion.csv") and case.motion.scale == 0.5 and case.contact.friction_coefficient == 0.4
+    assert (
+        case.motion.source == str(three / "a" / "motion.csv")
+        and case.motion.scale == 0.5
+        and case.contact.friction_coefficient == 0.4
+    )
     (three / "b" / "motion.csv").unlink()
     (three / "c" / "motion.csv").unlink()
     assert read_case(three / "c" / "case.toml").id == case.id
-    _write(three / "b" / "case.toml", 'extends = "../a/case.toml"\n[motion]\nsource = "own/motion.csv"\n')
-    assert read_case(three / "c" / "case.toml").motion.source == str(three / "b" / "own" / "motion.csv")
+    _write(
+        three / "b" / "case.toml",
+        'extends = "../a/case.toml"\n[motion]\nsource = "own/motion.csv"\n',
+    )
+    assert read_case(three / "c" / "case.toml").motion.source == str(
+        three / "b" / "own" / "motion.csv"
+    )
 
 
 def test_names_of_records_and_absolute_paths_stay(three):
@@ -68,19 +91,38 @@ def test_mesh_of_a_column_and_of_a_body_is_that_beside_the_file_that_names_it(tm
 
 
 def test_study_takes_over_a_chain_of_cases_and_another_study(three):
-    study = _write(three / "studies" / "study.toml", 'case = "../c/case.toml"\n[axes]\n"contact.friction_coefficient" = [0.3, 0.5]\n')
+    study = _write(
+        three / "studies" / "study.toml",
+        'case = "../c/case.toml"\n[axes]\n"contact.friction_coefficient" = [0.3, 0.5]\n',
+    )
     wanted = str(three / "a" / "motion.csv")
     assert [analysis.case.motion.source for analysis in read_plan(study).analyses] == [wanted] * 2
-    again = _write(three / "other" / "deep" / "study.toml", 'extends = "../../studies/study.toml"\ntitle = "again"\n')
+    again = _write(
+        three / "other" / "deep" / "study.toml",
+        'extends = "../../studies/study.toml"\ntitle = "again"\n',
+    )
     assert read_plan(again).id == read_plan(study).id
-    _write(study, '[case]\nextends = "../c/case.toml"\nmotion.scale = 2.0\n[axes]\n"motion.source" = ["../b/motion.csv", "../c/motion.csv"]\n')
-    assert [Path(analysis.case.motion.source).resolve() for analysis in read_plan(again).analyses] == [three / folder / "motion.csv" for folder in "bc"]
-    _write(study, '[case]\nextends = "../c/case.toml"\n[[zip]]\nmotion = [{source = "../b/motion.csv"}, {source = "lick:1"}]\n"contact.friction_coefficient" = [0.3, 0.5]\n')
+    _write(
+        study,
+        '[case]\nextends = "../c/case.toml"\nmotion.scale = '
+        '2.0\n[axes]\n"motion.source" = ["../b/motion.csv", "../c/motion.csv"]\n',
+    )
+    assert [
+        Path(analysis.case.motion.source).resolve() for analysis in read_plan(again).analyses
+    ] == [three / folder / "motion.csv" for folder in "bc"]
+    _write(
+        study,
+        '[case]\nextends = "../c/case.toml"\n[[zip]]\nmotion = [{source = '
+        '"../b/motion.csv"}, {source = "lick:1"}]\n"contact.friction_coefficient" = '
+        "[0.3, 0.5]\n",
+    )
     first, second = (analysis.case.motion.source for analysis in read_plan(again).analyses)
     assert Path(first).resolve() == three / "b" / "motion.csv" and second == "lick:1"
 
 
 def test_circle_over_folders_is_told(three):
     _write(three / "a" / "case.toml", 'extends = "../c/case.toml"\n')
-    with pytest.raises(InputError, match="goes in a circle: case.toml -> case.toml -> case.toml -> case.toml"):
+    with pytest.raises(
+        InputError, match="goes in a circle: case.toml -> case.toml -> case.toml -> case.toml"
+    ):
         read_case(three / "c" / "case.toml")

@@ -23,7 +23,9 @@ def terminal():
 
     def read() -> str:
         text = b""
-        while select.select([reader], [], [], 0.5)[0]:  # a terminal hands on what it gets some time later
+        while select.select([reader], [], [], 0.5)[
+            0
+        ]:  # a terminal hands on what it gets some time later
             text += os.read(reader, 1_000_000)
         return text.decode()
 
@@ -37,12 +39,20 @@ def test_bar_is_drawn_in_place_within_the_width_of_the_terminal(terminal, monkey
     progress = Progress(200, 0.01)
     for step in (1, 50, 100):
         progress._shown = -1.0  # as if a second had gone by
-        progress.show(step, dict(time=0.01 * step, tilt=0.1, active_nodes=7), SimpleNamespace(iterations=3 * step))
+        progress.show(
+            step,
+            dict(time=0.01 * step, tilt=0.1, active_nodes=7),
+            SimpleNamespace(iterations=3 * step),
+        )
     progress.end()
     text = terminal[1]()
     lines = text.replace("\r\n", "\n").split("\r")
     assert " 25 %|" in text and " 50 %|" in text and "t   1.0000 of 2.00 s  left 0 s" in text
-    assert text.count("\n") == 1 and text.endswith("\n") and max(len(line.strip()) for line in lines) <= 60
+    assert (
+        text.count("\n") == 1
+        and text.endswith("\n")
+        and max(len(line.strip()) for line in lines) <= 60
+    )
 
 
 def test_counted_things_leave_nothing_on_the_terminal(terminal, monkeypatch):
@@ -52,7 +62,12 @@ def test_counted_things_leave_nothing_on_the_terminal(terminal, monkeypatch):
     progress.show(2)
     progress.end()
     text = terminal[1]()
-    assert " 50 %|" in text and "2 of 4 pictures, left 0 s" in text and "\n" not in text and text.endswith("\r")
+    assert (
+        " 50 %|" in text
+        and "2 of 4 pictures, left 0 s" in text
+        and "\n" not in text
+        and text.endswith("\r")
+    )
 
 
 def test_a_terminal_that_does_not_know_its_width_gets_the_whole_line(terminal, monkeypatch):
@@ -81,7 +96,12 @@ def test_log_gets_plain_lines_and_a_quiet_analysis_none(monkeypatch):
         progress.show(2)
         progress.show(3)  # too soon again
         progress.end()
-        assert stream.getvalue().count("2 of 4 pictures, left") == stream.getvalue().count("\n") == lines and "\r" not in stream.getvalue()
+        assert (
+            stream.getvalue().count("2 of 4 pictures, left")
+            == stream.getvalue().count("\n")
+            == lines
+            and "\r" not in stream.getvalue()
+        )
 
 
 def test_a_log_on_a_full_disk_ends_nothing():

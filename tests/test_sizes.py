@@ -21,7 +21,9 @@ COLUMNS = {
 
 
 def made(column, **tables):
-    return case_from_tables({"column": column, "integration": {"duration_s": 1.0}} | tables, "own.toml")
+    return case_from_tables(
+        {"column": column, "integration": {"duration_s": 1.0}} | tables, "own.toml"
+    )
 
 
 @pytest.mark.parametrize("column", COLUMNS.values(), ids=COLUMNS)
@@ -35,29 +37,67 @@ def test_dimensions_alone_make_a_mesh_of_some_thousand_bricks(column):
     assert expected.all_dofs == 3 * (len(specimen.body.points) + len(specimen.base.points))
 
 
-@pytest.mark.parametrize("tables", [
-    {"flange": {"outer_diameter_m": 0.2, "thickness_m": 0.02}, "cap": {"length_m": 0.3, "width_m": 0.2, "thickness_m": 0.01}},
-    {"mesh": {"fine_size_m": 0.0041, "base_size_m": 0.011}, "base": {"length_m": 0.37, "thickness_m": 0.033}},
-    {"base": {"length_m": 0.15, "width_m": 0.15}}], ids=["flange and cap", "odd base", "small base"])
+@pytest.mark.parametrize(
+    "tables",
+    [
+        {
+            "flange": {"outer_diameter_m": 0.2, "thickness_m": 0.02},
+            "cap": {"length_m": 0.3, "width_m": 0.2, "thickness_m": 0.01},
+        },
+        {
+            "mesh": {"fine_size_m": 0.0041, "base_size_m": 0.011},
+            "base": {"length_m": 0.37, "thickness_m": 0.033},
+        },
+        {"base": {"length_m": 0.15, "width_m": 0.15}},
+    ],
+    ids=["flange and cap", "odd base", "small base"],
+)
 def test_the_estimate_counts_what_is_built(tables):
     case = made({"outer_diameter_m": 0.1, "wall_m": 0.01, "height_m": 0.5}, **tables)
     expected, specimen = estimate(case), specimen_mesh(case)
     for part, n in expected.bricks.items():
         mesh = specimen.base if part == BASE else specimen.body
-        assert n == (mesh.part == part).sum() and expected.dofs[part] == 3 * len(mesh.part_nodes(part))
+        assert n == (mesh.part == part).sum() and expected.dofs[part] == 3 * len(
+            mesh.part_nodes(part)
+        )
 
 
 def test_sizes_in_metres_are_taken_as_they_are():
     case = read_case("meshes/specimen.toml")
-    assert (case.mesh.fine_size_m, case.mesh.coarse_size_m, case.mesh.cap_size_m, case.mesh.base_size_m) == (0.005, 0.015, 0.015, 0.03)
-    assert (case.base.length_m, case.base.slide_allowance_m, case.column.fine_height_m) == (0.3, 0.02, 0.05)
+    assert (
+        case.mesh.fine_size_m,
+        case.mesh.coarse_size_m,
+        case.mesh.cap_size_m,
+        case.mesh.base_size_m,
+    ) == (0.005, 0.015, 0.015, 0.03)
+    assert (case.base.length_m, case.base.slide_allowance_m, case.column.fine_height_m) == (
+        0.3,
+        0.02,
+        0.05,
+    )
 
 
-@pytest.mark.parametrize("key, value", [("fine_size_m", 1e-4), ("cap_size_m", 4e-5), ("base_size_m", 5e-3), ("coarse_size_m", 5e-3), ("fine_size_m", 1e-7)])
+@pytest.mark.parametrize(
+    "key, value",
+    [
+        ("fine_size_m", 1e-4),
+        ("cap_size_m", 4e-5),
+        ("base_size_m", 5e-3),
+        ("coarse_size_m", 5e-3),
+        ("fine_size_m", 1e-7),
+    ],
+)
 def test_a_mesh_that_would_not_fit_is_refused_at_once_with_a_size_that_fits(key, value):
-    tables = {"cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.01}} if key == "cap_size_m" else {}
-    column = {"outer_diameter_m": 2.0, "wall_m": 0.005, "height_m": 6.0} if key in ("base_size_m", "coarse_size_m") else \
-        {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 1.0}
+    tables = (
+        {"cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.01}}
+        if key == "cap_size_m"
+        else {}
+    )
+    column = (
+        {"outer_diameter_m": 2.0, "wall_m": 0.005, "height_m": 6.0}
+        if key in ("base_size_m", "coarse_size_m")
+        else {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 1.0}
+    )
     sizes = {"fine_size_m": 5e-3} if key in ("base_size_m", "coarse_size_m") else {}
     began = time.perf_counter()
     with pytest.raises(InputError, match="degrees of freedom") as caught:
@@ -65,7 +105,10 @@ def test_a_mesh_that_would_not_fit_is_refused_at_once_with_a_size_that_fits(key,
     assert time.perf_counter() - began < 1
     message = str(caught.value)
     assert message.count("\n") == 0 and "mesh.limit_dofs" in message
-    named, fits = caught.value.key.removeprefix("mesh."), float(message.split(" m would fit")[0].split()[-1])
+    named, fits = (
+        caught.value.key.removeprefix("mesh."),
+        float(message.split(" m would fit")[0].split()[-1]),
+    )
     assert key in ("base_size_m", "coarse_size_m") or named == key
     stated = sizes | {key: value} | {named: fits}
     if named == "fine_size_m":
@@ -80,23 +123,43 @@ def test_a_higher_limit_is_a_key_and_makes_no_other_case():
     assert made(column).id == made(column, mesh={"limit_dofs": 10**6}).id
 
 
-@pytest.mark.parametrize("column, words", [
-    ({"outer_diameter_m": 0.1}, ["column.height_m, column.wall_m: missing", 'shape = "tube"']),
-    ({"shape": "block", "height_m": 1.0}, ["column.length_m, column.width_m: missing"]),
-    ({}, ["column.outer_diameter_m, column.height_m, column.wall_m"]),
-    ({"shape": "block", "length_m": 0.1, "width_m": 0.1, "height_m": 1.0, "wall_m": 0.1}, ["column.wall_m = 0.1: says nothing"]),
-    ({"shape": "solid", "outer_diameter_m": 0.1, "height_m": 1.0, "length_m": 0.1}, ["column.length_m = 0.1: says nothing"]),
-    ({"shape": "cone", "height_m": 1.0}, ["column.shape = 'cone'", "tube, solid, block"])])
+@pytest.mark.parametrize(
+    "column, words",
+    [
+        ({"outer_diameter_m": 0.1}, ["column.height_m, column.wall_m: missing", 'shape = "tube"']),
+        ({"shape": "block", "height_m": 1.0}, ["column.length_m, column.width_m: missing"]),
+        ({}, ["column.outer_diameter_m, column.height_m, column.wall_m"]),
+        (
+            {"shape": "block", "length_m": 0.1, "width_m": 0.1, "height_m": 1.0, "wall_m": 0.1},
+            ["column.wall_m = 0.1: says nothing"],
+        ),
+        (
+            {"shape": "solid", "outer_diameter_m": 0.1, "height_m": 1.0, "length_m": 0.1},
+            ["column.length_m = 0.1: says nothing"],
+        ),
+        ({"shape": "cone", "height_m": 1.0}, ["column.shape = 'cone'", "tube, solid, block"]),
+    ],
+)
 def test_a_shape_needs_its_own_dimensions_and_no_others(column, words):
     with pytest.raises(InputError) as caught:
         made(column)
     assert all(word in str(caught.value) for word in words)
 
 
-@pytest.mark.parametrize("flange, words", [
-    ({"outer_diameter_m": 0.09, "thickness_m": 0.01}, ["flange.outer_diameter_m = 0.09", "0.1 m"]),
-    ({"outer_diameter_m": 0.2, "thickness_m": 0.01, "inner_diameter_m": 0.095}, ["flange.inner_diameter_m", "bore, 0.09 m"]),
-    ({"thickness_m": 0.01}, ["flange.outer_diameter_m: missing"])])
+@pytest.mark.parametrize(
+    "flange, words",
+    [
+        (
+            {"outer_diameter_m": 0.09, "thickness_m": 0.01},
+            ["flange.outer_diameter_m = 0.09", "0.1 m"],
+        ),
+        (
+            {"outer_diameter_m": 0.2, "thickness_m": 0.01, "inner_diameter_m": 0.095},
+            ["flange.inner_diameter_m", "bore, 0.09 m"],
+        ),
+        ({"thickness_m": 0.01}, ["flange.outer_diameter_m: missing"]),
+    ],
+)
 def test_a_flange_that_does_not_carry_the_column_is_refused(flange, words):
     with pytest.raises(InputError) as caught:
         made({"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 1.0}, flange=flange)
@@ -104,18 +167,30 @@ def test_a_flange_that_does_not_carry_the_column_is_refused(flange, words):
 
 
 def test_solid_is_a_tube_whose_wall_reaches_the_axis():
-    solid, tube = (made({"outer_diameter_m": 0.1, "height_m": 1.0} | keys) for keys in ({"shape": "solid"}, {"wall_m": 0.05}))
+    solid, tube = (
+        made({"outer_diameter_m": 0.1, "height_m": 1.0} | keys)
+        for keys in ({"shape": "solid"}, {"wall_m": 0.05})
+    )
     assert solid.mesh == tube.mesh and solid.base == tube.base and solid.column.wall_m == 0.05
 
 
 def test_open_sizes_of_a_study_follow_each_of_its_columns(tmp_path):
     from fecolumn.study.plan import read_plan
 
-    (tmp_path / "case.toml").write_text("[column]\nouter_diameter_m = 0.1\nwall_m = 0.005\nheight_m = 1.0\n[integration]\nduration_s = 1.0\n")
-    (tmp_path / "study.toml").write_text('case = "case.toml"\n[axes]\n"column.outer_diameter_m" = [0.1, 0.2]\n')
+    (tmp_path / "case.toml").write_text(
+        "[column]\nouter_diameter_m = 0.1\nwall_m = 0.005\nheight_m = "
+        "1.0\n[integration]\nduration_s = 1.0\n"
+    )
+    (tmp_path / "study.toml").write_text(
+        'case = "case.toml"\n[axes]\n"column.outer_diameter_m" = [0.1, 0.2]\n'
+    )
     first, second = (analysis for analysis in read_plan(tmp_path / "study.toml").analyses)
-    assert second.case.mesh.fine_size_m == pytest.approx(first.case.mesh.fine_size_m * 0.195 / 0.095, rel=1e-3)
-    assert second.case.base.length_m == pytest.approx(0.8) and first.case.base.length_m == pytest.approx(0.4)
+    assert second.case.mesh.fine_size_m == pytest.approx(
+        first.case.mesh.fine_size_m * 0.195 / 0.095, rel=1e-3
+    )
+    assert second.case.base.length_m == pytest.approx(
+        0.8
+    ) and first.case.base.length_m == pytest.approx(0.4)
     assert [one.id for one in (first, second)] == [one.case.id for one in (first, second)]
 
 

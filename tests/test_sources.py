@@ -11,12 +11,34 @@ from fecolumn import __version__, sources
 from fecolumn.case import case_from_tables
 from fecolumn.simulation import run
 
-# Modules that an analysis imports and that decide nothing of its result: they read, write, wait, compile and tell
-_DECIDE_NOTHING = {"__init__.py", "_borrowed.py", "_compiled.py", "_form_compiler.py", "_kernel.py", "atomic.py", "files.py", "lock.py", "model_keys.py", "paths.py",
-                   "post/fields.py", "progress.py",
-                   "result_folder.py", "schema.py", "sealed.py", "simulation.py", "sources.py", "summary.py"}
-_BLOCK = dict(column=dict(shape="block", length_m=0.4, width_m=0.4, height_m=1.2), initial=dict(tilt_rad=0.01),
-              mesh=dict(fine_size_m=0.1, coarse_size_m=0.2, base_size_m=0.2), integration=dict(engine="rigid", duration_s=0.01))
+# Modules that an analysis imports and that decide nothing of its result: they read, write, wait,
+# compile and tell
+_DECIDE_NOTHING = {
+    "__init__.py",
+    "_borrowed.py",
+    "_compiled.py",
+    "_form_compiler.py",
+    "_kernel.py",
+    "atomic.py",
+    "files.py",
+    "lock.py",
+    "model_keys.py",
+    "paths.py",
+    "post/fields.py",
+    "progress.py",
+    "result_folder.py",
+    "schema.py",
+    "sealed.py",
+    "simulation.py",
+    "sources.py",
+    "summary.py",
+}
+_BLOCK = dict(
+    column=dict(shape="block", length_m=0.4, width_m=0.4, height_m=1.2),
+    initial=dict(tilt_rad=0.01),
+    mesh=dict(fine_size_m=0.1, coarse_size_m=0.2, base_size_m=0.2),
+    integration=dict(engine="rigid", duration_s=0.01),
+)
 
 
 @pytest.fixture
@@ -58,18 +80,31 @@ def test_result_of_other_code_is_kept_and_told(block, tmp_path):
     run(block, tmp_path / "out", quiet=True)
     file = tmp_path / "out" / "summary.json"
     file.write_text(json.dumps(json.loads(file.read_text()) | {"sources": "0123456789abcdef"}))
-    with pytest.warns(UserWarning, match=r"holds the result of other code, fecolumn .* \(sources 0123456789abcdef\), which is kept"):
+    with pytest.warns(
+        UserWarning,
+        match=r"holds the result of other code, fecolumn .* \(sources 0123456789abcdef\), "
+        r"which is kept",
+    ):
         assert run(block, tmp_path / "out", quiet=True)["sources"] == "0123456789abcdef"
 
 
 def test_result_that_goes_on_from_other_codes_checkpoint_is_of_both(block, tmp_path):
     with pytest.raises(KeyboardInterrupt):
-        run(case_from_tables(_BLOCK | {"integration": {"engine": "rigid", "duration_s": 0.6}}, "block"), tmp_path / "out", quiet=True, stop=lambda: True)
+        run(
+            case_from_tables(
+                _BLOCK | {"integration": {"engine": "rigid", "duration_s": 0.6}}, "block"
+            ),
+            tmp_path / "out",
+            quiet=True,
+            stop=lambda: True,
+        )
     file = tmp_path / "out" / "checkpoint.npz"
     with np.load(file) as saved:
         arrays = {name: saved[name] for name in saved.files}
     np.savez(file, **arrays | {"sources": "0123456789abcdef"})
-    case = case_from_tables(_BLOCK | {"integration": {"engine": "rigid", "duration_s": 0.6}}, "block")
+    case = case_from_tables(
+        _BLOCK | {"integration": {"engine": "rigid", "duration_s": 0.6}}, "block"
+    )
     with pytest.warns(UserWarning, match="is of other code, .*sources 0123456789abcdef"):
         summary = run(case, tmp_path / "out", quiet=True)
     assert summary["sources"] == f"0123456789abcdef+{sources.package_digest()}"

@@ -1,10 +1,12 @@
-"""Which specimen overturns as often as that of the paper: P(overturn) over diameter and height of the column.
+"""Which specimen overturns as often as that of the paper: P(overturn) over diameter and height of
+the column.
 
     ./containers/run python -m benchmarks.calibration [-o DIR] [-j N]
 
-Katsamakas and Vassiliou (COMPDYN) publish neither dimensions nor motions; they found P(overturn) = 43.5 % at dt = 1e-3 s and alpha = -0.2.
-With the Lick ensemble the column nearest to it is chosen here. 43.5 % is thus a calibration target of meshes/specimen.toml, never a result.
-Writes map.csv, map.png and map.pdf into DIR; half an hour on two cores, resumed where it was stopped.
+Katsamakas and Vassiliou (COMPDYN) publish neither dimensions nor motions; they found P(overturn) =
+43.5 % at dt = 1e-3 s and alpha = -0.2. With the Lick ensemble the column nearest to it is chosen
+here. 43.5 % is thus a calibration target of meshes/specimen.toml, never a result. Writes map.csv,
+map.png and map.pdf into DIR; half an hour on two cores, resumed where it was stopped.
 """
 
 from __future__ import annotations
@@ -55,14 +57,30 @@ def draw(found, path) -> list[Path]:
             row, column = np.searchsorted(heights, height), np.searchsorted(diameters, diameter)
             shares[row, column] = 100 * overturned / done
             low, high = proportion_interval(overturned, done)
-            text = f"{100 * overturned / done:.1f} %\n[{100 * low:.0f}, {100 * high:.0f}]\n$n$ = {done}"
-            axes.text(column, row, text, ha="center", va="center", fontsize=7.5, color="white" if overturned / done > 0.4 else "black")
+            text = (
+                f"{100 * overturned / done:.1f} %\n[{100 * low:.0f}, {100 * high:.0f}]\n$n$ "
+                f"= {done}"
+            )
+            axes.text(
+                column,
+                row,
+                text,
+                ha="center",
+                va="center",
+                fontsize=7.5,
+                color="white" if overturned / done > 0.4 else "black",
+            )
         image = axes.imshow(shares, cmap="Blues", vmin=0, vmax=70, origin="lower", aspect="auto")
-        row, column = (np.searchsorted(lines, value) for lines, value in zip((diameters, heights), nearest(found)))
+        row, column = (
+            np.searchsorted(lines, value)
+            for lines, value in zip((diameters, heights), nearest(found))
+        )
         axes.add_patch(_frame(row, column))
         axes.set_xticks(range(len(diameters)), [f"{1e3 * value:g}" for value in diameters])
         axes.set_yticks(range(len(heights)), [f"{value:g}" for value in heights])
-        axes.set(xlabel="outer diameter [mm], wall 5 mm", ylabel="height [m], with cap 150 x 150 x 10 mm")
+        axes.set(
+            xlabel="outer diameter [mm], wall 5 mm", ylabel="height [m], with cap 150 x 150 x 10 mm"
+        )
         axes.grid(False)
         axes.set_title(f"calibration target: {100 * TARGET:g} %")
         figure.colorbar(image, label=r"$P$(overturn) [%]")
@@ -79,24 +97,58 @@ def table(found) -> str:
     """The map as CSV."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["outer_diameter_m", "height_m", "motions", "overturned", "p_overturn", "wilson_low", "wilson_high"])
+    writer.writerow(
+        [
+            "outer_diameter_m",
+            "height_m",
+            "motions",
+            "overturned",
+            "p_overturn",
+            "wilson_low",
+            "wilson_high",
+        ]
+    )
     for (diameter, height), (overturned, done) in found.items():
         interval = proportion_interval(overturned, done)
-        writer.writerow([diameter, height, done, overturned, *(f"{value:.4f}" for value in (overturned / done, *interval))])
+        writer.writerow(
+            [
+                diameter,
+                height,
+                done,
+                overturned,
+                *(f"{value:.4f}" for value in (overturned / done, *interval)),
+            ]
+        )
     return text.getvalue()
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--output", metavar="DIR", default="results/calibration")
-    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1, help="analyses at a time (default: %(default)s)")
+    parser.add_argument(
+        "-j",
+        "--jobs",
+        metavar="N",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="analyses at a time (default: %(default)s)",
+    )
     args = parser.parse_args()
-    found = cells(run_study(read_plan(Path(__file__).with_name("map.toml")), Path(args.output) / "study", workers=args.jobs, retry_failed=True))
+    found = cells(
+        run_study(
+            read_plan(Path(__file__).with_name("map.toml")),
+            Path(args.output) / "study",
+            workers=args.jobs,
+            retry_failed=True,
+        )
+    )
     write_bytes(Path(args.output) / "map.csv", table(found).encode())
     files = draw(found, Path(args.output) / "map")
     print(table(found), end="")
     diameter, height = nearest(found)
-    print(f"nearest to {100 * TARGET:g} %: outer diameter {1e3 * diameter:g} mm, height {height:g} m")
+    print(
+        f"nearest to {100 * TARGET:g} %: outer diameter {1e3 * diameter:g} mm, height {height:g} m"
+    )
     print("\n".join(f"wrote {file}" for file in files))
 
 

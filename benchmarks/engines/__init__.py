@@ -1,1 +1,4 @@
-"""The reduced engine against the full-order one: physics, convergence, standing still, speed. See __main__."""
+"""The reduced engine against the full-order one: physics, convergence, standing still, speed.
+
+See __main__.
+"""

@@ -26,12 +26,33 @@ from benchmarks.engines.physics import physics
 from benchmarks.engines.speed import motions115, paper, speed
 from benchmarks.engines.standing import standing
 
-GROUPS = {group.__name__: group for group in (physics, convergence, impact, literal, ensemble, standing, speed, motions115, paper)}
+GROUPS = {
+    group.__name__: group
+    for group in (
+        physics,
+        convergence,
+        impact,
+        literal,
+        ensemble,
+        standing,
+        speed,
+        motions115,
+        paper,
+    )
+}
 
 
 def main(names) -> int:
-    """Print the table of the named groups, of all but `paper` without names; 1 where a row fails, 2 for an unknown name."""
-    return print_checks("engines", GROUPS, names or [name for name in GROUPS if name != "paper"], computed="reduced", width=78)
+    """Print the table of the named groups, of all but `paper` without names; 1 where a row fails, 2
+    for an unknown name.
+    """
+    return print_checks(
+        "engines",
+        GROUPS,
+        names or [name for name in GROUPS if name != "paper"],
+        computed="reduced",
+        width=78,
+    )
 
 
 if __name__ == "__main__":

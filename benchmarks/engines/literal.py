@@ -1,7 +1,8 @@
-"""What a first impact takes in the literal HHT scheme (contact.impact = "none"), over what Housner's rigid block loses, by alpha and time step.
+"""What a first impact takes in the literal HHT scheme (contact.impact = "none"), over what
+Housner's rigid block loses, by alpha and time step.
 
-Of the coarse column of benchmarks/literal_scheme.toml in the full-order engine, mu 0.8; the default scheme of the reduced engine beside it, which
-keeps alpha from the contact.
+Of the coarse column of benchmarks/literal_scheme.toml in the full-order engine, mu 0.8; the default
+scheme of the reduced engine beside it, which keeps alpha from the contact.
 """
 
 from __future__ import annotations
@@ -26,18 +27,38 @@ RUNS = ((1e-3, (0.0, -0.05, -0.1, -0.2, -1 / 3)), (2.5e-4, (0.0, -0.2)))
 
 
 def literal():
-    """Loss of the first impact from 0.4 of the critical tilt over Housner's in both schemes, least and most of the releases."""
+    """Loss of the first impact from 0.4 of the critical tilt over Housner's in both schemes, least
+    and most of the releases.
+    """
     case = read_plan(STUDY).analyses[0].case
-    case = dataclasses.replace(case, contact=dataclasses.replace(case.contact, friction_coefficient=0.8))
+    case = dataclasses.replace(
+        case, contact=dataclasses.replace(case.contact, friction_coefficient=0.8)
+    )
     mesh = specimen_mesh(case)
     for dt, alphas in RUNS:
         for alpha in alphas:
             for impact, engine in (("plastic", "reduced"), ("none", "corotated")):
-                chosen = dataclasses.replace(case, contact=dataclasses.replace(case.contact, impact=impact), integration=dataclasses.replace(
-                    case.integration, dt_s=dt, alpha_hht=alpha, engine="full"))
-                ratios = losses(build_system(chosen, MPI.COMM_SELF, mesh), engine, impact, BESIDE if dt == RUNS[0][0] else BESIDE[:1])
-                for word, ratio in (("least", min(ratios)), ("most", max(ratios)))[:len(ratios)]:
-                    yield f"impact = {impact!r}, dt {dt:g} s, alpha_HHT {alpha:.3g}: {word} of {len(ratios)} [-]", 1.0, ratio, None
+                chosen = dataclasses.replace(
+                    case,
+                    contact=dataclasses.replace(case.contact, impact=impact),
+                    integration=dataclasses.replace(
+                        case.integration, dt_s=dt, alpha_hht=alpha, engine="full"
+                    ),
+                )
+                ratios = losses(
+                    build_system(chosen, MPI.COMM_SELF, mesh),
+                    engine,
+                    impact,
+                    BESIDE if dt == RUNS[0][0] else BESIDE[:1],
+                )
+                for word, ratio in (("least", min(ratios)), ("most", max(ratios)))[: len(ratios)]:
+                    yield (
+                        f"impact = {impact!r}, dt {dt:g} s, alpha_HHT {alpha:.3g}: "
+                        f"{word} of {len(ratios)} [-]",
+                        1.0,
+                        ratio,
+                        None,
+                    )
 
 
 def losses(system, engine: str, impact: str, beside) -> list[float]:
@@ -46,12 +67,17 @@ def losses(system, engine: str, impact: str, beside) -> list[float]:
     for more in beside:
         share = SHARE * more
         tilt = share * rigid.slenderness
-        found.append(lost(begin(engine, system, leaning(share), impact), tilt) / (rigid.energy(tilt) * (1 - rigid.restitution**2)))
+        found.append(
+            lost(begin(engine, system, leaning(share), impact), tilt)
+            / (rigid.energy(tilt) * (1 - rigid.restitution**2))
+        )
     return found
 
 
 def lost(trial, tilt: float) -> float:
-    """Mechanical energy [J] lost between a third of the tilt of release on one side and a third of it on the other, as in `impact`."""
+    """Mechanical energy [J] lost between a third of the tilt of release on one side and a third of
+    it on the other, as in `impact`.
+    """
     before, lean = None, 1.0
     while lean > 0 or tilt_angle(trial.state.rotation) < tilt / 3:
         trial.step()

@@ -48,4 +48,4 @@ def engine(case: Case) -> Engine:
 def column(rows: np.ndarray, name: str) -> np.ndarray:
     """A column of the reduced engine's rows by its name in the history file."""
     place, width = _PLACES[name], dict(COLUMNS)[name]
-    return rows[:, place] if width == 1 else rows[:, place:place + width]
+    return rows[:, place] if width == 1 else rows[:, place : place + width]

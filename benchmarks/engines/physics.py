@@ -32,9 +32,19 @@ def physics():
 
 
 def thresholds():
-    """Slow ramps of the ground acceleration: uplift at mu 0.8, sliding at mu 0.02, where so slender a column does not lift before."""
-    for name, friction, found in (("uplift, mu 0.8", 0.8, lambda trial: lifted(trial)[1]), ("sliding, mu 0.02", 0.02, lambda trial: slipped(trial, 0.02))):
-        system = system_of(case_of(contact={"friction_coefficient": friction}, integration={"dt_s": 4e-3, "alpha_hht": 0.0}))
+    """Slow ramps of the ground acceleration: uplift at mu 0.8, sliding at mu 0.02, where so slender
+    a column does not lift before.
+    """
+    for name, friction, found in (
+        ("uplift, mu 0.8", 0.8, lambda trial: lifted(trial)[1]),
+        ("sliding, mu 0.02", 0.02, lambda trial: slipped(trial, 0.02)),
+    ):
+        system = system_of(
+            case_of(
+                contact={"friction_coefficient": friction},
+                integration={"dt_s": 4e-3, "alpha_hht": 0.0},
+            )
+        )
         full, reduced = (found(begin(one, system)) for one in ENGINES)
         yield f"{name}: ground acceleration [m/s2]", full, reduced, abs(reduced / full - 1) <= 0.005
 
@@ -46,29 +56,57 @@ def rocking():
     initial = rigid.energy(0.4 * rigid.slenderness)
     full, reduced = (rocked(begin(one, system, leaning(0.4)), 0.4) for one in ENGINES)
     rebounds = [np.sqrt(1 - lost / initial) for _, lost in (full, reduced)]
-    yield "free rocking from 0.4 alpha: quarter period [s]", full[0], reduced[0], abs(reduced[0] / full[0] - 1) <= 0.005
-    yield "free rocking from 0.4 alpha: restitution, release included, both engines [-]", *rebounds, abs(rebounds[1] / rebounds[0] - 1) <= 0.005
+    yield (
+        "free rocking from 0.4 alpha: quarter period [s]",
+        full[0],
+        reduced[0],
+        abs(reduced[0] / full[0] - 1) <= 0.005,
+    )
+    yield (
+        "free rocking from 0.4 alpha: restitution, release included, both engines [-]",
+        *rebounds,
+        abs(rebounds[1] / rebounds[0] - 1) <= 0.005,
+    )
     # no judgement: the loss of an elastic column depends on the step, see `impact`
-    yield "free rocking from 0.4 alpha: restitution, beside a rigid block's (Housner) [-]", rigid.restitution, rebounds[1], None
+    yield (
+        "free rocking from 0.4 alpha: restitution, beside a rigid block's (Housner) [-]",
+        rigid.restitution,
+        rebounds[1],
+        None,
+    )
 
 
 def motions(count: int = MOTIONS, most: int = MOST):
-    """Largest difference of u_top, over its peak, from the strong shaking's begin to the third main impact, with the default's modes and with
-    MODES; and what a disturbance of 1 um/s changes in the reduced engine alone, which no two programs can be asked to come closer than."""
+    """Largest difference of u_top, over its peak, from the strong shaking's begin to the third main
+    impact, with the default's modes and with MODES; and what a disturbance of 1 um/s changes in the
+    reduced engine alone, which no two programs can be asked to come closer than.
+    """
     case, richer = case_of(), case_of(integration={"n_modes": MODES})
     system, found, steps = system_of(case), [], 0
     for number in range(1, count + 1):
-        shaking = strong_shaking(number, BEGIN).acceleration[1:most + 1]
+        shaking = strong_shaking(number, BEGIN).acceleration[1 : most + 1]
         began = time.perf_counter()
         path, impacts = full_order(system, shaking)
-        shaking = shaking[:len(path)]
+        shaking = shaking[: len(path)]
         reduced = reduced_order(case, shaking)
         off, peak = difference(path, reduced)
         more = difference(path, reduced_order(richer, shaking))[0]
-        scatter = max(difference(reduced, reduced_order(case, shaking, DISTURBANCE * np.array([np.cos(angle), np.sin(angle)])))[0]
-                      for angle in np.arange(8) * np.pi / 4)
-        print(f"motion {number}: {len(path)} steps, main impacts at {impacts}, peak {peak:.4f} m, off {off:.2e}, with {MODES} modes {more:.2e}, "
-              f"disturbed {scatter:.2e}, {time.perf_counter() - began:.0f} s", file=sys.stderr, flush=True)
+        scatter = max(
+            difference(
+                reduced,
+                reduced_order(
+                    case, shaking, DISTURBANCE * np.array([np.cos(angle), np.sin(angle)])
+                ),
+            )[0]
+            for angle in np.arange(8) * np.pi / 4
+        )
+        print(
+            f"motion {number}: {len(path)} steps, main impacts at {impacts}, peak "
+            f"{peak:.4f} m, off {off:.2e}, with {MODES} modes {more:.2e}, "
+            f"disturbed {scatter:.2e}, {time.perf_counter() - began:.0f} s",
+            file=sys.stderr,
+            flush=True,
+        )
         found.append((off, more, scatter))
         steps += len(path)
     offs, mores, scatters = np.transpose(found)
@@ -76,12 +114,24 @@ def motions(count: int = MOTIONS, most: int = MOST):
         text = f"{count} motions, {steps} steps, {modes} modes: u_top off / peak"
         yield f"{text}, worst [-]", 0.0, values.max(), values.max() <= 0.01
         yield f"{text}, median [-]", 0.0, np.median(values), np.median(values) <= 0.01
-    yield f"the same, {case.integration.n_modes} modes disturbed by 1 um/s, worst [-]", 0.0, scatters.max(), None
-    yield f"the same, {case.integration.n_modes} modes disturbed by 1 um/s, median [-]", 0.0, np.median(scatters), None
+    yield (
+        f"the same, {case.integration.n_modes} modes disturbed by 1 um/s, worst [-]",
+        0.0,
+        scatters.max(),
+        None,
+    )
+    yield (
+        f"the same, {case.integration.n_modes} modes disturbed by 1 um/s, median [-]",
+        0.0,
+        np.median(scatters),
+        None,
+    )
 
 
 def reduced_order(case, shaking, disturbance=(0.0, 0.0)) -> np.ndarray:
-    """Displacements (n, 2) [m] of the top in the reduced engine, its velocity changed by `disturbance` (2,) [m/s] after AFTER steps."""
+    """Displacements (n, 2) [m] of the top in the reduced engine, its velocity changed by
+    `disturbance` (2,) [m/s] after AFTER steps.
+    """
     one = engine(case)
     rows = one.advance(shaking[:AFTER])[0]
     one.motion.frames["velocity"][0, :2] += disturbance
@@ -91,7 +141,8 @@ def reduced_order(case, shaking, disturbance=(0.0, 0.0)) -> np.ndarray:
 def full_order(system, shaking) -> tuple[np.ndarray, list[int]]:
     """Displacements (n, 2) [m] of the top to the third main impact, and the steps of these.
 
-    A main impact takes more than a five-thousandth of the energy that tips the column over; a tenth of a second belongs to it.
+    A main impact takes more than a five-thousandth of the energy that tips the column over; a tenth
+    of a second belongs to it.
     """
     trial, rigid, path, impacts, seen = Trial(system), RigidRocking(system), [], [], 0.0
     main = 2e-4 * rigid.energy(rigid.slenderness)
@@ -111,4 +162,4 @@ def full_order(system, shaking) -> tuple[np.ndarray, list[int]]:
 def difference(path: np.ndarray, other: np.ndarray) -> tuple[float, float]:
     """Largest horizontal distance over the peak of `path` (n, 2), and this peak [m]."""
     peak = np.linalg.norm(path, axis=1).max()
-    return float(np.linalg.norm(other[:len(path), :2] - path, axis=1).max() / peak), float(peak)
+    return float(np.linalg.norm(other[: len(path), :2] - path, axis=1).max() / peak), float(peak)

@@ -1,1 +1,3 @@
-"""The contact solver on friction problems of many bodies, beside Siconos; `python -m benchmarks.friction`."""
+"""The contact solver on friction problems of many bodies, beside Siconos; `python -m
+benchmarks.friction`.
+"""

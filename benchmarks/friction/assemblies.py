@@ -1,7 +1,9 @@
-"""Friction problems of assemblies of rigid bodies, from the geometry and a seed alone: W = H M^-1 H^T, q = H v.
+"""Friction problems of assemblies of rigid bodies, from the geometry and a seed alone: W = H M^-1
+H^T, q = H v.
 
-Of the kind of the Friction Contact Library (Acary, Bremond, Koziara and Perignon 2014): stacks, walls, arches, heaps. Blocks touch at more
-corners than they have degrees of freedom, so W is only semidefinite and the forces are not unique, while the velocities mostly are.
+Of the kind of the Friction Contact Library (Acary, Bremond, Koziara and Perignon 2014): stacks,
+walls, arches, heaps. Blocks touch at more corners than they have degrees of freedom, so W is only
+semidefinite and the forces are not unique, while the velocities mostly are.
 """
 
 from __future__ import annotations
@@ -24,9 +26,13 @@ FLOOR = -1
 class Assembly:
     """Rigid bodies and the points at which they touch.
 
-    Attributes:
-        name: in tables. masses [kg], inertias (3, 3) [kg m2], centres (3,) [m]: of each body. contacts: slave, master (FLOOR: the fixed one),
-            place (3,) [m], frame (3, 3) with rows t1, t2, n, n from master to slave.
+    Attributes
+    ----------
+    name
+        in tables. masses [kg], inertias (3, 3) [kg m2], centres (3,) [m]: of each body.
+    contacts
+        slave, master (FLOOR: the fixed one), place (3,) [m], frame (3, 3) with rows t1, t2, n, n
+        from master to slave.
     """
 
     name: str
@@ -37,13 +43,19 @@ class Assembly:
 
     def body(self, mass, inertia, centre) -> int:
         """Add a body; its number."""
-        self.masses.append(mass), self.inertias.append(np.asarray(inertia, float)), self.centres.append(np.asarray(centre, float))
+        (
+            self.masses.append(mass),
+            self.inertias.append(np.asarray(inertia, float)),
+            self.centres.append(np.asarray(centre, float)),
+        )
         return len(self.masses) - 1
 
     def box(self, centre, size, turn=np.eye(3)) -> int:
         """Add a block of size (3,) [m] whose edges are the columns of `turn`; its number."""
         mass, squares = DENSITY * np.prod(size), np.square(size)
-        return self.body(mass, turn @ np.diag(mass / 12 * (squares.sum() - squares)) @ turn.T, centre)
+        return self.body(
+            mass, turn @ np.diag(mass / 12 * (squares.sum() - squares)) @ turn.T, centre
+        )
 
     def touch(self, slave, master, place, normal=(0.0, 0.0, 1.0)) -> None:
         """Add a contact."""
@@ -51,10 +63,14 @@ class Assembly:
         first = np.eye(3)[np.abs(n).argmin()]
         t1 = first - n * (n @ first)
         t1 /= np.linalg.norm(t1)
-        self.contacts.append((slave, master, np.asarray(place, float), np.array([t1, np.cross(n, t1), n])))
+        self.contacts.append(
+            (slave, master, np.asarray(place, float), np.array([t1, np.cross(n, t1), n]))
+        )
 
     def problem(self, load: str, mu: float, seed: int = 0) -> Problem:
-        """The friction problem of one step: from rest, on a floor shaken at 0.45 g, or of bodies that fly at random into each other."""
+        """The friction problem of one step: from rest, on a floor shaken at 0.45 g, or of bodies
+        that fly at random into each other.
+        """
         random, nb = np.random.default_rng(seed), len(self.masses)
         roots = [np.linalg.cholesky(np.linalg.inv(inertia)) for inertia in self.inertias]
         velocity = np.zeros((nb, 6))
@@ -62,7 +78,14 @@ class Assembly:
         if load == "shake":
             velocity[:, :2] = STEP_S * GRAVITY * np.array([0.4, 0.2])
         if load == "impact":
-            velocity += random.standard_normal((nb, 6)) * [0.2, 0.2, 0.2, 1, 1, 1] - [0, 0, 0.5, 0, 0, 0]
+            velocity += random.standard_normal((nb, 6)) * [0.2, 0.2, 0.2, 1, 1, 1] - [
+                0,
+                0,
+                0.5,
+                0,
+                0,
+                0,
+            ]
         half, q = np.zeros((3 * len(self.contacts), 6 * nb)), np.zeros((len(self.contacts), 3))
         for i, (slave, master, place, frame) in enumerate(self.contacts):
             for body, sign in ((slave, 1), (master, -1)):
@@ -71,22 +94,37 @@ class Assembly:
                 x, y, z = place - self.centres[body]
                 spin = np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]])
                 q[i] += sign * frame @ (velocity[body, :3] + spin @ velocity[body, 3:])
-                half[3 * i:3 * i + 3, 6 * body:6 * body + 3] = sign * frame / np.sqrt(self.masses[body])
-                half[3 * i:3 * i + 3, 6 * body + 3:6 * body + 6] = sign * frame @ spin @ roots[body]
+                half[3 * i : 3 * i + 3, 6 * body : 6 * body + 3] = (
+                    sign * frame / np.sqrt(self.masses[body])
+                )
+                half[3 * i : 3 * i + 3, 6 * body + 3 : 6 * body + 6] = (
+                    sign * frame @ spin @ roots[body]
+                )
         return Problem(f"{self.name}, {load}", half @ half.T, q, mu)
 
 
 def boxes(name: str, spans) -> Assembly:
-    """Blocks (lower corner, upper corner), which touch the floor and each other at the corners of their common rectangles."""
+    """Blocks (lower corner, upper corner), which touch the floor and each other at the corners of
+    their common rectangles.
+    """
     assembly, spans = Assembly(name), [np.array(span, float) for span in spans]
     for low, high in spans:
         assembly.box((low + high) / 2, high - low)
     for i, upper in enumerate(spans):
-        below = [(FLOOR, upper)] if upper[0, 2] == 0 else [(j, s) for j, s in enumerate(spans) if abs(s[1, 2] - upper[0, 2]) < 1e-9]
+        below = (
+            [(FLOOR, upper)]
+            if upper[0, 2] == 0
+            else [(j, s) for j, s in enumerate(spans) if abs(s[1, 2] - upper[0, 2]) < 1e-9]
+        )
         for j, lower in below:
             low, high = np.maximum(upper[0], lower[0]), np.minimum(upper[1], lower[1])
             if (high - low)[:2].min() > 1e-9:
-                for x, y in ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])):
+                for x, y in (
+                    (low[0], low[1]),
+                    (high[0], low[1]),
+                    (high[0], high[1]),
+                    (low[0], high[1]),
+                ):
                     assembly.touch(i, j, (x, y, upper[0, 2]))
     return assembly
 
@@ -94,7 +132,10 @@ def boxes(name: str, spans) -> Assembly:
 def stack(count: int) -> Assembly:
     """Blocks on top of each other, each a little aside: 4 points a joint."""
     aside = [0.03 * np.array([np.cos(2.4 * k), np.sin(2.4 * k)]) for k in range(count)]
-    return boxes(f"stack of {count}", [((*(a - 0.2), 0.3 * k), (*(a + 0.2), 0.3 * (k + 1))) for k, a in enumerate(aside)])
+    return boxes(
+        f"stack of {count}",
+        [((*(a - 0.2), 0.3 * k), (*(a + 0.2), 0.3 * (k + 1))) for k, a in enumerate(aside)],
+    )
 
 
 def wall(courses: int, width: int) -> Assembly:
@@ -111,15 +152,25 @@ def arch(count: int, inner: float = 1.0, outer: float = 1.25, depth: float = 0.3
     assembly = Assembly(f"arch of {count}")
     for k in range(count):
         angle = np.pi * (k + 0.5) / count
-        radial, along = np.array([np.cos(angle), 0, np.sin(angle)]), np.array([-np.sin(angle), 0, np.cos(angle)])
+        radial, along = (
+            np.array([np.cos(angle), 0, np.sin(angle)]),
+            np.array([-np.sin(angle), 0, np.cos(angle)]),
+        )
         size = (outer - inner, depth, (inner + outer) / 2 * np.pi / count)
-        assembly.box((inner + outer) / 2 * radial, size, np.column_stack([radial, [0, 1, 0], along]))
+        assembly.box(
+            (inner + outer) / 2 * radial, size, np.column_stack([radial, [0, 1, 0], along])
+        )
     for k in range(count + 1):
         angle = np.pi * k / count
         for radius in (inner, outer):
             for y in (-depth / 2, depth / 2):
                 place = (radius * np.cos(angle), y, radius * np.sin(angle))
-                assembly.touch(k if k < count else FLOOR, k - 1 if k else FLOOR, place, (-np.sin(angle), 0, np.cos(angle)))
+                assembly.touch(
+                    k if k < count else FLOOR,
+                    k - 1 if k else FLOOR,
+                    place,
+                    (-np.sin(angle), 0, np.cos(angle)),
+                )
     return assembly
 
 
@@ -152,16 +203,25 @@ def drum(points: int, radius: float = 0.25, height: float = 1.6) -> Assembly:
 
 
 def scatter(points: int, bodies: int, seed: int) -> Assembly:
-    """Bodies of random mass, and contacts at random places with random normals between random pairs of them and the floor."""
+    """Bodies of random mass, and contacts at random places with random normals between random pairs
+    of them and the floor.
+    """
     random, assembly = np.random.default_rng(seed), Assembly(f"{bodies} at random, seed {seed}")
     for _ in range(bodies):
         turn = np.linalg.qr(random.standard_normal((3, 3)))[0]
         assembly.box(random.uniform(-1, 1, 3), random.uniform(0.1, 0.5, 3), turn)
     for k in range(points):
         slave = k % bodies
-        master = FLOOR if k < bodies else random.choice([j for j in range(-1, bodies) if j != slave])
+        master = (
+            FLOOR if k < bodies else random.choice([j for j in range(-1, bodies) if j != slave])
+        )
         place = assembly.centres[slave] + random.uniform(-0.3, 0.3, 3)
-        assembly.touch(slave, int(master), place, random.standard_normal(3) + ([0, 0, 2] if master == FLOOR else [0, 0, 0]))
+        assembly.touch(
+            slave,
+            int(master),
+            place,
+            random.standard_normal(3) + ([0, 0, 2] if master == FLOOR else [0, 0, 0]),
+        )
     return assembly
 
 
@@ -180,4 +240,9 @@ def assemblies() -> Iterator[Assembly]:
 
 def problems() -> list[Problem]:
     """Every assembly under every load with every coefficient, always the same."""
-    return [assembly.problem(load, mu, seed=k) for k, assembly in enumerate(assemblies()) for load in LOADS for mu in COEFFICIENTS]
+    return [
+        assembly.problem(load, mu, seed=k)
+        for k, assembly in enumerate(assemblies())
+        for load in LOADS
+        for mu in COEFFICIENTS
+    ]

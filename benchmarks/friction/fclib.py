@@ -1,6 +1,8 @@
-"""Friction problems from files: HDF5 of the Friction Contact Library, and the text of Siconos' own test problems.
+"""Friction problems from files: HDF5 of the Friction Contact Library, and the text of Siconos' own
+test problems.
 
-The library is at https://frictionalcontactlibrary.github.io; its problems are not part of this project.
+The library is at https://frictionalcontactlibrary.github.io; its problems are not part of this
+project.
 """
 
 from __future__ import annotations
@@ -18,8 +20,10 @@ from benchmarks.friction.problem import Problem
 def read_problem(path: Path) -> Problem:
     """A problem in three dimensions of either kind of file.
 
-    Raises:
-        ValueError: not such a problem; the message says which file and why.
+    Raises
+    ------
+    ValueError
+        not such a problem; the message says which file and why.
     """
     try:
         W, q, mu = _hdf5(path) if path.suffix == ".hdf5" else _text(path)
@@ -84,9 +88,11 @@ def _text(path):
                 for block in range(starts[row], starts[row + 1]):
                     if int(next(words)) != block:
                         raise ValueError(f"block {block} of {count} is not where it should be")
-                    top, end = ends[0][row:row + 2]
-                    left, right = ends[1][where[block]:where[block] + 2]
-                    W[top:end, left:right] = take((end - top) * (right - left)).reshape(right - left, end - top).T
+                    top, end = ends[0][row : row + 2]
+                    left, right = ends[1][where[block] : where[block] + 2]
+                    W[top:end, left:right] = (
+                        take((end - top) * (right - left)).reshape(right - left, end - top).T
+                    )
         q, mu = take(rows), take(n)
         # older files end with a flag
         if len(rest := list(words)) > 1:

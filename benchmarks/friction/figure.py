@@ -1,4 +1,6 @@
-"""Figure of a comparison of solvers: performance profiles, and violation of the laws against CPU time."""
+"""Figure of a comparison of solvers: performance profiles, and violation of the laws against CPU
+time.
+"""
 
 from __future__ import annotations
 
@@ -14,10 +16,11 @@ MARKERS = "o^sv"
 
 
 def profile(times) -> tuple[np.ndarray, np.ndarray]:
-    """Performance profiles (Dolan and More 2002): ratios (k,), rising from 1, and for each the shares (k, s) of problems that a solver solves in so many
-    times the least time of all solvers.
+    """Performance profiles (Dolan and More 2002): ratios (k,), rising from 1, and for each the
+    shares (k, s) of problems that a solver solves in so many times the least time of all solvers.
 
-    times: (p, s) [s] of s solvers on p problems, inf where one does not solve it. Problems that none solves count as problems.
+    times: (p, s) [s] of s solvers on p problems, inf where one does not solve it. Problems that
+    none solves count as problems.
     """
     times = np.maximum(times, LEAST_S)
     best = times.min(axis=1, keepdims=True)
@@ -27,21 +30,51 @@ def profile(times) -> tuple[np.ndarray, np.ndarray]:
 
 
 def performance_figure(records, labels: dict[str, str], solved: float, path) -> list[Path]:
-    """Write the figure; records: of `compared`; labels: of the solvers by name; solved: violation below which a problem counts as solved."""
+    """Write the figure; records: of `compared`; labels: of the solvers by name; solved: violation
+    below which a problem counts as solved.
+    """
     names = [name for name in labels if any(name in record["solvers"] for record in records)]
     one = {name: [record["solvers"].get(name, {}) for record in records] for name in names}
     seconds = np.array([[found.get("seconds", np.inf) for found in one[name]] for name in names]).T
-    violations = np.array([[found.get("violation", np.inf) for found in one[name]] for name in names]).T
+    violations = np.array(
+        [[found.get("violation", np.inf) for found in one[name]] for name in names]
+    ).T
     ratios, reached = profile(np.where(violations <= solved, seconds, np.inf))
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, 2.9)
         left, right = figure.subplots(1, 2)
         for k, name in enumerate(names):
             color, dash = LINES[k]
-            left.step([*ratios, 2 * ratios[-1]], [*reached[:, k], reached[-1, k]], where="post", color=color, linestyle=dash, label=labels[name])
-            right.plot(1e3 * np.maximum(seconds[:, k], LEAST_S), np.clip(violations[:, k], LEAST, 10.0), MARKERS[k % len(MARKERS)], color=color, markersize=2.5, markeredgewidth=0, alpha=0.6)
-        left.set(xscale="log", xlabel="CPU time over that of the fastest solver [-]", ylabel=f"share of {len(records)} problems solved [-]", ylim=(0, 1.02), xlim=(1, 2 * ratios[-1]))
+            left.step(
+                [*ratios, 2 * ratios[-1]],
+                [*reached[:, k], reached[-1, k]],
+                where="post",
+                color=color,
+                linestyle=dash,
+                label=labels[name],
+            )
+            right.plot(
+                1e3 * np.maximum(seconds[:, k], LEAST_S),
+                np.clip(violations[:, k], LEAST, 10.0),
+                MARKERS[k % len(MARKERS)],
+                color=color,
+                markersize=2.5,
+                markeredgewidth=0,
+                alpha=0.6,
+            )
+        left.set(
+            xscale="log",
+            xlabel="CPU time over that of the fastest solver [-]",
+            ylabel=f"share of {len(records)} problems solved [-]",
+            ylim=(0, 1.02),
+            xlim=(1, 2 * ratios[-1]),
+        )
         left.legend(loc="lower right")
         right.axhline(solved, color="black", linewidth=0.6)
-        right.set(xscale="log", yscale="log", xlabel="CPU time [ms]", ylabel="violation of the laws over max $|q|$ [-]")
+        right.set(
+            xscale="log",
+            yscale="log",
+            xlabel="CPU time [ms]",
+            ylabel="violation of the laws over max $|q|$ [-]",
+        )
         return save(figure, path)

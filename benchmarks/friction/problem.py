@@ -12,12 +12,21 @@ RANK = 1e-10
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """Find r with u = W r + q, r in Coulomb's cone, u opposed by it: a velocity problem, or one of displacements.
+    """Find r with u = W r + q, r in Coulomb's cone, u opposed by it: a velocity problem, or one of
+    displacements.
 
-    Attributes:
-        name: in tables. W: (3 n, 3 n) symmetric, positive semidefinite [1/kg]. q: (n, 3) relative velocity without forces [m/s]; x, y
-            tangential, z normal, opening positive. mu: friction coefficient of all points, or (n,). start: (n, 3) forces that are a first guess, where
-            there is one.
+    Attributes
+    ----------
+    name
+        in tables.
+    W
+        (3 n, 3 n) symmetric, positive semidefinite [1/kg].
+    q
+        (n, 3) relative velocity without forces [m/s]; x, y tangential, z normal, opening positive.
+    mu
+        friction coefficient of all points, or (n,).
+    start
+        (n, 3) forces that are a first guess, where there is one.
     """
 
     name: str
@@ -34,14 +43,18 @@ class Problem:
     @property
     def rank(self) -> int:
         """Rank of W."""
-        return int(np.linalg.matrix_rank(self.W, tol=RANK * np.linalg.norm(self.W, 2), hermitian=True))
+        return int(
+            np.linalg.matrix_rank(self.W, tol=RANK * np.linalg.norm(self.W, 2), hermitian=True)
+        )
 
     def relative(self, forces) -> np.ndarray:
         """u (n, 3) under forces (n, 3)."""
         return (self.W @ np.ravel(forces)).reshape(-1, 3) + self.q
 
     def softened(self, share: float) -> Problem:
-        """The same with a compliance of each point's own, a share of W's mean diagonal: W becomes definite."""
+        """The same with a compliance of each point's own, a share of W's mean diagonal: W becomes
+        definite.
+        """
         own = share * np.trace(self.W) / len(self.W)
         return Problem(self.name, self.W + own * np.eye(len(self.W)), self.q, self.mu, self.start)
 
@@ -58,11 +71,12 @@ def on_cone(x, mu) -> np.ndarray:
 
 
 def violation(problem: Problem, forces) -> float:
-    """Natural map of the bipotential (De Saxce and Feng 1998): largest |r - P(r - rho (u + mu |u_t| n))| / rho over max |q|.
+    """Natural map of the bipotential (De Saxce and Feng 1998): largest |r - P(r - rho (u + mu |u_t|
+    n))| / rho over max |q|.
 
-    P: on Coulomb's cone; rho: 3 over the trace of the point's own block of W. Zero exactly at a solution. The project's own residual
-    projects on the disk of the present normal force instead: the two agree at solutions only. Infinite where forces are no numbers, or too
-    large for one.
+    P: on Coulomb's cone; rho: 3 over the trace of the point's own block of W. Zero exactly at a
+    solution. The project's own residual projects on the disk of the present normal force instead:
+    the two agree at solutions only. Infinite where forces are no numbers, or too large for one.
     """
     forces, mu = np.reshape(forces, (-1, 3)), np.broadcast_to(problem.mu, problem.points)
     if not np.abs(forces).max() < 1e100:

@@ -1,4 +1,5 @@
-"""Files damaged in every way met so far, and whether each is used or refused in one line: see `python -m benchmarks.fuzz --help`.
+"""Files damaged in every way met so far, and whether each is used or refused in one line: see
+`python -m benchmarks.fuzz --help`.
 
 A subject is a module with
 

@@ -56,7 +56,10 @@ def prepare(folder) -> None:
     (folder / "specimen.toml").write_text(_SPECIMEN)
     (folder / "case.toml").write_text(_CASE)
     time = np.arange(0, 2, 0.01)
-    (folder / "motion.csv").write_text("time [s],ax [g],ay [g]\n" + "".join(f"{t:.2f},{np.sin(9 * t):.5f},{np.cos(7 * t):.5f}\n" for t in time))
+    (folder / "motion.csv").write_text(
+        "time [s],ax [g],ay [g]\n"
+        + "".join(f"{t:.2f},{np.sin(9 * t):.5f},{np.cos(7 * t):.5f}\n" for t in time)
+    )
 
 
 def sound(folder):

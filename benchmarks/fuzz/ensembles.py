@@ -19,8 +19,12 @@ _FOREIGN = 0.15  # share of mutants without a seal: each takes a process of its 
 def prepare(folder) -> None:
     """Three motions."""
     rng = np.random.default_rng(0)
-    motions = tuple(GroundMotion(rng.standard_normal((300, 3)), 0.01, f"noise {i}", "drawn") for i in range(3))
-    write_ensemble(Ensemble("noise", motions, {"seed": np.arange(3.0)}, {"model": "noise"}), folder / "e.h5")
+    motions = tuple(
+        GroundMotion(rng.standard_normal((300, 3)), 0.01, f"noise {i}", "drawn") for i in range(3)
+    )
+    write_ensemble(
+        Ensemble("noise", motions, {"seed": np.arange(3.0)}, {"model": "noise"}), folder / "e.h5"
+    )
 
 
 def sound(folder):
@@ -36,7 +40,7 @@ def mutate(rng, folder):
         displaced(rng, path)
         return path
     if rng.random() < _FOREIGN:
-        content = whole[:-len(sealed(b""))]
+        content = whole[: -len(sealed(b""))]
         for _ in range(int(rng.integers(1, 3))):
             content = (flip, flip, cut, zeroed)[int(rng.integers(4))](rng, content)
         write_bytes(path, content)

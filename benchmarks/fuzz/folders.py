@@ -1,4 +1,6 @@
-"""Study folders, their ledgers and results; whatever is wrong, no figure that is not the analyses' own comes out."""
+"""Study folders, their ledgers and results; whatever is wrong, no figure that is not the analyses'
+own comes out.
+"""
 
 from __future__ import annotations
 
@@ -28,15 +30,42 @@ case = "specimen.toml"
 "motion.source" = ["pulse:1", "pulse:2", "pulse:3"]
 """
 ENTRY = "benchmarks.fuzz.folders:analyse"
-_FALSE = [[], 1, "text", None, {}, {"u_max_m": -1.0}, {"u_max_m": float("nan")}, {"u_max_m": "0.1"}, {"u_max_m": True}, {"overturned": 1},
-          {"case_id": "another"}, {"energy_closure_rel": 10**400}, {"steps": [1]}, {"wall_s": None}, {"s_per_step": 1e999}, {"energy_j": 3}]
+_FALSE = [
+    [],
+    1,
+    "text",
+    None,
+    {},
+    {"u_max_m": -1.0},
+    {"u_max_m": float("nan")},
+    {"u_max_m": "0.1"},
+    {"u_max_m": True},
+    {"overturned": 1},
+    {"case_id": "another"},
+    {"energy_closure_rel": 10**400},
+    {"steps": [1]},
+    {"wall_s": None},
+    {"s_per_step": 1e999},
+    {"energy_j": 3},
+]
 
 
 def analyse(case, folder, *, comm=None, file="", quiet=True) -> dict:
     """An analysis whose figures follow from the case alone."""
     number = int(case.id, 16) % 1000
-    summary = {"case_id": case.id, "version": "0", "u_max_m": 1e-3 * number, "overturned": number > 700, "residual_slide_m": 0.0, "steps": number,
-               "wall_s": 1.0, "s_per_step": 1e-3, "energy_closure_rel": 1e-9, "energy_j": {"impact": -1.0}, "overturn_time_s": 1.0}
+    summary = {
+        "case_id": case.id,
+        "version": "0",
+        "u_max_m": 1e-3 * number,
+        "overturned": number > 700,
+        "residual_slide_m": 0.0,
+        "steps": number,
+        "wall_s": 1.0,
+        "s_per_step": 1e-3,
+        "energy_closure_rel": 1e-9,
+        "energy_j": {"impact": -1.0},
+        "overturn_time_s": 1.0,
+    }
     write_json(Path(folder) / "summary.json", summary)
     return summary
 
@@ -61,7 +90,11 @@ class OwnTeam:
 
     def collect(self, timeout_s: float) -> list:
         with streams_kept():
-            return list(work_off(self._batches.popleft(), analyse, "study.toml")) if self._batches else []
+            return (
+                list(work_off(self._batches.popleft(), analyse, "study.toml"))
+                if self._batches
+                else []
+            )
 
     def stop(self) -> None:
         self._batches.clear()
@@ -69,7 +102,9 @@ class OwnTeam:
 
 def _run(folder: Path) -> list[dict]:
     plan = _plan(folder.parent / "study.toml")
-    rows = run_study(plan, folder, entry=ENTRY, stream=io.StringIO(), team=OwnTeam(), retry_failed=True)
+    rows = run_study(
+        plan, folder, entry=ENTRY, stream=io.StringIO(), team=OwnTeam(), retry_failed=True
+    )
     write_tables(plan, rows, folder)
     return rows
 
@@ -85,11 +120,19 @@ _plan = functools.cache(read_plan)
 def prepare(folder: Path) -> None:
     """A study that is done."""
     cases.prepare(folder)
-    (folder / "study.toml").write_text(_STUDY.replace("[axes]", '[axes]\n"integration.duration_s" = [1.0]'))
+    (folder / "study.toml").write_text(
+        _STUDY.replace("[axes]", '[axes]\n"integration.duration_s" = [1.0]')
+    )
     for row in _run(folder / "out"):
-        tables = {"column": {"outer_diameter_m": 0.1, "height_m": 1.0, "wall_m": 0.01}, "base": {"length_m": 1.0, "width_m": 1.0, "thickness_m": 0.1},
-                  "integration": {"duration_s": 1.0}}
-        write_json(folder / "out" / "analyses" / row["id"] / "case.json", {"id": row["id"], "file": "case.toml", "case": tables})
+        tables = {
+            "column": {"outer_diameter_m": 0.1, "height_m": 1.0, "wall_m": 0.01},
+            "base": {"length_m": 1.0, "width_m": 1.0, "thickness_m": 0.1},
+            "integration": {"duration_s": 1.0},
+        }
+        write_json(
+            folder / "out" / "analyses" / row["id"] / "case.json",
+            {"id": row["id"], "file": "case.toml", "case": tables},
+        )
 
 
 def sound(folder: Path) -> Path:
@@ -102,8 +145,21 @@ def mutate(rng, folder: Path) -> Path:
     out = folder / "out"
     for _ in range(int(rng.integers(1, 3))):
         result = out / "analyses" / str(rng.choice(sorted(_truth(folder / "study.toml"))))
-        path = [out / "study.sqlite", out / "study.sqlite", out / "study.json", result / "summary.json", result / "summary.json", result / "case.json",
-                out / "study.lock", out / "analyses", out / "logs", result, out / "table.csv", out / "study.sqlite-wal", out][int(rng.integers(13))]
+        path = [
+            out / "study.sqlite",
+            out / "study.sqlite",
+            out / "study.json",
+            result / "summary.json",
+            result / "summary.json",
+            result / "case.json",
+            out / "study.lock",
+            out / "analyses",
+            out / "logs",
+            result,
+            out / "table.csv",
+            out / "study.sqlite-wal",
+            out,
+        ][int(rng.integers(13))]
         kind = rng.random()
         if not path.parent.is_dir():
             continue
@@ -111,11 +167,23 @@ def mutate(rng, folder: Path) -> Path:
             displaced(rng, path)
         elif path.name == "summary.json" and kind < 0.7:
             wrong = _FALSE[int(rng.integers(len(_FALSE)))]
-            path.write_text(json.dumps(_known(path) | wrong if isinstance(wrong, dict) and wrong else wrong))
+            path.write_text(
+                json.dumps(_known(path) | wrong if isinstance(wrong, dict) and wrong else wrong)
+            )
         elif path.name == "study.json" and kind < 0.7:
             known = _known(path)
-            path.write_text([json.dumps(known | {"axes": []}), "[" * 100_000, "7", json.dumps(known | {"analyses": "6"}), json.dumps(known | {"axes": {}}),
-                             "[]", '{"study": 1}', json.dumps({**known, "title": 10**400})][int(rng.integers(8))])
+            path.write_text(
+                [
+                    json.dumps(known | {"axes": []}),
+                    "[" * 100_000,
+                    "7",
+                    json.dumps(known | {"analyses": "6"}),
+                    json.dumps(known | {"axes": {}}),
+                    "[]",
+                    '{"study": 1}',
+                    json.dumps({**known, "title": 10**400}),
+                ][int(rng.integers(8))]
+            )
         else:
             how = (flip, zeroed, *BYTES)[int(rng.integers(2 + len(BYTES)))]
             path.write_bytes(how(rng, path.read_bytes()))
@@ -133,7 +201,11 @@ def _known(path: Path) -> dict:
 
 def use(out: Path) -> None:
     """What `report`, `compare`, `resume` and `study` do with it; the last to be refused is told."""
-    for read in (read_study, read_sweep, *(functools.partial(_case_of, name) for name in _truth(out.parent / "study.toml"))):
+    for read in (
+        read_study,
+        read_sweep,
+        *(functools.partial(_case_of, name) for name in _truth(out.parent / "study.toml")),
+    ):
         try:
             read(out)
         except InputError:

@@ -9,20 +9,58 @@ from fecolumn.case import Motion
 from fecolumn.motions.load import load_motion
 
 _N, _DT = 120, 0.01
-_WORDS = [b"1e12", b"-1e12", b"1e300", b"1e-300", b"1e400", b"nan", b"inf", b"9" * 15, b"9" * 400, b"9" * 5000, b"0", b"-1", b"1e6", b"", b"****", b"1_0",
-          b"0x1", b"NPTS= 999999999999999", b"DT= 1e-30 SEC", b"DT= 1e30", b"UNITS: parsecs", b"time [years]", b"\x00", b"\xff\xfe", b"1,2,3,4", b"#"]
+_WORDS = [
+    b"1e12",
+    b"-1e12",
+    b"1e300",
+    b"1e-300",
+    b"1e400",
+    b"nan",
+    b"inf",
+    b"9" * 15,
+    b"9" * 400,
+    b"9" * 5000,
+    b"0",
+    b"-1",
+    b"1e6",
+    b"",
+    b"****",
+    b"1_0",
+    b"0x1",
+    b"NPTS= 999999999999999",
+    b"DT= 1e-30 SEC",
+    b"DT= 1e30",
+    b"UNITS: parsecs",
+    b"time [years]",
+    b"\x00",
+    b"\xff\xfe",
+    b"1,2,3,4",
+    b"#",
+]
 
 
 def prepare(folder) -> None:
     """The same motion in every format."""
     values = np.sin(np.arange(_N) * 0.7) * np.exp(-np.arange(_N) / 60)
     words = [f"{value:15.7E}" for value in values]
-    at2 = ["PEER", "station", "ACCELERATION TIME SERIES IN UNITS OF G", f"NPTS= {_N}, DT= {_DT} SEC"]
-    (folder / "a.AT2").write_text("\n".join(at2 + ["".join(words[i:i + 5]) for i in range(0, _N, 5)]) + "\n")
-    (folder / "a.csv").write_text("time [s], ax [g], ay [g]\n" + "".join(f"{_DT * i:.2f}, {v:.6e}, {-v:.6e}\n" for i, v in enumerate(values)))
+    at2 = [
+        "PEER",
+        "station",
+        "ACCELERATION TIME SERIES IN UNITS OF G",
+        f"NPTS= {_N}, DT= {_DT} SEC",
+    ]
+    (folder / "a.AT2").write_text(
+        "\n".join(at2 + ["".join(words[i : i + 5]) for i in range(0, _N, 5)]) + "\n"
+    )
+    (folder / "a.csv").write_text(
+        "time [s], ax [g], ay [g]\n"
+        + "".join(f"{_DT * i:.2f}, {v:.6e}, {-v:.6e}\n" for i, v in enumerate(values))
+    )
     (folder / "a.txt").write_text("".join(f"{_DT * i:.2f} {v:.6e}\n" for i, v in enumerate(values)))
-    (folder / "a.asc").write_text(f"EVENT_NAME: x\nSAMPLING_INTERVAL_S: {_DT}\nNDATA: {_N}\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n"
-                                  + "".join(f"{v:.6e}\n" for v in values))
+    (folder / "a.asc").write_text(
+        f"EVENT_NAME: x\nSAMPLING_INTERVAL_S: {_DT}\nNDATA: {_N}\nUNITS: "
+        "cm/s^2\nDATA_TYPE: ACCELERATION\n" + "".join(f"{v:.6e}\n" for v in values)
+    )
 
 
 def sound(folder):
@@ -38,12 +76,24 @@ def mutate(rng, folder):
         data = _changed(rng, data)
     path.write_bytes(data)
     units, dt = "g" if path.suffix == ".txt" else "", 0.01
-    keys = dict(rotation_deg=float(rng.choice([0.0, 30.0])), vertical=bool(rng.random() < 0.5), dt_s=float(rng.choice([0.0, _DT])),
-                strong_part=(0.0, 1.0) if rng.random() < 0.5 else (0.01, 0.99), delay_s=float(rng.choice([0.0, 0.013])))
+    keys = dict(
+        rotation_deg=float(rng.choice([0.0, 30.0])),
+        vertical=bool(rng.random() < 0.5),
+        dt_s=float(rng.choice([0.0, _DT])),
+        strong_part=(0.0, 1.0) if rng.random() < 0.5 else (0.01, 0.99),
+        delay_s=float(rng.choice([0.0, 0.013])),
+    )
     if rng.random() < 0.3:
-        units, dt = str(rng.choice(["", "g", "cm/s2"])), float(rng.choice([0.02, 1e-3, 1e-4, 0.1, 1e-9]))
-        keys |= dict(dt_s=float(rng.choice([0.0, 1e-3, 10.0])), scale=float(rng.choice([1e3, 0.0])), time_scale=float(rng.choice([0.5, 1e-3, 1e3])),
-                     delay_s=float(rng.choice([0.0, 1e3])))
+        units, dt = (
+            str(rng.choice(["", "g", "cm/s2"])),
+            float(rng.choice([0.02, 1e-3, 1e-4, 0.1, 1e-9])),
+        )
+        keys |= dict(
+            dt_s=float(rng.choice([0.0, 1e-3, 10.0])),
+            scale=float(rng.choice([1e3, 0.0])),
+            time_scale=float(rng.choice([0.5, 1e-3, 1e3])),
+            delay_s=float(rng.choice([0.0, 1e3])),
+        )
     return Motion(str(path), units=units, **keys), dt
 
 
@@ -54,7 +104,9 @@ def _changed(rng, data: bytes) -> bytes:
     place = int(rng.integers(len(lines)))
     if rng.random() < 0.2:  # a time column that is shifted, or has a gap
         shift = float(rng.choice([1e12, -1e12, 1e9, 1e300, 1e-12, 5.0]))
-        return b"\n".join(_shifted(line, shift) if i >= place else line for i, line in enumerate(lines))
+        return b"\n".join(
+            _shifted(line, shift) if i >= place else line for i, line in enumerate(lines)
+        )
     words = lines[place].split() or [b""]
     words[int(rng.integers(len(words)))] = _WORDS[int(rng.integers(len(_WORDS)))]
     lines[place] = b" ".join(words)

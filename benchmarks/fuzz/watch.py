@@ -28,14 +28,31 @@ class End:
     wall_s: float
 
 
-def watched(subject: str, numbers: list[int], seed: int, patience_s: float = PATIENCE_S) -> Iterator[End]:
-    """Use the mutants of these numbers one by one; after a hang or a death a new process does the rest."""
+def watched(
+    subject: str, numbers: list[int], seed: int, patience_s: float = PATIENCE_S
+) -> Iterator[End]:
+    """Use the mutants of these numbers one by one; after a hang or a death a new process does the
+    rest.
+    """
     left = list(numbers)
     while left:
         ours, theirs = os.pipe()
-        worker = subprocess.Popen([sys.executable, "-m", "benchmarks.fuzz.worker", subject, str(seed), str(theirs), *map(str, left)],
-                                  pass_fds=[theirs], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                  start_new_session=True)
+        worker = subprocess.Popen(
+            [
+                sys.executable,
+                "-m",
+                "benchmarks.fuzz.worker",
+                subject,
+                str(seed),
+                str(theirs),
+                *map(str, left),
+            ],
+            pass_fds=[theirs],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
         os.close(theirs)
         with open(ours, "rb", buffering=0) as told:
             for end in _listen(subject, worker, told, left, patience_s):
@@ -54,8 +71,18 @@ def _listen(subject: str, worker, told, left: list[int], patience_s: float) -> I
             if not ready:
                 os.killpg(worker.pid, signal.SIGKILL)
             worker.wait()
-            how = f"ended by {signal.Signals(-worker.returncode).name}" if worker.returncode < 0 else f"exit code {worker.returncode}"
-            yield End(subject, missing[0], "death" if ready else "hang", how if ready else f"nothing for {patience_s:g} s", time.perf_counter() - began)
+            how = (
+                f"ended by {signal.Signals(-worker.returncode).name}"
+                if worker.returncode < 0
+                else f"exit code {worker.returncode}"
+            )
+            yield End(
+                subject,
+                missing[0],
+                "death" if ready else "hang",
+                how if ready else f"nothing for {patience_s:g} s",
+                time.perf_counter() - began,
+            )
             return
         *lines, rest = (rest + piece).split(b"\n")
         for line in lines:

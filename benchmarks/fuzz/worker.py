@@ -47,7 +47,17 @@ def main() -> None:
             hostile_names(folder)
             began = time.perf_counter()
             verdict, told = _use(module, np.random.default_rng([int(seed), number]), folder)
-            out.write(json.dumps(dict(number=number, verdict=verdict, told=told, wall_s=time.perf_counter() - began)) + "\n")
+            out.write(
+                json.dumps(
+                    dict(
+                        number=number,
+                        verdict=verdict,
+                        told=told,
+                        wall_s=time.perf_counter() - began,
+                    )
+                )
+                + "\n"
+            )
             shutil.rmtree(folder)
 
 
@@ -59,7 +69,9 @@ def _use(module, rng, folder: Path) -> tuple[str, str]:
     except (InputError, UnusableRecord, StudyError) as error:
         lines = str(error).split("\n")
         problems = len(getattr(error, "all", (error,)))
-        if len(lines) != problems or not all(line.isprintable() and 0 < len(line) < _LONGEST_LINE for line in lines):
+        if len(lines) != problems or not all(
+            line.isprintable() and 0 < len(line) < _LONGEST_LINE for line in lines
+        ):
             return "traceback", f"not one line a problem: {str(error)[:_LONGEST_LINE]!r}"
         return "refused", str(error)
     except OSError as error:

@@ -1,4 +1,6 @@
-"""How the multi-drum column of HybriDFEM's benchmark falls, computed by the package's rigid engine and drawn as a row of pictures."""
+"""How the multi-drum column of HybriDFEM's benchmark falls, computed by the package's rigid engine
+and drawn as a row of pictures.
+"""
 
 from __future__ import annotations
 
@@ -31,10 +33,19 @@ def _fall(a: float, tp: float) -> list[list[np.ndarray]]:
     ground, drums, drawn = pulse(a, tp, _DRAWN[-1]), drums_of_column(), []
     centers = engine.motion.frames["center"].copy()
     for step in range(round(_DRAWN[-1] / DT)):
-        engine.advance(ground[step:step + 1])  # step by step, for past its point of no return it would end
+        engine.advance(
+            ground[step : step + 1]
+        )  # step by step, for past its point of no return it would end
         if len(drawn) < len(_DRAWN) and step + 1 == round(_DRAWN[len(drawn)] / DT):
-            places = zip(drums, centers[:, ::2], engine.motion.frames["center"][:, ::2], engine.motion.rotation[:, ::2, ::2])
-            drawn.append([(drum - center) @ turned.T + place for drum, center, place, turned in places])
+            places = zip(
+                drums,
+                centers[:, ::2],
+                engine.motion.frames["center"][:, ::2],
+                engine.motion.rotation[:, ::2, ::2],
+            )
+            drawn.append(
+                [(drum - center) @ turned.T + place for drum, center, place, turned in places]
+            )
     return drawn
 
 
@@ -56,8 +67,20 @@ def collapse(target: Path, a: float = 0.5, tp: float = 0.34) -> str:
         axes.fill_between([0.25, width - 0.25], -0.12, 0.0, facecolor="#DDDDDD", edgecolor="none")
         axes.plot([0.25, width - 0.25], [0.0, 0.0], color=BLACK, linewidth=0.8)
         for letter, time, drums, shift in zip("abcdef", _DRAWN, drawn, shifts):
-            outline = np.concatenate([[drum[0] for drum in standing], [standing[-1][2], standing[-1][3]], [drum[1] for drum in standing[::-1]]])
-            axes.plot(*(outline + [shift, 0.0]).T, color=GREY, linewidth=0.6, linestyle=(0, (4, 3)), zorder=1)
+            outline = np.concatenate(
+                [
+                    [drum[0] for drum in standing],
+                    [standing[-1][2], standing[-1][3]],
+                    [drum[1] for drum in standing[::-1]],
+                ]
+            )
+            axes.plot(
+                *(outline + [shift, 0.0]).T,
+                color=GREY,
+                linewidth=0.6,
+                linestyle=(0, (4, 3)),
+                zorder=1,
+            )
             for drum in drums:
                 _draw_drum(axes, drum + [shift, 0.0])
             axes.text(shift, -0.2, f"({letter})  {time:.2f} s", ha="center", va="top")
@@ -74,5 +97,16 @@ def _draw_drum(axes, drum) -> None:
     strips = np.stack([foot[:-1], foot[1:], head[1:], head[:-1]], axis=1)
     angle = np.arcsin(2 * (across[:-1, 0] + 0.5 / _STRIPS) - 1)
     light = np.clip(np.cos(angle + 0.6), 0.0, 1.0) ** 0.9
-    axes.add_collection(PolyCollection(strips, facecolors=_STONE(light), edgecolors="face", linewidths=0.3, zorder=2))
-    axes.fill(*drum[[0, 1, 3, 2]].T, facecolor="none", edgecolor=BLACK, linewidth=0.7, joinstyle="round", zorder=3)
+    axes.add_collection(
+        PolyCollection(
+            strips, facecolors=_STONE(light), edgecolors="face", linewidths=0.3, zorder=2
+        )
+    )
+    axes.fill(
+        *drum[[0, 1, 3, 2]].T,
+        facecolor="none",
+        edgecolor=BLACK,
+        linewidth=0.7,
+        joinstyle="round",
+        zorder=3,
+    )

@@ -11,16 +11,23 @@ from benchmarks.gallery.rolling import rolling
 from fecolumn.schema import read_toml
 
 ROOT = Path(__file__).parents[2]
-# The stout column in motion 3 of the Lick ensemble, half again as strong, on a mesh coarser than its own
-ROCKING = {"mesh": {"coarse_size_m": 0.02, "cap_size_m": 0.025, "base_size_m": 0.03},
-           "motion": {"source": "lick:3", "scale": 1.5}, "integration": {"engine": "reduced", "duration_s": 6.0}}
-# Colours of a picture's file, the most that PNG's palette has: lines and their soft edges need fewer, a stress scale all
+# The stout column in motion 3 of the Lick ensemble, half again as strong, on a mesh coarser than
+# its own
+ROCKING = {
+    "mesh": {"coarse_size_m": 0.02, "cap_size_m": 0.025, "base_size_m": 0.03},
+    "motion": {"source": "lick:3", "scale": 1.5},
+    "integration": {"engine": "reduced", "duration_s": 6.0},
+}
+# Colours of a picture's file, the most that PNG's palette has: lines and their soft edges need
+# fewer, a stress scale all
 _COLOURS = 256
 
 
 @dataclass(frozen=True, slots=True)
 class Work:
-    """How the figures are to be made: folder of the analyses, which are kept and gone on with; analyses at a time; folder of a finished study to draw, or None."""
+    """How the figures are to be made: folder of the analyses, which are kept and gone on with;
+    analyses at a time; folder of a finished study to draw, or None.
+    """
 
     folder: Path
     jobs: int = 1
@@ -41,13 +48,22 @@ def rocking(work: Work, target: Path) -> str:
     run(case_from_tables(tables, file), folder)
     history = read_history(folder / "history.h5")
     time = float(history["time"][history["tilt"].argmax()])
-    still = next(path for path in render(folder, Wish(only="pictures", instants=(time,))) if path.name.startswith("still_"))
+    still = next(
+        path
+        for path in render(folder, Wish(only="pictures", instants=(time,)))
+        if path.name.startswith("still_")
+    )
     shutil.copy(still, target)
-    return f"motion 3 of the Lick ensemble at 1.5 times its strength: largest tilt {1e3 * history['tilt'].max():.0f} mrad at {time:.2f} s"
+    return (
+        "motion 3 of the Lick ensemble at 1.5 times its strength: largest tilt "
+        f"{1e3 * history['tilt'].max():.0f} mrad at {time:.2f} s"
+    )
 
 
 def cdf(work: Work, target: Path) -> str:
-    """The distributions of a study: of benchmarks/quick_study.toml, which is run, or of the one that is given."""
+    """The distributions of a study: of benchmarks/quick_study.toml, which is run, or of the one
+    that is given.
+    """
     from fecolumn.results.study import StudyResult
     from fecolumn.study.plan import read_plan
     from fecolumn.study.run import run_study
@@ -59,11 +75,16 @@ def cdf(work: Work, target: Path) -> str:
     result.plot.cdf().save(target)
     levels = ", ".join(f"{len(values)} of {key}" for key, values in result.axes.items())
     source = f"--study {folder}" if work.study else "benchmarks/quick_study.toml"
-    return f"{result.title}: {result.done} of {len(result.rows)} analyses done ({levels}), from {source}"
+    return (
+        f"{result.title}: {result.done} of {len(result.rows)} analyses done ({levels}), "
+        f"from {source}"
+    )
 
 
 def impact(_: Work, target: Path) -> str:
-    """Loss of one impact by time step, from the table that `python -m benchmarks.impact` made in an hour."""
+    """Loss of one impact by time step, from the table that `python -m benchmarks.impact` made in an
+    hour.
+    """
     from benchmarks.impact.__main__ import read
     from benchmarks.impact.figure import draw
 
@@ -80,7 +101,9 @@ def rim(_: Work, target: Path) -> str:
 
 
 def two_sides(_: Work, target: Path) -> str:
-    """Rates before and after an impact of a block on an equal one, over its displacement, as `fecolumn verify -k joints` draws them."""
+    """Rates before and after an impact of a block on an equal one, over its displacement, as
+    `fecolumn verify -k joints` draws them.
+    """
     from matplotlib.figure import Figure
 
     from fecolumn.verification.joints import draw
@@ -98,14 +121,22 @@ def collapse(_: Work, target: Path) -> str:
     return draw(target)
 
 
-#: Figures by name: place in the repository and the function that makes them, of (Work, target), which says from what.
-FIGURES = {"rocking": ("meshes/rocking.png", rocking), "cdf": ("benchmarks/cdf.png", cdf), "impact": ("fecolumn/manual/impact.png", impact),
-           "rolling": ("fecolumn/manual/rolling.png", rim), "two-sides": ("fecolumn/manual/two-sides.png", two_sides),
-           "collapse": ("fecolumn/manual/collapse.png", collapse)}
+#: Figures by name: place in the repository and the function that makes them, of (Work, target),
+#: which says from what.
+FIGURES = {
+    "rocking": ("meshes/rocking.png", rocking),
+    "cdf": ("benchmarks/cdf.png", cdf),
+    "impact": ("fecolumn/manual/impact.png", impact),
+    "rolling": ("fecolumn/manual/rolling.png", rim),
+    "two-sides": ("fecolumn/manual/two-sides.png", two_sides),
+    "collapse": ("fecolumn/manual/collapse.png", collapse),
+}
 
 
 def make(name: str, work: Work, root: Path = ROOT) -> str:
-    """Make a figure anew in its place below `root`, with few colours; where it lies and what it is from, in words."""
+    """Make a figure anew in its place below `root`, with few colours; where it lies and what it is
+    from, in words.
+    """
     from PIL import Image
 
     place, function = FIGURES[name]

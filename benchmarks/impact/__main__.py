@@ -1,10 +1,12 @@
-"""What an impact takes when everything is converged: loss of one impact over Housner's by time step, engine, modes, tilt, slenderness, bricks, damping.
+"""What an impact takes when everything is converged: loss of one impact over Housner's by time
+step, engine, modes, tilt, slenderness, bricks, damping.
 
     ./containers/run python -m benchmarks.impact [SERIES ...] [-o DIR]
 
-Each impact is one line of DIR/impact.csv (results/impact unless given); those there are not made again. Ends with the table, and DIR/impact.png.
-All of it takes an hour and more on one core; SERIES are names of `SERIES`, all unless named. benchmarks/impact/impact.csv is the table behind the manual's figure, which
-`python -m benchmarks.gallery impact` draws; copy a new one there.
+Each impact is one line of DIR/impact.csv (results/impact unless given); those there are not made
+again. Ends with the table, and DIR/impact.png. All of it takes an hour and more on one core; SERIES
+are names of `SERIES`, all unless named. benchmarks/impact/impact.csv is the table behind the
+manual's figure, which `python -m benchmarks.gallery impact` draws; copy a new one there.
 """
 
 from __future__ import annotations
@@ -28,7 +30,11 @@ FEW, FEW_STEPS = BESIDE[:4], (1e-3, 1e-4, 1e-5, 4e-6)
 
 
 def _series(kind: str, beside=BESIDE, steps=STEPS, share: float = 0.3, **settings):
-    return [dict(kind=kind, share=round(share * more, 6), dt=dt, **settings) for dt in steps for more in beside]
+    return [
+        dict(kind=kind, share=round(share * more, 6), dt=dt, **settings)
+        for dt in steps
+        for more in beside
+    ]
 
 
 SERIES = {
@@ -44,11 +50,31 @@ SERIES = {
     "height-3": _series("reduced", FEW, (*FEW_STEPS, 2e-6, 1e-6), height=3.0),
     "bricks-2.5": _series("full", (1.0,), STEPS[:5], size=0.0025, away=1e-3),
 }
-FIELDS = ("series", "kind", "share", "dt", "modes", "alpha", "damping", "height", "size", "away", "contact", "rocking", "restitution", "housner", "seconds")
+FIELDS = (
+    "series",
+    "kind",
+    "share",
+    "dt",
+    "modes",
+    "alpha",
+    "damping",
+    "height",
+    "size",
+    "away",
+    "contact",
+    "rocking",
+    "restitution",
+    "housner",
+    "seconds",
+)
 
 
 def main(argv) -> int:
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.impact", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.impact",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("series", nargs="*", metavar="SERIES", help=", ".join(SERIES))
     parser.add_argument("-o", "--out", type=Path, default=Path("results/impact"))
     options = parser.parse_args(argv)
@@ -61,14 +87,20 @@ def main(argv) -> int:
     made = {tuple(row[name] for name in FIELDS[:10]) for row in read(table)}
     for name in options.series or SERIES:
         for settings in SERIES[name]:
-            key = tuple(str(settings.get(field, "")) if field != "series" else name for field in FIELDS[:10])
+            key = tuple(
+                str(settings.get(field, "")) if field != "series" else name for field in FIELDS[:10]
+            )
             if key in made:
                 continue
             loss = asdict(first_impact(**settings))
             with table.open("a", newline="") as file:
                 csv.writer(file).writerow([*key, *(f"{loss[field]:.6g}" for field in FIELDS[10:])])
-            print(f"{name}, share {settings['share']:g}, dt {settings['dt']:g} s: rocking {loss['rocking']:.3f}, contact {loss['contact']:.3f} of Housner's",
-                  file=sys.stderr, flush=True)
+            print(
+                f"{name}, share {settings['share']:g}, dt {settings['dt']:g} s: rocking "
+                f"{loss['rocking']:.3f}, contact {loss['contact']:.3f} of Housner's",
+                file=sys.stderr,
+                flush=True,
+            )
     rows = read(table)
     print_table(rows)
     draw(rows, options.out / "impact")
@@ -82,13 +114,25 @@ def read(table: Path) -> list[dict]:
 
 
 def print_table(rows) -> None:
-    """Markdown: what rocking loses over Housner's, and in parentheses what contact has taken of it; means over the releases."""
+    """Markdown: what rocking loses over Housner's, and in parentheses what contact has taken of it;
+    means over the releases.
+    """
     steps = sorted({float(row["dt"]) for row in rows}, reverse=True)
-    print("| series | " + " | ".join(f"{dt:g} s" for dt in steps) + " |\n|---" + "|---:" * len(steps) + "|")
+    print(
+        "| series | "
+        + " | ".join(f"{dt:g} s" for dt in steps)
+        + " |\n|---"
+        + "|---:" * len(steps)
+        + "|"
+    )
     for name in SERIES:
         cells = []
         for dt in steps:
-            found = [(float(row["rocking"]), float(row["contact"])) for row in rows if row["series"] == name and float(row["dt"]) == dt]
+            found = [
+                (float(row["rocking"]), float(row["contact"]))
+                for row in rows
+                if row["series"] == name and float(row["dt"]) == dt
+            ]
             cells.append("{:.2f} ({:.2f})".format(*np.mean(found, axis=0)) if found else "")
         print(f"| {name} | " + " | ".join(cells) + " |")
 

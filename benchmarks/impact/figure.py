@@ -4,11 +4,32 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.post.style import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
+from fecolumn.post.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PAGE_WIDTH_IN,
+    VERMILION,
+    new_figure,
+    save,
+    styled,
+)
 
-ENGINES = {"full": ("full order, bricks of 5 mm", BLACK, "s"), "bricks-2.5": ("full order, 2.5 mm", ORANGE, "D"), "reduced": ("reduced, 100 modes", BLUE, "o"), "modes-30": ("reduced, 30 modes", GREEN, "v"),
-           "rigid": ("rigid body, elastic foot", VERMILION, "^")}
-TILTS = {"share-0.05": ("0.05", VERMILION, "^"), "share-0.1": ("0.1", ORANGE, "v"), "reduced": ("0.3", BLUE, "o"), "share-0.6": ("0.6", GREEN, "s")}
+ENGINES = {
+    "full": ("full order, bricks of 5 mm", BLACK, "s"),
+    "bricks-2.5": ("full order, 2.5 mm", ORANGE, "D"),
+    "reduced": ("reduced, 100 modes", BLUE, "o"),
+    "modes-30": ("reduced, 30 modes", GREEN, "v"),
+    "rigid": ("rigid body, elastic foot", VERMILION, "^"),
+}
+TILTS = {
+    "share-0.05": ("0.05", VERMILION, "^"),
+    "share-0.1": ("0.1", ORANGE, "v"),
+    "reduced": ("0.3", BLUE, "o"),
+    "share-0.6": ("0.6", GREEN, "s"),
+}
 
 
 def draw(rows, path) -> None:
@@ -18,16 +39,35 @@ def draw(rows, path) -> None:
         left, right = figure.subplots(1, 2)
         for axes, series in ((left, ENGINES), (right, TILTS)):
             for name, (label, colour, marker) in series.items():
-                found = [(float(row["dt"]), float(row["rocking"])) for row in rows if row["series"] == name]
+                found = [
+                    (float(row["dt"]), float(row["rocking"]))
+                    for row in rows
+                    if row["series"] == name
+                ]
                 if not found:
                     continue
                 steps = np.array(sorted({dt for dt, _ in found}))
                 values = [np.array([loss for dt, loss in found if dt == step]) for step in steps]
                 middle = np.array([value.mean() for value in values])
-                apart = np.array([[value.mean() - value.min(), value.max() - value.mean()] for value in values]).T
-                axes.errorbar(steps, middle, apart, color=colour, marker=marker, markersize=3, capsize=2, label=label)
+                apart = np.array(
+                    [[value.mean() - value.min(), value.max() - value.mean()] for value in values]
+                ).T
+                axes.errorbar(
+                    steps,
+                    middle,
+                    apart,
+                    color=colour,
+                    marker=marker,
+                    markersize=3,
+                    capsize=2,
+                    label=label,
+                )
             axes.axhline(1.0, color=GREY, linewidth=0.8, label="rigid (Housner 1963)")
-            axes.set(xscale="log", xlabel="time step at the impact [s]", ylim=(0, 1.35 * axes.get_ylim()[1]))
+            axes.set(
+                xscale="log",
+                xlabel="time step at the impact [s]",
+                ylim=(0, 1.35 * axes.get_ylim()[1]),
+            )
             axes.tick_params(which="minor", top=False)
         left.set(ylabel="rocking energy lost / Housner's [-]")
         left.legend(loc="upper left", ncol=2)

@@ -15,7 +15,8 @@ AWAY = 2.5e-4
 CLEAR, CLEAR_TILT = 0.03, 3e-4
 #: Time after which it is over in any case [s].
 LONGEST = 0.05
-#: Tilts, over that of release, between which the arcs before and after are fitted: without the impact and the vibration of the release.
+#: Tilts, over that of release, between which the arcs before and after are fitted: without the
+#: impact and the vibration of the release.
 ARC = (0.2, 0.85)
 
 
@@ -23,9 +24,10 @@ ARC = (0.2, 0.85)
 class Loss:
     """Energies over Housner's loss, of one impact.
 
-    contact: dissipated by impact and friction until the column is clear. rocking: what rocking has lost, by the tilts at which it turns round before and
-    after; what is more than contact is in elastic vibration. restitution: angular velocity after over before by that; housner: of a rigid block;
-    seconds: of computing the impact.
+    contact: dissipated by impact and friction until the column is clear. rocking: what rocking has
+    lost, by the tilts at which it turns round before and after; what is more than contact is in
+    elastic vibration. restitution: angular velocity after over before by that; housner: of a rigid
+    block; seconds: of computing the impact.
     """
 
     contact: float
@@ -35,9 +37,20 @@ class Loss:
     seconds: float
 
 
-def first_impact(kind: str, share: float, dt: float, modes: int = 100, alpha: float = 0.0, damping: float = 0.0, height: float = 1.5, size: float = 0.005,
-                 away: float = AWAY) -> Loss:
-    """Loss of the first impact of a column released at rest at `share` of its critical tilt; arguments as of `rocker`, dt [s] at the impact, away beside it."""
+def first_impact(
+    kind: str,
+    share: float,
+    dt: float,
+    modes: int = 100,
+    alpha: float = 0.0,
+    damping: float = 0.0,
+    height: float = 1.5,
+    size: float = 0.005,
+    away: float = AWAY,
+) -> Loss:
+    """Loss of the first impact of a column released at rest at `share` of its critical tilt;
+    arguments as of `rocker`, dt [s] at the impact, away beside it.
+    """
     away = max(away, dt)
     column, block = rocker(kind, share, away, modes, alpha, damping, height, size)
     release = share * block.slenderness
@@ -62,22 +75,36 @@ def first_impact(kind: str, share: float, dt: float, modes: int = 100, alpha: fl
         highest = max(highest, column.tilt)
         steps(away, up)
     arcs = (np.concatenate(arc) for arc in (down, up))
-    first, second = (block.energy(tilt) for tilt in turning_tilts(*(arc[(arc[:, 1] > ARC[0] * release) & (arc[:, 1] < ARC[1] * release)] for arc in arcs), block))
+    first, second = (
+        block.energy(tilt)
+        for tilt in turning_tilts(
+            *(arc[(arc[:, 1] > ARC[0] * release) & (arc[:, 1] < ARC[1] * release)] for arc in arcs),
+            block,
+        )
+    )
     housner = first * (1 - block.restitution**2)
-    return Loss((before - after) / housner, (first - second) / housner, float(np.sqrt(second / first)), block.restitution, seconds)
+    return Loss(
+        (before - after) / housner,
+        (first - second) / housner,
+        float(np.sqrt(second / first)),
+        block.restitution,
+        seconds,
+    )
 
 
 def turning_tilts(down: np.ndarray, up: np.ndarray, block) -> tuple[float, float]:
-    """Tilts [rad] at which rocking turned round before and after, from rows (n, 2) of time [s] and tilt [rad] of the two arcs.
+    """Tilts [rad] at which rocking turned round before and after, from rows (n, 2) of time [s] and
+    tilt [rad] of the two arcs.
 
-    A slender block has tilt'' = p^2 (tilt - alpha) (Housner 1963): tilt = alpha - a cosh(p t) - b sinh(p t) on each arc, with one alpha; it turns round at
-    alpha - sqrt(a^2 - b^2). The fit averages over the vibrations; what the elastic foot changes is the same on both arcs.
+    A slender block has tilt'' = p^2 (tilt - alpha) (Housner 1963): tilt = alpha - a cosh(p t) - b
+    sinh(p t) on each arc, with one alpha; it turns round at alpha - sqrt(a^2 - b^2). The fit
+    averages over the vibrations; what the elastic foot changes is the same on both arcs.
     """
     (t0, y0), (t1, y1) = down.T, up.T
     s0, s1 = block.p * (t0 - t0[-1]), block.p * (t1 - t1[0])
     matrix = np.zeros((len(t0) + len(t1), 5))
     matrix[:, 0] = 1.0
-    matrix[:len(t0), 1], matrix[:len(t0), 2] = -np.cosh(s0), -np.sinh(s0)
-    matrix[len(t0):, 3], matrix[len(t0):, 4] = -np.cosh(s1), -np.sinh(s1)
+    matrix[: len(t0), 1], matrix[: len(t0), 2] = -np.cosh(s0), -np.sinh(s0)
+    matrix[len(t0) :, 3], matrix[len(t0) :, 4] = -np.cosh(s1), -np.sinh(s1)
     alpha, a0, b0, a1, b1 = np.linalg.lstsq(matrix, np.concatenate([y0, y1]), rcond=None)[0]
     return alpha - np.sqrt(a0**2 - b0**2), alpha - np.sqrt(a1**2 - b1**2)

@@ -16,12 +16,14 @@ from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.verification.trial import RigidRocking, Trial
 
 
-
 class ReducedRocker:
     """A case released with a tilt, in the reduced or the rigid engine.
 
-    Attributes:
-        tilt: [rad]. lean: displacement of the top along x [m]. mechanical: kinetic, strain and gravity energy [J].
+    Attributes
+    ----------
+    tilt
+        [rad]. lean: displacement of the top along x [m]. mechanical: kinetic, strain and gravity
+        energy [J].
     """
 
     def __init__(self, case):
@@ -33,7 +35,9 @@ class ReducedRocker:
         rows = self.engine.advance(np.zeros((count, 3)))[0]
         tilts = column(rows, "tilt")
         self.tilt, self.lean = float(tilts[-1]), float(column(rows, "u_top")[-1, 0])
-        self.mechanical = float(sum(column(rows, f"energy/{term}")[-1] for term in ("kinetic", "strain", "gravity")))
+        self.mechanical = float(
+            sum(column(rows, f"energy/{term}")[-1] for term in ("kinetic", "strain", "gravity"))
+        )
         return tilts
 
 
@@ -41,7 +45,10 @@ class FullRocker:
     """The same in the full-order engine; lean: of all its nodes in the mean."""
 
     def __init__(self, case):
-        self.system, self.alpha = build_system(case, MPI.COMM_SELF, specimen_mesh(case)), case.integration.alpha_hht
+        self.system, self.alpha = (
+            build_system(case, MPI.COMM_SELF, specimen_mesh(case)),
+            case.integration.alpha_hht,
+        )
         self.trial = Trial(self.system, lambda system: tilted(system, case.initial.tilt_rad, 0.0))
 
     def steps(self, dt: float, count: int) -> np.ndarray:
@@ -49,7 +56,10 @@ class FullRocker:
         trial, tilts, self.system.hht = self.trial, np.empty(count), HHT(dt, self.alpha)
         for k in range(count):
             tilts[k] = tilt_angle(trial.step().rotation)
-        self.tilt, self.lean = float(tilts[-1]), float((trial.state.x - self.system.column.X)[:, 0].mean())
+        self.tilt, self.lean = (
+            float(tilts[-1]),
+            float((trial.state.x - self.system.column.X)[:, 0].mean()),
+        )
         self.mechanical = trial.mechanical()
         return tilts
 
@@ -59,15 +69,42 @@ def rigid_block(case) -> RigidRocking:
     return RigidRocking(build_system(case, MPI.COMM_SELF, specimen_mesh(case)))
 
 
-def rocker(kind: str, share: float, dt: float, modes: int, alpha: float, damping: float, height: float, size: float):
+def rocker(
+    kind: str,
+    share: float,
+    dt: float,
+    modes: int,
+    alpha: float,
+    damping: float,
+    height: float,
+    size: float,
+):
     """A rocker of the specimen and Housner's block of its mesh.
 
-    Args:
-        kind: "full", "reduced" or "rigid". share: tilt of release over the critical one. dt: of the fall [s]. alpha: of HHT.
-        damping: ratio of the elastic modes. height: of the column [m]. size: of the bricks at the foot [m].
+    Parameters
+    ----------
+    kind
+        "full", "reduced" or "rigid".
+    share
+        tilt of release over the critical one.
+    dt
+        of the fall [s].
+    alpha
+        of HHT.
+    damping
+        ratio of the elastic modes.
+    height
+        of the column [m].
+    size
+        of the bricks at the foot [m].
     """
-    tables = {"contact": {"friction_coefficient": 0.8}, "column": {"height_m": height}, "mesh": {"fine_size_m": size, "coarse_size_m": 3 * size},
-              "material": {"damping_ratio": damping}, "integration": {"dt_s": dt, "alpha_hht": alpha, "n_modes": modes, "engine": kind}}
+    tables = {
+        "contact": {"friction_coefficient": 0.8},
+        "column": {"height_m": height},
+        "mesh": {"fine_size_m": size, "coarse_size_m": 3 * size},
+        "material": {"damping_ratio": damping},
+        "integration": {"dt_s": dt, "alpha_hht": alpha, "n_modes": modes, "engine": kind},
+    }
     block = rigid_block(case_of(**tables))
     case = case_of(**tables, initial={"tilt_rad": share * block.slenderness})
     return (FullRocker if kind == "full" else ReducedRocker)(case), block

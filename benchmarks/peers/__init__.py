@@ -1,1 +1,3 @@
-"""Free rocking in this project's engines and in other programs, side by side; `python -m benchmarks.peers`."""
+"""Free rocking in this project's engines and in other programs, side by side; `python -m
+benchmarks.peers`.
+"""

@@ -17,19 +17,36 @@ from fecolumn.schema import merge
 SPECIMEN = Path(__file__).parents[2] / "meshes" / "stout.toml"
 IMPACTS = 10
 # The pipe of the published comparison: no cap; 5 mm bricks up to a tenth of its height, 15 mm above
-PIPE = {"title": "Pipe", "column": {"outer_diameter_m": 0.15, "wall_m": 0.005, "height_m": 1.5, "fine_height_m": 0.15}}
-# This project's columns stand on an elastic plate; 5,000 times as stiff as steel, 5 mm thick and one brick deep, it is a rigid floor
-FLOOR = {"base": {"youngs_modulus_pa": 1e15, "length_m": 0.25, "width_m": 0.25, "thickness_m": 0.005},
-         "integration": {"alpha_hht": -0.05}}
+PIPE = {
+    "title": "Pipe",
+    "column": {"outer_diameter_m": 0.15, "wall_m": 0.005, "height_m": 1.5, "fine_height_m": 0.15},
+}
+# This project's columns stand on an elastic plate; 5,000 times as stiff as steel, 5 mm thick and
+# one brick deep, it is a rigid floor
+FLOOR = {
+    "base": {"youngs_modulus_pa": 1e15, "length_m": 0.25, "width_m": 0.25, "thickness_m": 0.005},
+    "integration": {"alpha_hht": -0.05},
+}
 
 
 @dataclass(frozen=True, slots=True)
 class Release:
     """A column released at rest from a tilt about its rim towards +x.
 
-    Attributes:
-        name: in table and file names. case: for this project's engines, as long as IMPACTS impacts take. mesh: of it.
-        body: mass properties of the bricks. rigid: theory. radius: of the rim [m].
+    Attributes
+    ----------
+    name
+        in table and file names.
+    case
+        for this project's engines, as long as IMPACTS impacts take.
+    mesh
+        of it.
+    body
+        mass properties of the bricks.
+    rigid
+        theory.
+    radius
+        of the rim [m].
     """
 
     name: str
@@ -55,27 +72,52 @@ class Release:
         return round(self.case.integration.duration_s / self.case.integration.dt_s)
 
     def write(self, path: Path, steps: int) -> None:
-        """Write the bricks, released, their ties and the rigid body for a peer; SI units, +x the direction of the tilt.
+        """Write the bricks, released, their ties and the rigid body for a peer; SI units, +x the
+        direction of the tilt.
 
-        points: (n, 3) upright; start: (n, 3) at release; cells: (n_cells, 8) in VTK order; slaves, masters, weights: (k,), (k, 4),
-        (k, 4) of the ties; foot, top: point numbers; toes: (2,) points at the rim's +x and -x ends; faces: (m, 4) of the foot.
+        points: (n, 3) upright; start: (n, 3) at release; cells: (n_cells, 8) in VTK order; slaves,
+        masters, weights: (k,), (k, 4), (k, 4) of the ties; foot, top: point numbers; toes: (2,)
+        points at the rim's +x and -x ends; faces: (m, 4) of the foot.
         """
         points, radius = self.mesh.body.points, self.radius
         pivot, turn = np.array([radius, 0.0, 0.0]), rotation_matrix([0.0, self.tilt, 0.0])
         start = (points - pivot) @ turn.T + pivot
         foot, height = self.mesh.foot_nodes, points[:, 2].max()
-        toes = [foot[np.linalg.norm(points[foot] - sign * pivot, axis=1).argmin()] for sign in (1, -1)]
+        toes = [
+            foot[np.linalg.norm(points[foot] - sign * pivot, axis=1).argmin()] for sign in (1, -1)
+        ]
         slaves, masters, weights = [np.zeros(0, int)], [np.zeros((0, 4), int)], [np.zeros((0, 4))]
         for one in self.mesh.ties:
             nodes, shares, _ = one.masters(points)
             slaves.append(one.slave_nodes), masters.append(nodes), weights.append(shares)
         case, steel = self.case, self.case.material
-        np.savez(path, points=points, start=start, cells=self.mesh.body.cells, foot=foot, toes=toes,
-                 top=np.flatnonzero(points[:, 2] > height * (1 - 1e-9)), slaves=np.concatenate(slaves), masters=np.concatenate(masters),
-                 weights=np.concatenate(weights), mass=self.body.mass, centre=self.body.centre, inertia=self.body.inertia, radius=radius,
-                 height=height, tilt=self.tilt, turn=turn, steps=steps, dt=case.integration.dt_s, friction=case.contact.friction_coefficient,
-                 gravity=GRAVITY, youngs_modulus=steel.youngs_modulus_pa, poissons_ratio=steel.poissons_ratio, density=steel.density_kg_m3,
-                 brick=case.mesh.fine_size_m)
+        np.savez(
+            path,
+            points=points,
+            start=start,
+            cells=self.mesh.body.cells,
+            foot=foot,
+            toes=toes,
+            top=np.flatnonzero(points[:, 2] > height * (1 - 1e-9)),
+            slaves=np.concatenate(slaves),
+            masters=np.concatenate(masters),
+            weights=np.concatenate(weights),
+            mass=self.body.mass,
+            centre=self.body.centre,
+            inertia=self.body.inertia,
+            radius=radius,
+            height=height,
+            tilt=self.tilt,
+            turn=turn,
+            steps=steps,
+            dt=case.integration.dt_s,
+            friction=case.contact.friction_coefficient,
+            gravity=GRAVITY,
+            youngs_modulus=steel.youngs_modulus_pa,
+            poissons_ratio=steel.poissons_ratio,
+            density=steel.density_kg_m3,
+            brick=case.mesh.fine_size_m,
+        )
 
 
 def release(name: str) -> Release:

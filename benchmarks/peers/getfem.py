@@ -1,12 +1,16 @@
-"""GetFEM 5.4.2 (Debian python3-getfem), run by the system's Python: St. Venant-Kirchhoff, penalised contact, hand-made Newmark.
+"""GetFEM 5.4.2 (Debian python3-getfem), run by the system's Python: St.
+
+Venant-Kirchhoff, penalised contact, hand-made Newmark.
 
     /usr/bin/python3 -P getfem.py JOB.npz FOLDER
 
-Settings. Newmark with alpha = -0.05 in gamma = 1/2 - alpha and beta = (1 - alpha)^2 / 4. Contact with friction on a rigid obstacle by
-`add_penalized_contact_with_rigid_obstacle_brick` (Renard 2013), penalty E / (10 brick sizes): ten times that takes three times
-the iterations but moves the toe less, a tenth of it lets the toe bounce (16 steps of the specimen each); integrated at the corners of the bricks, where the rim is.
-Without the line search Newton cycles at the impact. Its friction is a penalty on the slip of one step, so a stick has no memory.
-Ties as a reduced finite-element space, which is exact.
+Settings. Newmark with alpha = -0.05 in gamma = 1/2 - alpha and beta = (1 - alpha)^2 / 4. Contact
+with friction on a rigid obstacle by `add_penalized_contact_with_rigid_obstacle_brick` (Renard
+2013), penalty E / (10 brick sizes): ten times that takes three times the iterations but moves the
+toe less, a tenth of it lets the toe bounce (16 steps of the specimen each); integrated at the
+corners of the bricks, where the rim is. Without the line search Newton cycles at the impact. Its
+friction is a penalty on the slip of one step, so a stick has no memory. Ties as a reduced
+finite-element space, which is exact.
 """
 
 import sys
@@ -19,7 +23,22 @@ from scipy.spatial import cKDTree
 
 ALPHA = -0.05
 GAMMA, BETA = 0.5 - ALPHA, (1 - ALPHA) ** 2 / 4
-NEWTON = ("max_res", 1e-6, "max_iter", 40, "lsearch", "simplest", "alpha max ratio", 1.0, "alpha mult", 0.5, "alpha min", 1e-3, "lsolver", "mumps")
+NEWTON = (
+    "max_res",
+    1e-6,
+    "max_iter",
+    40,
+    "lsearch",
+    "simplest",
+    "alpha max ratio",
+    1.0,
+    "alpha mult",
+    0.5,
+    "alpha min",
+    1e-3,
+    "lsolver",
+    "mumps",
+)
 CORNERS = [0, 1, 3, 2, 4, 5, 7, 6]  # VTK to GetFEM's tensor order
 FOOT = 1
 GREEN = "(Grad_u+Grad_u'+Grad_u'*Grad_u)"  # twice Green and Lagrange's strain
@@ -27,7 +46,10 @@ GREEN = "(Grad_u+Grad_u'+Grad_u'*Grad_u)"  # twice Green and Lagrange's strain
 
 def spmat(matrix):
     """GetFEM's sparse matrix of a SciPy one, each entry for the three components of a vector field."""
-    coo, result = kron(matrix, np.eye(3), "coo"), gf.Spmat("empty", *(3 * size for size in matrix.shape))
+    coo, result = (
+        kron(matrix, np.eye(3), "coo"),
+        gf.Spmat("empty", *(3 * size for size in matrix.shape)),
+    )
     for i, j, value in zip(coo.row, coo.col, coo.data):
         if value:
             result.add(int(i), int(j), np.array([[value]]))
@@ -35,7 +57,9 @@ def spmat(matrix):
 
 
 def space(job):
-    """Mesh as released; vector space on it without the slaves; matrix from its nodes to those of the mesh; mesh node of each of the job's points."""
+    """Mesh as released; vector space on it without the slaves; matrix from its nodes to those of
+    the mesh; mesh node of each of the job's points.
+    """
     mesh = gf.Mesh("empty", 3)
     corners = job["start"][job["cells"][:, CORNERS]]
     mesh.add_convex(gf.GeoTrans("GT_QK(3,1)"), np.ascontiguousarray(corners.transpose(2, 1, 0)))
@@ -54,8 +78,15 @@ def space(job):
     rows, columns, values = [kept], [number[kept]], [np.ones(len(kept))]
     held = np.flatnonzero(slave >= 0)
     for k in range(4):
-        rows.append(held), columns.append(number[node[job["masters"][slave[held], k]]]), values.append(job["weights"][slave[held], k])
-    extension = csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (len(places), len(kept)))
+        (
+            rows.append(held),
+            columns.append(number[node[job["masters"][slave[held], k]]]),
+            values.append(job["weights"][slave[held], k]),
+        )
+    extension = csr_matrix(
+        (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))),
+        (len(places), len(kept)),
+    )
     identity = csr_matrix((np.ones(len(kept)), (number[kept], kept)), (len(kept), len(places)))
     if len(held):
         field.set("reduction matrices", spmat(identity), spmat(extension))
@@ -63,8 +94,12 @@ def space(job):
 
 
 def balance(job, mesh, field, volume):
-    """Model of the momentum balance at the end of a step; "guess" is where no acceleration leads to, "before" the displacement before."""
-    dt, young, poisson, density = (float(job[key]) for key in ("dt", "youngs_modulus", "poissons_ratio", "density"))
+    """Model of the momentum balance at the end of a step; "guess" is where no acceleration leads
+    to, "before" the displacement before.
+    """
+    dt, young, poisson, density = (
+        float(job[key]) for key in ("dt", "youngs_modulus", "poissons_ratio", "density")
+    )
     corner = gf.MeshIm(mesh, gf.Integ("IM_NC_PARALLELEPIPED(3,1)"))
     below = cKDTree(mesh.pts().T).query(job["start"][job["foot"]])[1]
     mesh.set_region(FOOT, mesh.faces_from_pid(below))
@@ -85,9 +120,15 @@ def balance(job, mesh, field, volume):
     model.add_initialized_data("weight", [0.0, 0.0, -density * float(job["gravity"])])
     model.add_source_term_brick(volume, "u", "weight")
     model.add_initialized_fem_data("gap", level, gap)
-    for name, value in (("stiffness", 0.1 * young / float(job["brick"])), ("friction", float(job["friction"])), ("rate", 1.0)):
+    for name, value in (
+        ("stiffness", 0.1 * young / float(job["brick"])),
+        ("friction", float(job["friction"])),
+        ("rate", 1.0),
+    ):
         model.add_initialized_data(name, [value])
-    model.add_penalized_contact_with_rigid_obstacle_brick(corner, "u", "gap", "stiffness", "friction", FOOT, 1, "", "rate", "before")
+    model.add_penalized_contact_with_rigid_obstacle_brick(
+        corner, "u", "gap", "stiffness", "friction", FOOT, 1, "", "rate", "before"
+    )
     return model
 
 
@@ -104,13 +145,19 @@ def main(job_file, folder):
 
     def energy():
         kinetic = density / 2 * v @ mass_matrix.mult(v)
-        strain = gf.asm_generic(volume, 0, f"lame(1)/8*sqr(Trace({GREEN}))+lame(2)/4*Norm_sqr({GREEN})", -1, model)
+        strain = gf.asm_generic(
+            volume, 0, f"lame(1)/8*sqr(Trace({GREEN}))+lame(2)/4*Norm_sqr({GREEN})", -1, model
+        )
         lift = -(mass_matrix.mult(u) @ fall) * density
         return kinetic + strain + lift
 
     centre = job["centre"]
     pivot = np.array([float(job["radius"]), 0.0, 0.0])
-    raised = float(job["mass"]) * float(job["gravity"]) * (((centre - pivot) @ job["turn"].T)[2] - centre[2])
+    raised = (
+        float(job["mass"])
+        * float(job["gravity"])
+        * (((centre - pivot) @ job["turn"].T)[2] - centre[2])
+    )
     with open(f"{folder}/track.csv", "w", buffering=1) as track:
         cpu, iterations, ok = 0.0, 0, 1
         for step in range(int(job["steps"]) + 1):
@@ -129,7 +176,16 @@ def main(job_file, folder):
             now = job["start"] + (extension @ u.reshape(-1, 3))[node]
             axis = now[job["top"]].mean(0) - now[job["foot"]].mean(0)
             toes = now[job["toes"]] - job["points"][job["toes"]]
-            row = (step * dt, np.arctan2(axis[0], axis[2]), toes[0, 0], toes[1, 0], energy() + raised, cpu, iterations, int(ok))
+            row = (
+                step * dt,
+                np.arctan2(axis[0], axis[2]),
+                toes[0, 0],
+                toes[1, 0],
+                energy() + raised,
+                cpu,
+                iterations,
+                int(ok),
+            )
             track.write(",".join(f"{value:.12g}" for value in row) + "\n")
             if not ok:
                 sys.exit(f"Newton has not converged at step {step}")

@@ -1,4 +1,7 @@
-"""Installs the peers: Debian's packages as root, MuJoCo into an environment of its own. Nothing goes into the project's environment."""
+"""Installs the peers: Debian's packages as root, MuJoCo into an environment of its own.
+
+Nothing goes into the project's environment.
+"""
 
 from __future__ import annotations
 
@@ -18,9 +21,21 @@ def mujoco_python() -> Path:
 
 
 def install() -> None:
-    """Install what is missing; a peer that cannot be had is said and left out, so that the others still run."""
+    """Install what is missing; a peer that cannot be had is said and left out, so that the others
+    still run.
+    """
     as_root = [] if os.geteuid() == 0 else ["sudo"]
-    apt = [*as_root, "flock", "/var/lib/apt", "apt-get", "-qq", "-o", "DPkg::Lock::Timeout=1800", "-o", "Dpkg::Use-Pty=0"]
+    apt = [
+        *as_root,
+        "flock",
+        "/var/lib/apt",
+        "apt-get",
+        "-qq",
+        "-o",
+        "DPkg::Lock::Timeout=1800",
+        "-o",
+        "Dpkg::Use-Pty=0",
+    ]
     _try([*apt, "update"])
     for package in PACKAGES:
         _try([*apt, "install", "--no-install-recommends", "--yes", package])
@@ -31,10 +46,21 @@ def install() -> None:
 
 
 def _try(command) -> None:
-    environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "VIRTUAL_ENV")}
+    environment = {
+        key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "VIRTUAL_ENV")
+    }
     try:
-        done = subprocess.run(command, env=environment | {"DEBIAN_FRONTEND": "noninteractive"}, capture_output=True, text=True)
-        failure = done.stderr.strip().splitlines()[-1:] or ["no reason given"] if done.returncode else None
+        done = subprocess.run(
+            command,
+            env=environment | {"DEBIAN_FRONTEND": "noninteractive"},
+            capture_output=True,
+            text=True,
+        )
+        failure = (
+            done.stderr.strip().splitlines()[-1:] or ["no reason given"]
+            if done.returncode
+            else None
+        )
     except OSError as error:
         failure = [str(error)]
     if failure:

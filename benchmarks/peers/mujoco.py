@@ -1,10 +1,12 @@
-"""MuJoCo (PyPI), run in an environment of its own: the column as a rigid cylinder with the bricks' mass and inertia.
+"""MuJoCo (PyPI), run in an environment of its own: the column as a rigid cylinder with the bricks'
+mass and inertia.
 
     PYTHON -P mujoco.py JOB.npz FOLDER DT
 
-Settings, by MuJoCo's documentation for accurate contact: elliptic friction cones, Newton solver to 1e-12, friction as stiff as the normal
-contact (impratio), Runge-Kutta is no help across impacts, so implicitfast; solref at its shortest stable time constant of two steps and
-critical damping, which makes impacts plastic; solimp close to rigid from the surface on. Contact stays soft by design.
+Settings, by MuJoCo's documentation for accurate contact: elliptic friction cones, Newton solver to
+1e-12, friction as stiff as the normal contact (impratio), Runge-Kutta is no help across impacts, so
+implicitfast; solref at its shortest stable time constant of two steps and critical damping, which
+makes impacts plastic; solimp close to rigid from the surface on. Contact stays soft by design.
 """
 
 import sys
@@ -32,14 +34,31 @@ MODEL = """
 def main(job_file, folder, dt):
     job, dt = np.load(job_file), float(dt)
     tensor, words = job["inertia"], lambda values: " ".join(f"{value:.15g}" for value in values)
-    text = MODEL.format(dt=dt, gravity=float(job["gravity"]), friction=float(job["friction"]), ratio=1000, stiff=2 * dt,
-                        centre=words(job["centre"]), mass=float(job["mass"]), radius=float(job["radius"]), half=float(job["height"]) / 2,
-                        inertia=words([tensor[0, 0], tensor[1, 1], tensor[2, 2], 0, 0, 0]))
+    text = MODEL.format(
+        dt=dt,
+        gravity=float(job["gravity"]),
+        friction=float(job["friction"]),
+        ratio=1000,
+        stiff=2 * dt,
+        centre=words(job["centre"]),
+        mass=float(job["mass"]),
+        radius=float(job["radius"]),
+        half=float(job["height"]) / 2,
+        inertia=words([tensor[0, 0], tensor[1, 1], tensor[2, 2], 0, 0, 0]),
+    )
     model = mujoco.MjModel.from_xml_string(text)
     model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
     data = mujoco.MjData(model)
     radius, tilt = float(job["radius"]), float(job["tilt"])
-    data.qpos[:] = [radius - radius * np.cos(tilt), 0, radius * np.sin(tilt), np.cos(tilt / 2), 0, np.sin(tilt / 2), 0]
+    data.qpos[:] = [
+        radius - radius * np.cos(tilt),
+        0,
+        radius * np.sin(tilt),
+        np.cos(tilt / 2),
+        0,
+        np.sin(tilt / 2),
+        0,
+    ]
     mujoco.mj_forward(model, data)
     body, every = model.body("column").id, max(1, round(float(job["dt"]) / dt))
     # of standing
@@ -59,7 +78,17 @@ def main(job_file, folder, dt):
         mujoco.mj_energyPos(model, data), mujoco.mj_energyVel(model, data)
         turn, place = data.xmat[body].reshape(3, 3), data.xpos[body]
         toes = [place[0] + sign * radius * turn[0, 0] - sign * radius for sign in (1, -1)]
-        rows.append((data.time, np.arctan2(turn[0, 2], turn[2, 2]), *toes, sum(data.energy) - ground, cpu, iterations / every, 1))
+        rows.append(
+            (
+                data.time,
+                np.arctan2(turn[0, 2], turn[2, 2]),
+                *toes,
+                sum(data.energy) - ground,
+                cpu,
+                iterations / every,
+                1,
+            )
+        )
     with open(f"{folder}/track.csv", "w") as track:
         track.writelines(",".join(f"{value:.12g}" for value in row) + "\n" for row in rows)
 

@@ -2,8 +2,9 @@
 
     python -m benchmarks.peers.ours ENGINE CASE FOLDER [STEPS]
 
-Full is the corotated full-order engine; reduced and rigid are timed as they run in an analysis, whole stretches at a time, again and again
-for a second at least, and then stepped singly to look at the toe.
+Full is the corotated full-order engine; reduced and rigid are timed as they run in an analysis,
+whole stretches at a time, again and again for a second at least, and then stepped singly to look at
+the toe.
 """
 
 from __future__ import annotations
@@ -29,15 +30,26 @@ ENOUGH_S = 1.0
 
 def toes_of(reference, radius: float) -> list[int]:
     """Foot points (of (n, 3) [m]) at the rim's +x and -x ends."""
-    return [int(np.linalg.norm(reference - [sign * radius, 0.0, 0.0], axis=1).argmin()) for sign in (1, -1)]
+    return [
+        int(np.linalg.norm(reference - [sign * radius, 0.0, 0.0], axis=1).argmin())
+        for sign in (1, -1)
+    ]
 
 
 def full(given: Release, steps: int):
     """Rows of the track, one a step, of the full-order engine."""
     rocking.release("corotated", 0.4)  # compiles what a release and an impact call
-    trial = Trial(build_system(given.case, MPI.COMM_SELF, given.mesh), lambda system: tilted(system, given.tilt, 0.0))
+    trial = Trial(
+        build_system(given.case, MPI.COMM_SELF, given.mesh),
+        lambda system: tilted(system, given.tilt, 0.0),
+    )
     reference = trial.system.interface.reference
-    toes, standing, cpu, made = toes_of(reference, given.radius), trial.mechanical() - given.rigid.energy(given.tilt), 0.0, 0
+    toes, standing, cpu, made = (
+        toes_of(reference, given.radius),
+        trial.mechanical() - given.rigid.energy(given.tilt),
+        0.0,
+        0,
+    )
     for step in range(steps + 1):
         if step:
             began = time.process_time()
@@ -45,8 +57,15 @@ def full(given: Release, steps: int):
             cpu += time.process_time() - began
         state, made, before = trial.state, trial.stepper.record.iterations, made
         R = state.rotation
-        yield (state.time, np.arctan2(R[0, 2], R[2, 2]), *(state.relative[toes, 0] - reference[toes, 0]), trial.mechanical() - standing,
-               cpu, made - before, 1)
+        yield (
+            state.time,
+            np.arctan2(R[0, 2], R[2, 2]),
+            *(state.relative[toes, 0] - reference[toes, 0]),
+            trial.mechanical() - standing,
+            cpu,
+            made - before,
+            1,
+        )
 
 
 def reduced(given: Release, steps: int):
@@ -66,14 +85,25 @@ def reduced(given: Release, steps: int):
         made += steps
     engine = engine_of(given.case, model, base)
     reference = model.reference
-    toes, standing, seen = toes_of(reference, given.radius), engine.mechanical() - given.rigid.energy(given.tilt), 0
+    toes, standing, seen = (
+        toes_of(reference, given.radius),
+        engine.mechanical() - given.rigid.energy(given.tilt),
+        0,
+    )
     for step in range(steps + 1):
         if step:
             engine.advance(still[:1])
         motion, seen, before = engine.motion, engine.record.iterations, seen
         R = motion.rotation[0]
-        yield (motion.time, np.arctan2(R[0, 2], R[2, 2]), *(motion.contact["relative"][toes, 0] - reference[toes, 0]),
-               engine.mechanical() - standing, step * spent / made, seen - before, 1)
+        yield (
+            motion.time,
+            np.arctan2(R[0, 2], R[2, 2]),
+            *(motion.contact["relative"][toes, 0] - reference[toes, 0]),
+            engine.mechanical() - standing,
+            step * spent / made,
+            seen - before,
+            1,
+        )
 
 
 def main(engine: str, name: str, folder: str, steps: str = "") -> None:

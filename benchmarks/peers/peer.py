@@ -32,11 +32,23 @@ class Missing(RuntimeError):
 class Peer:
     """A program that rocks the column.
 
-    Attributes:
-        name: on the command line. label: in the table. start: function of (peer, release, job file, folder, limit [CPU s]) that runs it.
-        version: function that gives the command which prints the version where the peer can run, and fails elsewhere; None for this
-            project's engines. elements: a finite-element program. steps: it makes unless asked for a long run; 0 for all.
-        step_share: of its own step in the case's.
+    Attributes
+    ----------
+    name
+        on the command line.
+    label
+        in the table.
+    start
+        function of (peer, release, job file, folder, limit [CPU s]) that runs it.
+    version
+        function that gives the command which prints the version where the peer can run, and fails
+        elsewhere; None for this project's engines.
+    elements
+        a finite-element program.
+    steps
+        it makes unless asked for a long run; 0 for all.
+    step_share
+        of its own step in the case's.
     """
 
     name: str
@@ -50,7 +62,9 @@ class Peer:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A peer on a case: version, dofs, steps asked for, what it wrote (None: nothing), how it ended (None: it was not started) and why not."""
+    """A peer on a case: version, dofs, steps asked for, what it wrote (None: nothing), how it ended
+    (None: it was not started) and why not.
+    """
 
     peer: Peer
     given: Release
@@ -64,7 +78,18 @@ class Run:
 
 def _script(name, python, *extra):
     def start(peer, given, job, folder, limit):
-        return run_child([str(python() if callable(python) else python), "-P", str(HERE / name), str(job), str(folder), *extra], folder, limit)
+        return run_child(
+            [
+                str(python() if callable(python) else python),
+                "-P",
+                str(HERE / name),
+                str(job),
+                str(folder),
+                *extra,
+            ],
+            folder,
+            limit,
+        )
 
     return start
 
@@ -79,7 +104,10 @@ def _engine(peer, given, job, folder, limit):
 
 
 def _debian(package, module):
-    says = f"import {module}, subprocess as s; print(s.check_output(['dpkg-query', '-W', '-f', '${{Version}}', '{package}'], text=True))"
+    says = (
+        f"import {module}, subprocess as s; print(s.check_output(['dpkg-query', '-W', '-f', "
+        f"'${{Version}}', '{package}'], text=True))"
+    )
     return lambda: [SYSTEM_PYTHON, "-I", "-c", says]
 
 
@@ -91,27 +119,51 @@ PEERS = (
     Peer("full", "fecolumn, full order, corotated", _engine),
     Peer("reduced", "fecolumn, reduced, 30 modes", _engine),
     Peer("rigid", "fecolumn, rigid", _engine),
-    Peer("getfem", "GetFEM", _script("getfem.py", SYSTEM_PYTHON), _debian("python3-getfem", "getfem"), elements=True, steps=240),
+    Peer(
+        "getfem",
+        "GetFEM",
+        _script("getfem.py", SYSTEM_PYTHON),
+        _debian("python3-getfem", "getfem"),
+        elements=True,
+        steps=240,
+    ),
     Peer("calculix", "CalculiX", _ccx, lambda: ["ccx", "-v"], elements=True, steps=50),
     Peer("mujoco", "MuJoCo, rigid, dt 1e-3", _script("mujoco.py", mujoco_python, "1e-3"), _mujoco),
-    Peer("mujoco-fine", "MuJoCo, rigid, dt 1e-4", _script("mujoco.py", mujoco_python, "1e-4"), _mujoco, step_share=0.1),
-    Peer("siconos", "Siconos, rigid", _script("siconos.py", SYSTEM_PYTHON), _debian("python3-siconos", "siconos.kernel")),
+    Peer(
+        "mujoco-fine",
+        "MuJoCo, rigid, dt 1e-4",
+        _script("mujoco.py", mujoco_python, "1e-4"),
+        _mujoco,
+        step_share=0.1,
+    ),
+    Peer(
+        "siconos",
+        "Siconos, rigid",
+        _script("siconos.py", SYSTEM_PYTHON),
+        _debian("python3-siconos", "siconos.kernel"),
+    ),
 )
 
 
 def version(peer: Peer) -> str:
     """Version of a peer.
 
-    Raises:
-        Missing: it cannot be started.
+    Raises
+    ------
+    Missing
+        it cannot be started.
     """
     if peer.version is None:
         from fecolumn import __version__
 
         return __version__
-    environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "VIRTUAL_ENV")}
+    environment = {
+        key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "VIRTUAL_ENV")
+    }
     try:
-        done = subprocess.run(peer.version(), capture_output=True, text=True, timeout=120, env=environment)
+        done = subprocess.run(
+            peer.version(), capture_output=True, text=True, timeout=120, env=environment
+        )
     except (OSError, subprocess.TimeoutExpired) as error:
         raise Missing(f"cannot run: {error}; --install installs it") from None
     # code of ccx -v is not 0
@@ -122,10 +174,20 @@ def version(peer: Peer) -> str:
     return found.group()
 
 
-def run_peer(peer: Peer, given: Release, folder: Path, long: bool = False, limit: float = CPU_LIMIT_S) -> Run:
-    """Run a peer on a case in a folder of its own below `folder`; a peer that is missing or fails says so in the result."""
+def run_peer(
+    peer: Peer, given: Release, folder: Path, long: bool = False, limit: float = CPU_LIMIT_S
+) -> Run:
+    """Run a peer on a case in a folder of its own below `folder`; a peer that is missing or fails
+    says so in the result.
+    """
     bodies = len(given.mesh.body.points)
-    dofs = 3 * (bodies + len(given.mesh.base.points)) if peer.version is None else 3 * bodies if peer.elements else 6
+    dofs = (
+        3 * (bodies + len(given.mesh.base.points))
+        if peer.version is None
+        else 3 * bodies
+        if peer.elements
+        else 6
+    )
     steps = given.steps if long or not peer.steps else min(peer.steps, given.steps)
     run = Run(peer, given, dofs, round(steps / peer.step_share))
     try:
@@ -144,12 +206,34 @@ def run_peer(peer: Peer, given: Release, folder: Path, long: bool = False, limit
 def record(run: Run) -> dict:
     """Everything measured in a run, for the JSON file."""
     track, outcome = run.track, run.outcome
-    found = dict(case=run.given.name, name=run.peer.name, peer=run.peer.label, version=run.version, elements=run.peer.elements, dofs=run.dofs, asked_steps=run.asked, reason=run.reason)
+    found = dict(
+        case=run.given.name,
+        name=run.peer.name,
+        peer=run.peer.label,
+        version=run.version,
+        elements=run.peer.elements,
+        dofs=run.dofs,
+        asked_steps=run.asked,
+        reason=run.reason,
+    )
     if outcome:
-        found |= dict(code=outcome.code, cpu_s=outcome.cpu, timed_out=outcome.timed_out, last_words=outcome.words)
+        found |= dict(
+            code=outcome.code,
+            cpu_s=outcome.cpu,
+            timed_out=outcome.timed_out,
+            last_words=outcome.words,
+        )
     if track:
-        found |= dict(steps=round(track.steps / run.peer.step_share), cpu_s_per_step=track.cpu_per_step * run.peer.step_share,
-                      iterations_per_step=float(track.iterations[1:].mean()) if track.steps else None, converged=bool(track.converged.all()),
-                      impacts_s=track.impacts.tolist(), theory_s=run.given.impacts.tolist(), toe_creep_m=track.creep,
-                      energy_kept=track.kept, theory_energy_kept=run.given.rigid.restitution**2, reached_s=float(track.time[-1]))
+        found |= dict(
+            steps=round(track.steps / run.peer.step_share),
+            cpu_s_per_step=track.cpu_per_step * run.peer.step_share,
+            iterations_per_step=float(track.iterations[1:].mean()) if track.steps else None,
+            converged=bool(track.converged.all()),
+            impacts_s=track.impacts.tolist(),
+            theory_s=run.given.impacts.tolist(),
+            toe_creep_m=track.creep,
+            energy_kept=track.kept,
+            theory_energy_kept=run.given.rigid.restitution**2,
+            reached_s=float(track.time[-1]),
+        )
     return json.loads(json.dumps(found, default=float).replace("NaN", "null"))

@@ -1,9 +1,11 @@
-"""Siconos 4.4 (Debian python3-siconos), run by the system's Python: the column as a rigid body, Moreau-Jean time stepping.
+"""Siconos 4.4 (Debian python3-siconos), run by the system's Python: the column as a rigid body,
+Moreau-Jean time stepping.
 
     /usr/bin/python3 -P siconos.py JOB.npz FOLDER
 
-Settings. theta = 1/2, which has no numerical damping; Newton's law with e = 0 and Coulomb's friction, NSGS to 1e-12. Four points of the rim may
-touch, the toes and those between; their gap is written in Python, as Siconos offers it, and is part of the cost of a step.
+Settings. theta = 1/2, which has no numerical damping; Newton's law with e = 0 and Coulomb's
+friction, NSGS to 1e-12. Four points of the rim may touch, the toes and those between; their gap is
+written in Python, as Siconos offers it, and is part of the cost of a step.
 """
 
 import sys
@@ -38,10 +40,25 @@ class RimPoint(sk.NewtonEuler3DR):
 
 def main(job_file, folder):
     job = np.load(job_file)
-    dt, steps, radius, tilt = float(job["dt"]), int(job["steps"]), float(job["radius"]), float(job["tilt"])
-    mass, weight, centre = float(job["mass"]), float(job["mass"]) * float(job["gravity"]), job["centre"]
+    dt, steps, radius, tilt = (
+        float(job["dt"]),
+        int(job["steps"]),
+        float(job["radius"]),
+        float(job["tilt"]),
+    )
+    mass, weight, centre = (
+        float(job["mass"]),
+        float(job["mass"]) * float(job["gravity"]),
+        job["centre"],
+    )
     pivot = np.array([radius, 0.0, 0.0])
-    start = [*(pivot + job["turn"] @ (centre - pivot)), np.cos(tilt / 2), 0.0, np.sin(tilt / 2), 0.0]
+    start = [
+        *(pivot + job["turn"] @ (centre - pivot)),
+        np.cos(tilt / 2),
+        0.0,
+        np.sin(tilt / 2),
+        0.0,
+    ]
     body = sk.NewtonEulerDS(start, [0.0] * 6, mass, np.diag(np.diag(job["inertia"])))
     force = np.array([0.0, 0.0, -weight])  # Siconos copies it
     body.setFExtPtr(force)
@@ -71,8 +88,15 @@ def main(job_file, folder):
                 cpu += time.process_time() - began
             q, v = np.array(body.q()), np.array(body.twist())
             axis = turned(q, np.array([0.0, 0.0, 1.0]))
-            toes = [q[0] + turned(q, np.array([sign * radius, 0.0, 0.0]) - centre)[0] - sign * radius for sign in (1, -1)]
-            energy = mass / 2 * v[:3] @ v[:3] + v[3:] @ job["inertia"] @ v[3:] / 2 + weight * (q[2] - centre[2])
+            toes = [
+                q[0] + turned(q, np.array([sign * radius, 0.0, 0.0]) - centre)[0] - sign * radius
+                for sign in (1, -1)
+            ]
+            energy = (
+                mass / 2 * v[:3] @ v[:3]
+                + v[3:] @ job["inertia"] @ v[3:] / 2
+                + weight * (q[2] - centre[2])
+            )
             iterations = simulation.getNewtonNbIterations() if step else 0
             row = (step * dt, np.arctan2(axis[0], axis[2]), *toes, energy, cpu, iterations, ok)
             track.write(",".join(f"{value:.12g}" for value in row) + "\n")

@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-HEAD = ("peer", "dofs", "CPU s a step", "iterations", "steps", "impacts passed", "off theory, worst", "toe creep [µm]", "energy kept / theory", "remark")
+HEAD = (
+    "peer",
+    "dofs",
+    "CPU s a step",
+    "iterations",
+    "steps",
+    "impacts passed",
+    "off theory, worst",
+    "toe creep [µm]",
+    "energy kept / theory",
+    "remark",
+)
 
 
 def remark(record: dict) -> str:
@@ -21,7 +32,11 @@ def remark(record: dict) -> str:
         return f"stops, code {record['code']}; {reached}: {words}"
     if record["code"]:
         return f"code {record['code']}: {words}"
-    return "converged" if len(record["impacts_s"]) >= len(record["theory_s"]) else f"converged; {reached} asked for"
+    return (
+        "converged"
+        if len(record["impacts_s"]) >= len(record["theory_s"])
+        else f"converged; {reached} asked for"
+    )
 
 
 def row(record: dict) -> tuple[str, ...]:
@@ -30,11 +45,23 @@ def row(record: dict) -> tuple[str, ...]:
     if "steps" not in record:
         return (who, f"{record['dofs']:,}", *["-"] * 7, remark(record))
     passed = min(len(record["impacts_s"]), len(record["theory_s"]))
-    off = max((abs(found / exact - 1) for found, exact in zip(record["impacts_s"], record["theory_s"])), default=None)
+    off = max(
+        (abs(found / exact - 1) for found, exact in zip(record["impacts_s"], record["theory_s"])),
+        default=None,
+    )
     kept, creep = record["energy_kept"], record["toe_creep_m"]
-    return (who, f"{record['dofs']:,}", _cell(record["cpu_s_per_step"], "{:.2g}"), _cell(record["iterations_per_step"], "{:.1f}"),
-            f"{record['steps']:,}", f"{passed}", _cell(off, "{:.2%}"), _cell(creep and 1e6 * creep, "{:.2g}"),
-            f"{_cell(kept, '{:.4f}')} / {record['theory_energy_kept']:.4f}", remark(record))
+    return (
+        who,
+        f"{record['dofs']:,}",
+        _cell(record["cpu_s_per_step"], "{:.2g}"),
+        _cell(record["iterations_per_step"], "{:.1f}"),
+        f"{record['steps']:,}",
+        f"{passed}",
+        _cell(off, "{:.2%}"),
+        _cell(creep and 1e6 * creep, "{:.2g}"),
+        f"{_cell(kept, '{:.4f}')} / {record['theory_energy_kept']:.4f}",
+        remark(record),
+    )
 
 
 def _cell(value, form: str) -> str:
@@ -45,13 +72,28 @@ def table(records: list[dict]) -> str:
     """Markdown table of records."""
     rows = [HEAD, *(row(record) for record in records)]
     widths = [max(len(cells[k]) for cells in rows) for k in range(len(HEAD))]
-    lines = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |" for cells in rows]
-    return "\n".join([lines[0], "|" + "|".join("-" * (width + 2) for width in widths) + "|", *lines[1:]])
+    lines = [
+        "| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |"
+        for cells in rows
+    ]
+    return "\n".join(
+        [lines[0], "|" + "|".join("-" * (width + 2) for width in widths) + "|", *lines[1:]]
+    )
 
 
 def ratios(records: list[dict]) -> list[str]:
-    """How many times faster a step this project's finite-element engines are than the fastest finite-element peer that made steps."""
+    """How many times faster a step this project's finite-element engines are than the fastest
+    finite-element peer that made steps.
+    """
     timed = [record for record in records if record.get("cpu_s_per_step")]
-    fastest = min((record for record in timed if record["elements"]), key=lambda record: record["cpu_s_per_step"], default=None)
-    return [f"{record['peer']}: {fastest['cpu_s_per_step'] / record['cpu_s_per_step']:,.0f} times as fast a step as {fastest['peer']}"
-            for record in timed if fastest and record["name"] in ("full", "reduced")]
+    fastest = min(
+        (record for record in timed if record["elements"]),
+        key=lambda record: record["cpu_s_per_step"],
+        default=None,
+    )
+    return [
+        f"{record['peer']}: {fastest['cpu_s_per_step'] / record['cpu_s_per_step']:,.0f} "
+        f"times as fast a step as {fastest['peer']}"
+        for record in timed
+        if fastest and record["name"] in ("full", "reduced")
+    ]

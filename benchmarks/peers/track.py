@@ -1,8 +1,9 @@
 """What every peer writes as it steps, and what is read from it, in the same way for all.
 
-A track is a text file with a line a step, the first at release: time [s]; lean [rad], towards +x; displacement along x of the rim's ends at +x
-and -x [m]; kinetic, strain and gravity energy above standing [J], nan if the peer does not tell; CPU time of all steps so far [s]; iterations of
-the step; 1 if it converged.
+A track is a text file with a line a step, the first at release: time [s]; lean [rad], towards +x;
+displacement along x of the rim's ends at +x and -x [m]; kinetic, strain and gravity energy above
+standing [J], nan if the peer does not tell; CPU time of all steps so far [s]; iterations of the
+step; 1 if it converged.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-# After an impact, until the elastic column has come to rest on its new toe; and steps before the next one that may belong to it
+# After an impact, until the elastic column has come to rest on its new toe; and steps before the
+# next one that may belong to it
 SETTLING_S, LEAVING_S = 0.010, 0.003
 
 
@@ -45,18 +47,23 @@ class Track:
     def impacts(self) -> np.ndarray:
         """Times at which the column is upright [s], linear between steps."""
         k = self.crossings
-        return self.time[k] + (self.time[k + 1] - self.time[k]) * self.lean[k] / (self.lean[k] - self.lean[k + 1])
+        return self.time[k] + (self.time[k + 1] - self.time[k]) * self.lean[k] / (
+            self.lean[k] - self.lean[k + 1]
+        )
 
     @property
     def creep(self) -> float:
-        """Farthest that the toe moves from where it stood, while the column turns about it and no slip is due [m]; nan if never seen.
+        """Farthest that the toe moves from where it stood, while the column turns about it and no
+        slip is due [m]; nan if never seen.
 
         Without the first moments after release and impacts, in which it may slip or swing.
         """
         ends = [0.0, *self.impacts, self.time[-1] + LEAVING_S]
         worst = []
         for start, end in zip(ends[:-1], ends[1:]):
-            inside = np.flatnonzero((self.time >= start + SETTLING_S) & (self.time <= end - LEAVING_S))
+            inside = np.flatnonzero(
+                (self.time >= start + SETTLING_S) & (self.time <= end - LEAVING_S)
+            )
             if len(inside) > 1:
                 toe = (self.right if self.lean[inside[0]] > 0 else self.left)[inside]
                 worst.append(np.abs(toe - toe[0]).max())
@@ -64,7 +71,9 @@ class Track:
 
     @property
     def kept(self) -> float:
-        """Energy after the first impact over that at release [-]: mean from 5 to 15 ms after it; nan if not seen."""
+        """Energy after the first impact over that at release [-]: mean from 5 to 15 ms after it;
+        nan if not seen.
+        """
         if not len(self.impacts):
             return np.nan
         since = self.time - self.impacts[0]
@@ -83,7 +92,10 @@ class Track:
 
 
 def read_track(path: Path) -> Track | None:
-    """Track of a file; None where there is none or nothing in it. A line that was being written is left out."""
+    """Track of a file; None where there is none or nothing in it.
+
+    A line that was being written is left out.
+    """
     if not path.is_file():
         return None
     rows = [line.split(",") for line in path.read_text().split("\n")[:-1]]

@@ -1,12 +1,16 @@
-"""Steps of a structure in time: Moreau's midpoint scheme with the gap at the end of the step, cut where a corner lands.
+"""Steps of a structure in time: Moreau's midpoint scheme with the gap at the end of the step, cut
+where a corner lands.
 
     q_m = q + dt/2 v;   M (v' - v) = dt F(q_m) + J(q_m)^T p;   q' = q_m + dt/2 v'
 
-A corner on a face may approach it by no more than its gap: g(q_m + dt v') >= 0. What it moves across and along the face in a step is measured on the circles on
-which it turns, with the velocities of a first solution on their tangents: a pivot neither opens nor creeps. Between impacts this is the scheme SHAKE, of second
-order. A step in which a corner would land is cut there, an impact (e = 0) takes no time, and the rest of the step follows: so an impact errs by dt^2, too, and
-none sinks in. Sources: Moreau (1988), Unilateral contact and dry friction in finite freedom dynamics, CISM 302; Jean (1999), The non-smooth contact dynamics
-method, Comput. Methods Appl. Mech. Eng. 177.
+A corner on a face may approach it by no more than its gap: g(q_m + dt v') >= 0. What it moves
+across and along the face in a step is measured on the circles on which it turns, with the
+velocities of a first solution on their tangents: a pivot neither opens nor creeps. Between impacts
+this is the scheme SHAKE, of second order. A step in which a corner would land is cut there, an
+impact (e = 0) takes no time, and the rest of the step follows: so an impact errs by dt^2, too, and
+none sinks in. Sources: Moreau (1988), Unilateral contact and dry friction in finite freedom
+dynamics, CISM 302; Jean (1999), The non-smooth contact dynamics method, Comput. Methods Appl. Mech.
+Eng. 177.
 """
 
 from __future__ import annotations
@@ -34,10 +38,20 @@ _CLOSED = 0.1
 class History:
     """Motion of a structure.
 
-    Attributes:
-        time: (n,) [s]. place: (n, nb, 3) [m, m, rad] and velocity: (n, nb, 3) of the centres of mass, relative to the ground.
-        energy: (n, 5) [J]: kinetic, of gravity, work of the ground so far, of contacts so far across and along their faces.
-        fallen: whether a body tilted by more than FALLEN, which ends it. unsolved: steps whose friction problem was solved to more than TOLERANCE only.
+    Attributes
+    ----------
+    time
+        (n,) [s].
+    place
+        (n, nb, 3) [m, m, rad] and velocity: (n, nb, 3) of the centres of mass, relative to the
+        ground.
+    energy
+        (n, 5) [J]: kinetic, of gravity, work of the ground so far, of contacts so far across and
+        along their faces.
+    fallen
+        whether a body tilted by more than FALLEN, which ends it.
+    unsolved
+        steps whose friction problem was solved to more than TOLERANCE only.
     """
 
     structure: Structure
@@ -62,32 +76,93 @@ class History:
     def top(self, body: int) -> np.ndarray:
         """Displacement along x of the middle of the top of a quadrilateral: (n,) [m]."""
         middle = np.mean(self.structure.ends(body, 2), axis=0)
-        return self.structure.point(body, middle, self.place)[:, 0] - self.structure.point(body, middle, self.structure.place)[0]
+        return (
+            self.structure.point(body, middle, self.place)[:, 0]
+            - self.structure.point(body, middle, self.structure.place)[0]
+        )
 
 
-def advance(structure: Structure, ground: np.ndarray, dt: float, *, place=None, velocity=None, every: int = 1) -> History:
-    """Motion under horizontal accelerations (n + 1,) of the ground [m/s2] at the ends of n steps of dt [s], straight lines between them.
+def advance(
+    structure: Structure,
+    ground: np.ndarray,
+    dt: float,
+    *,
+    place=None,
+    velocity=None,
+    every: int = 1,
+) -> History:
+    """Motion under horizontal accelerations (n + 1,) of the ground [m/s2] at the ends of n steps of
+    dt [s], straight lines between them.
 
-    Args:
-        place, velocity: (nb, 3) at the start; left out: standing. every: steps between rows of the history.
+    Parameters
+    ----------
+    place, velocity
+        (nb, 3) at the start; left out: standing.
+    every
+        steps between rows of the history.
     """
     place = (structure.place if place is None else place).copy()
     velocity = np.zeros_like(place) if velocity is None else np.array(velocity, float)
-    rows, energy, fallen, unsolved = _advance(1 / structure.mass, 1 / structure.inertia, structure.pairs, structure.shape, structure.friction, place, velocity,
-                                              np.ascontiguousarray(ground, float), dt, every)
-    return History(structure, dt * every * np.arange(len(rows)), rows[:, 0], rows[:, 1], energy, bool(fallen), int(unsolved))
+    rows, energy, fallen, unsolved = _advance(
+        1 / structure.mass,
+        1 / structure.inertia,
+        structure.pairs,
+        structure.shape,
+        structure.friction,
+        place,
+        velocity,
+        np.ascontiguousarray(ground, float),
+        dt,
+        every,
+    )
+    return History(
+        structure,
+        dt * every * np.arange(len(rows)),
+        rows[:, 0],
+        rows[:, 1],
+        energy,
+        bool(fallen),
+        int(unsolved),
+    )
 
 
 @njit(cache=True)
 def _advance(lightness, ease, pairs, shape, friction, place, velocity, ground, dt, every):
-    """Rows (k, 2, nb, 3) of places and velocities, energies (k, 5), whether it fell, steps left unsolved; lightness, ease: 1 over mass and inertia."""
+    """Rows (k, 2, nb, 3) of places and velocities, energies (k, 5), whether it fell, steps left
+    unsolved; lightness, ease: 1 over mass and inertia.
+    """
     bodies, most, steps = len(place), len(pairs), len(ground) - 1
-    rows, energy, made, unsolved, fallen = np.empty((steps // every + 1, 2, bodies, 3)), np.zeros((steps // every + 1, 5)), 1, 0, False
-    found, state, impulse, work = np.empty(most, np.int64), np.zeros(most, np.int64), np.zeros((most, 2)), np.zeros(3)
+    rows, energy, made, unsolved, fallen = (
+        np.empty((steps // every + 1, 2, bodies, 3)),
+        np.zeros((steps // every + 1, 5)),
+        1,
+        0,
+        False,
+    )
+    found, state, impulse, work = (
+        np.empty(most, np.int64),
+        np.zeros(most, np.int64),
+        np.zeros((most, 2)),
+        np.zeros(3),
+    )
     rows[0, 0], rows[0, 1] = place, velocity
     measure(lightness, ease, place, velocity, work, energy[0])
     for k in range(steps):
-        if not step(lightness, ease, pairs, shape, friction, place, velocity, (ground[k] + ground[k + 1]) / 2, dt, found, state, impulse, work):
+        if not step(
+            lightness,
+            ease,
+            pairs,
+            shape,
+            friction,
+            place,
+            velocity,
+            (ground[k] + ground[k + 1]) / 2,
+            dt,
+            found,
+            state,
+            impulse,
+            work,
+        ):
             unsolved += 1
         if (k + 1) % every == 0:
             rows[made, 0], rows[made, 1] = place, velocity
@@ -105,14 +180,32 @@ def measure(lightness, ease, place, velocity, work, row):
     row[:2] = 0.0
     for b in range(len(place)):
         if lightness[b] > 0.0:
-            row[0] += ((velocity[b, 0] ** 2 + velocity[b, 1] ** 2) / lightness[b] + velocity[b, 2] ** 2 / ease[b]) / 2
+            row[0] += (
+                (velocity[b, 0] ** 2 + velocity[b, 1] ** 2) / lightness[b]
+                + velocity[b, 2] ** 2 / ease[b]
+            ) / 2
             row[1] += GRAVITY * place[b, 1] / lightness[b]
     row[2:] = work
 
 
 @njit(cache=True)
-def step(lightness, ease, pairs, shape, friction, place, velocity, shaken, dt, found, state, impulse, work):
-    """One step in place; shaken: acceleration of the ground in it [m/s2]. state (nc,), impulse (nc, 2): of the step before. Whether all friction was solved.
+def step(
+    lightness,
+    ease,
+    pairs,
+    shape,
+    friction,
+    place,
+    velocity,
+    shaken,
+    dt,
+    found,
+    state,
+    impulse,
+    work,
+):
+    """One step in place; shaken: acceleration of the ground in it [m/s2]. state (nc,), impulse (nc,
+    2): of the step before. Whether all friction was solved.
 
     Corners whose gap is below a fifth of what a fall from rest covers in a step are on their faces.
     """
@@ -122,7 +215,22 @@ def step(lightness, ease, pairs, shape, friction, place, velocity, shaken, dt, f
         h, share, done, then, booked = left, 1.0, velocity, velocity, work
         for _ in range(2):
             then, booked, done = velocity.copy(), work.copy(), place + h / 2 * velocity
-            missed = kick(lightness, ease, pairs, shape, friction, done, then, shaken, h, dt, found[:n], state, impulse, booked)
+            missed = kick(
+                lightness,
+                ease,
+                pairs,
+                shape,
+                friction,
+                done,
+                then,
+                shaken,
+                h,
+                dt,
+                found[:n],
+                state,
+                impulse,
+                booked,
+            )
             done += h / 2 * then
             if share < 1.0 or cut == _CUTS:
                 break
@@ -135,13 +243,33 @@ def step(lightness, ease, pairs, shape, friction, place, velocity, shaken, dt, f
         if share == 1.0:
             break
         n = near(place, pairs, shape, closed, found)
-        error = max(error, kick(lightness, ease, pairs, shape, friction, place, velocity, shaken, 0.0, dt, found[:n], state, impulse, work))
+        error = max(
+            error,
+            kick(
+                lightness,
+                ease,
+                pairs,
+                shape,
+                friction,
+                place,
+                velocity,
+                shaken,
+                0.0,
+                dt,
+                found[:n],
+                state,
+                impulse,
+                work,
+            ),
+        )
     return error <= TOLERANCE
 
 
 @njit(cache=True)
 def landing(place, ahead, pairs, shape, closed):
-    """Share of the way from `place` to `ahead` at which the first open corner lands, 1 if none does."""
+    """Share of the way from `place` to `ahead` at which the first open corner lands, 1 if none
+    does.
+    """
     share = 1.0
     for c in range(len(pairs)):
         s, g = locate(ahead, pairs[c], shape[c])
@@ -153,8 +281,24 @@ def landing(place, ahead, pairs, shape, closed):
 
 
 @njit(cache=True)
-def kick(lightness, ease, pairs, shape, friction, place, velocity, shaken, h, dt, found, state, impulse, work):
-    """Put the velocities after forces of a time h of a step dt and the impulses at the corners `found` into `velocity`: error of the impulses [m/s].
+def kick(
+    lightness,
+    ease,
+    pairs,
+    shape,
+    friction,
+    place,
+    velocity,
+    shaken,
+    h,
+    dt,
+    found,
+    state,
+    impulse,
+    work,
+):
+    """Put the velocities after forces of a time h of a step dt and the impulses at the corners
+    `found` into `velocity`: error of the impulses [m/s].
 
     h = 0: an impact.
     """
@@ -163,7 +307,14 @@ def kick(lightness, ease, pairs, shape, friction, place, velocity, shaken, h, dt
         if lightness[b] > 0.0:
             free[b, 0] -= h * shaken
             free[b, 1] -= h * GRAVITY
-    J, q, bent, mu, p, states = np.empty((n, 2, 2, 3)), np.empty(2 * n), np.zeros(2 * n), np.empty(n), np.empty(2 * n), np.empty(n, np.int64)
+    J, q, bent, mu, p, states = (
+        np.empty((n, 2, 2, 3)),
+        np.empty(2 * n),
+        np.zeros(2 * n),
+        np.empty(n),
+        np.empty(2 * n),
+        np.empty(n, np.int64),
+    )
     for i in range(n):
         c = found[i]
         jacobian(place, pairs[c], shape[c], J[i])
@@ -171,7 +322,12 @@ def kick(lightness, ease, pairs, shape, friction, place, velocity, shaken, h, dt
         if h > 0.0:
             gap = locate(place, pairs[c], shape[c])[1]
             q[2 * i] += gap / h if gap > 0.0 else max(gap, -_LIFTED) / dt
-        mu[i], p[2 * i], p[2 * i + 1], states[i] = friction[c], impulse[c, 0], impulse[c, 1], state[c]
+        mu[i], p[2 * i], p[2 * i + 1], states[i] = (
+            friction[c],
+            impulse[c, 0],
+            impulse[c, 1],
+            state[c],
+        )
     W = delassus(J, pairs, found, lightness, ease)
     error = solve(W, q, mu, p, states)
     push(free, J, pairs, found, p, lightness, ease, velocity)
@@ -183,7 +339,11 @@ def kick(lightness, ease, pairs, shape, friction, place, velocity, shaken, h, dt
     impulse[:] = 0.0
     mean = (before + velocity) / 2
     for i in range(n):
-        state[found[i]], impulse[found[i], 0], impulse[found[i], 1] = states[i], p[2 * i], p[2 * i + 1]
+        state[found[i]], impulse[found[i], 0], impulse[found[i], 1] = (
+            states[i],
+            p[2 * i],
+            p[2 * i + 1],
+        )
         for a in range(2):
             work[1 + a] += p[2 * i + a] * along(J[i, a], pairs[found[i]], mean)
     for b in range(len(place)):
@@ -207,11 +367,16 @@ def push(free, J, pairs, found, p, lightness, ease, velocity):
 
 @njit(cache=True)
 def bend(place, pairs, shape, found, J, velocity, dt, bent):
-    """Put into bent (2 n,) the mean rates [m/s] of the gaps and ways of a step with that velocity over those at its middle, circles over tangents."""
+    """Put into bent (2 n,) the mean rates [m/s] of the gaps and ways of a step with that velocity
+    over those at its middle, circles over tangents.
+    """
     ahead = place + dt * velocity
     for i in range(len(J)):
         c = found[i]
-        (s, g), (s_ahead, g_ahead) = locate(place, pairs[c], shape[c]), locate(ahead, pairs[c], shape[c])
+        (s, g), (s_ahead, g_ahead) = (
+            locate(place, pairs[c], shape[c]),
+            locate(ahead, pairs[c], shape[c]),
+        )
         bent[2 * i] = (g_ahead - g) / dt - along(J[i, 0], pairs[c], velocity)
         bent[2 * i + 1] = (s_ahead - s) / dt - along(J[i, 1], pairs[c], velocity)
 
@@ -239,8 +404,14 @@ def delassus(J, pairs, found, lightness, ease):
                     if pairs[found[j], f] == b:
                         for a in range(2):
                             for c in range(2):
-                                W[2 * i + a, 2 * j + c] += (lightness[b] * (J[i, a, e, 0] * J[j, c, f, 0] + J[i, a, e, 1] * J[j, c, f, 1])
-                                                            + ease[b] * J[i, a, e, 2] * J[j, c, f, 2])
+                                W[2 * i + a, 2 * j + c] += (
+                                    lightness[b]
+                                    * (
+                                        J[i, a, e, 0] * J[j, c, f, 0]
+                                        + J[i, a, e, 1] * J[j, c, f, 1]
+                                    )
+                                    + ease[b] * J[i, a, e, 2] * J[j, c, f, 2]
+                                )
             for a in range(2):
                 for c in range(2):
                     W[2 * j + c, 2 * i + a] = W[2 * i + a, 2 * j + c]

@@ -1,6 +1,8 @@
-"""Rigid polygons in the plane x (right), z (up), and which face of one may touch which face of another.
+"""Rigid polygons in the plane x (right), z (up), and which face of one may touch which face of
+another.
 
-SI units, of a slice of 1 m of depth unless a body says otherwise; angles in rad, counterclockwise. A place is (x, z, angle) of the centre of mass.
+SI units, of a slice of 1 m of depth unless a body says otherwise; angles in rad, counterclockwise.
+A place is (x, z, angle) of the centre of mass.
 """
 
 from __future__ import annotations
@@ -18,9 +20,18 @@ BOTTOM, RIGHT, TOP, LEFT = range(4)
 class Body:
     """A convex polygon where it stands at the start.
 
-    Attributes:
-        name: of it. outline: (n, 2) corners [m], counterclockwise; face k runs from corner k to corner k + 1. density: [kg/m3]. depth: [m].
-        fixed: whether it is part of the ground.
+    Attributes
+    ----------
+    name
+        of it.
+    outline
+        (n, 2) corners [m], counterclockwise; face k runs from corner k to corner k + 1.
+    density
+        [kg/m3].
+    depth
+        [m].
+    fixed
+        whether it is part of the ground.
     """
 
     name: str
@@ -30,12 +41,17 @@ class Body:
     fixed: bool = False
 
     def mass_properties(self) -> tuple[float, np.ndarray, float]:
-        """Mass [kg], centre of mass (2,) [m], moment of inertia about it [kg m2]: sums over the triangles between the origin and each face."""
+        """Mass [kg], centre of mass (2,) [m], moment of inertia about it [kg m2]: sums over the
+        triangles between the origin and each face.
+        """
         a, b = self.outline, np.roll(self.outline, -1, axis=0)
         twice = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
         area = twice.sum() / 2
         if area <= 0:
-            raise ValueError(f"{self.name}: corners must run counterclockwise; the area they enclose is {area:.3g} m2")
+            raise ValueError(
+                f"{self.name}: corners must run counterclockwise; the area they enclose "
+                f"is {area:.3g} m2"
+            )
         centre = ((a + b) * twice[:, None]).sum(axis=0) / (6 * area)
         polar = ((a * a + a * b + b * b).sum(axis=1) * twice).sum() / 12 - area * (centre @ centre)
         mass_of_area = self.density * self.depth
@@ -44,7 +60,9 @@ class Body:
 
 @dataclass(frozen=True)
 class Joint:
-    """Face `face` of body `body` that may touch face `other_face` of body `other`, numbers of both; friction: coefficient of it."""
+    """Face `face` of body `body` that may touch face `other_face` of body `other`, numbers of both;
+    friction: coefficient of it.
+    """
 
     body: int
     face: int
@@ -57,10 +75,19 @@ class Joint:
 class Structure:
     """Bodies and joints; arrays for the step are made of them.
 
-    Attributes:
-        mass, inertia: (nb,) [kg], [kg m2], infinite where fixed. place: (nb, 3) at the start.
-        pairs: (nc, 2) of each corner that may touch a face: number of the corner's body, of the face's body.
-        shape: (nc, 7) corner; start, direction and length of the face, in the frames of their bodies [m]; friction: (nc,).
+    Attributes
+    ----------
+    mass, inertia
+        (nb,) [kg], [kg m2], infinite where fixed.
+    place
+        (nb, 3) at the start.
+    pairs
+        (nc, 2) of each corner that may touch a face: number of the corner's body, of the face's
+        body.
+    shape
+        (nc, 7) corner; start, direction and length of the face, in the frames of their bodies [m]
+    friction
+        (nc,).
     """
 
     bodies: tuple[Body, ...]
@@ -78,8 +105,17 @@ class Structure:
         def put(name, values, kind=float):
             object.__setattr__(self, name, np.array(values, kind))
 
-        put("mass", [np.inf if body.fixed else mass for body, (mass, _, _) in zip(self.bodies, found)])
-        put("inertia", [np.inf if body.fixed else inertia for body, (_, _, inertia) in zip(self.bodies, found)])
+        put(
+            "mass",
+            [np.inf if body.fixed else mass for body, (mass, _, _) in zip(self.bodies, found)],
+        )
+        put(
+            "inertia",
+            [
+                np.inf if body.fixed else inertia
+                for body, (_, _, inertia) in zip(self.bodies, found)
+            ],
+        )
         put("place", [(*centre, 0.0) for _, centre, _ in found])
         pairs, shape, friction = [], [], []
         for joint in self.joints:
@@ -105,7 +141,9 @@ class Structure:
         return [body.name for body in self.bodies].index(name)
 
     def point(self, body: int, local, place: np.ndarray) -> np.ndarray:
-        """Where a point of a body, `local` (2,) [m] from its centre of mass, is at places (..., nb, 3): (..., 2) [m]."""
+        """Where a point of a body, `local` (2,) [m] from its centre of mass, is at places (..., nb,
+        3): (..., 2) [m].
+        """
         x, z, angle = np.moveaxis(place[..., body, :], -1, 0)
         c, s = np.cos(angle), np.sin(angle)
         return np.stack([x + c * local[0] - s * local[1], z + s * local[0] + c * local[1]], axis=-1)
@@ -114,11 +152,22 @@ class Structure:
         """Places (nb, 3) with one body turned by `angle` [rad] about a point (2,) [m] of the plane."""
         out, arm = place.copy(), place[body, :2] - about
         c, s = np.cos(angle), np.sin(angle)
-        out[body] = (about[0] + c * arm[0] - s * arm[1], about[1] + s * arm[0] + c * arm[1], place[body, 2] + angle)
+        out[body] = (
+            about[0] + c * arm[0] - s * arm[1],
+            about[1] + s * arm[0] + c * arm[1],
+            place[body, 2] + angle,
+        )
         return out
 
 
 def quadrilateral(bottom: float, top: float, height: float, at=(0.0, 0.0)) -> np.ndarray:
     """Outline (4, 2) [m] of a rectangle or a trapezoid of two widths; at: middle of its foot."""
     x, z = at
-    return np.array([(x - bottom / 2, z), (x + bottom / 2, z), (x + top / 2, z + height), (x - top / 2, z + height)])
+    return np.array(
+        [
+            (x - bottom / 2, z),
+            (x + bottom / 2, z),
+            (x + top / 2, z + height),
+            (x - top / 2, z + height),
+        ]
+    )

@@ -1,4 +1,6 @@
-"""Two programs on the same motions: distributions of the peaks, outcomes motion by motion, and histories until the third impact."""
+"""Two programs on the same motions: distributions of the peaks, outcomes motion by motion, and
+histories until the third impact.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,8 @@ from fecolumn.statistics.ecdf import censored
 from fecolumn.statistics.flips import contingency, flips, mcnemar
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 
-#: A joint lands where its tilt comes back from the first to the second or below [rad]; landings within this time [s] are one impact
+#: A joint lands where its tilt comes back from the first to the second or below [rad]; landings
+#: within this time [s] are one impact
 _SWUNG, _FLAT, _TOGETHER = 1e-3, 1e-5, 0.01
 #: Histories agree whose tops are no farther apart than this share of the peak so far
 AGREE = 0.01
@@ -22,10 +25,23 @@ AGREE = 0.01
 class Compared:
     """Of n motions in two programs.
 
-    Attributes:
-        fallen: overturned in each. distance, p: of the peaks' distributions (Kolmogorov and Smirnov, paired). differ: outcomes that differ; mcnemar: p of them.
-        off: median, over motions that both survive, of the difference of the peaks over the other program's peak. failed: analyses that stopped early.
-        unsolved: steps of the other program whose friction problem was not solved to its tolerance.
+    Attributes
+    ----------
+    fallen
+        overturned in each.
+    distance, p
+        of the peaks' distributions (Kolmogorov and Smirnov, paired).
+    differ
+        outcomes that differ
+    mcnemar
+        p of them.
+    off
+        median, over motions that both survive, of the difference of the peaks over the other
+        program's peak.
+    failed
+        analyses that stopped early.
+    unsolved
+        steps of the other program whose friction problem was not solved to its tolerance.
     """
 
     n: int
@@ -48,11 +64,23 @@ def compared(one: list[Response], other: list[Response]) -> Compared:
     off = float(np.median(np.abs(peaks[1][both] / peaks[0][both] - 1))) if both.any() else np.nan
     failed = sum(bool(response.failed) for response in (*one, *other))
     unsolved = sum(response.unsolved for response in other)
-    return Compared(len(one), (int(fallen[0].sum()), int(fallen[1].sum())), test.statistic, test.p, flips(table), mcnemar(table), off, failed, unsolved)
+    return Compared(
+        len(one),
+        (int(fallen[0].sum()), int(fallen[1].sum())),
+        test.statistic,
+        test.p,
+        flips(table),
+        mcnemar(table),
+        off,
+        failed,
+        unsolved,
+    )
 
 
 def impacts(history: History) -> np.ndarray:
-    """Times [s] at which a joint that was open lies flat again, those of several joints that land together as one."""
+    """Times [s] at which a joint that was open lies flat again, those of several joints that land
+    together as one.
+    """
     found = []
     for joint in history.structure.joints:
         tilt = history.tilt[:, joint.body] - history.tilt[:, joint.other]

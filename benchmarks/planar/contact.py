@@ -1,7 +1,9 @@
-"""Corners of polygons against faces of other ones: where they are, and how fast a corner moves across and along the face.
+"""Corners of polygons against faces of other ones: where they are, and how fast a corner moves
+across and along the face.
 
-A corner has the coordinates s along the face from its first corner, and g across it, outwards of the body of the face: its gap. Both are functions of the
-places alone, so that their change over a step is what the corner really moves, turns of both bodies included.
+A corner has the coordinates s along the face from its first corner, and g across it, outwards of
+the body of the face: its gap. Both are functions of the places alone, so that their change over a
+step is what the corner really moves, turns of both bodies included.
 """
 
 from __future__ import annotations
@@ -9,9 +11,11 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-#: What is as close as this to the end of a face is still on it [m]: far below any length, far above rounding
+#: What is as close as this to the end of a face is still on it [m]: far below any length, far above
+#: rounding
 EDGE = 1e-9
-#: Corners nearer than what a relative velocity of so many m/s covers in a step take part in it; deeper than this [m] none does: it came from beside the face
+#: Corners nearer than what a relative velocity of so many m/s covers in a step take part in it;
+#: deeper than this [m] none does: it came from beside the face
 NEAR, DEEPEST = 10.0, 0.05
 
 
@@ -19,7 +23,12 @@ NEAR, DEEPEST = 10.0, 0.05
 def locate(place, pair, shape):
     """(s, g) [m] of a corner; place: (nb, 3), pair: (2,), shape: (7,) as of `bodies.Structure`."""
     b, f = pair[0], pair[1]
-    cb, sb, cf, sf = np.cos(place[b, 2]), np.sin(place[b, 2]), np.cos(place[f, 2]), np.sin(place[f, 2])
+    cb, sb, cf, sf = (
+        np.cos(place[b, 2]),
+        np.sin(place[b, 2]),
+        np.cos(place[f, 2]),
+        np.sin(place[f, 2]),
+    )
     x = place[b, 0] - place[f, 0] + cb * shape[0] - sb * shape[1]
     z = place[b, 1] - place[f, 1] + sb * shape[0] + cb * shape[1]
     # in the frame of the face's body
@@ -29,7 +38,9 @@ def locate(place, pair, shape):
 
 @njit(cache=True)
 def near(place, pairs, shape, reach, found):
-    """Put the numbers of the corners that are on a face and nearer than `reach` [m] into `found`; their count."""
+    """Put the numbers of the corners that are on a face and nearer than `reach` [m] into `found`;
+    their count.
+    """
     count = 0
     for c in range(len(pairs)):
         s, g = locate(place, pairs[c], shape[c])
@@ -41,9 +52,16 @@ def near(place, pairs, shape, reach, found):
 
 @njit(cache=True)
 def jacobian(place, pair, shape, rows):
-    """rows (2, 2, 3): gradients of g (first) and s by the places of the corner's body and of the face's body."""
+    """rows (2, 2, 3): gradients of g (first) and s by the places of the corner's body and of the
+    face's body.
+    """
     b, f = pair[0], pair[1]
-    cb, sb, cf, sf = np.cos(place[b, 2]), np.sin(place[b, 2]), np.cos(place[f, 2]), np.sin(place[f, 2])
+    cb, sb, cf, sf = (
+        np.cos(place[b, 2]),
+        np.sin(place[b, 2]),
+        np.cos(place[f, 2]),
+        np.sin(place[f, 2]),
+    )
     arm_x, arm_z = cb * shape[0] - sb * shape[1], sb * shape[0] + cb * shape[1]
     from_x, from_z = place[b, 0] + arm_x - place[f, 0], place[b, 1] + arm_z - place[f, 1]
     along_x, along_z = cf * shape[4] - sf * shape[5], sf * shape[4] + cf * shape[5]

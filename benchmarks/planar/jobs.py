@@ -1,4 +1,6 @@
-"""What is computed motion by motion, in several processes if wanted: functions that a new process can import."""
+"""What is computed motion by motion, in several processes if wanted: functions that a new process
+can import.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ _AFTER = 0.01  # of the third impact [s]
 
 
 def every(function, jobs, number: int) -> list:
-    """What the function makes of each of the jobs, (arguments) in a tuple, in their order, so many at a time."""
+    """What the function makes of each of the jobs, (arguments) in a tuple, in their order, so many
+    at a time.
+    """
     if number == 1:
         return [_said(function, *job) for job in jobs]
     with ProcessPoolExecutor(number, mp_context=get_context("spawn")) as pool:
@@ -38,11 +42,18 @@ def fell(tp: float, a: float, dt: float) -> bool:
 
 
 def until_third(name: str, number: int, folder: Path) -> tuple[float, float]:
-    """Time [s] of the third impact by the planar program, and how far the package is off until then; nan without a third one."""
+    """Time [s] of the third impact by the planar program, and how far the package is off until
+    then; nan without a third one.
+    """
     case = shaken()[name]
-    times = impacts(advance(case.structure, motion(case, number, FINE), FINE, every=round(EVERY / FINE)))
+    times = impacts(
+        advance(case.structure, motion(case, number, FINE), FINE, every=round(EVERY / FINE))
+    )
     if len(times) < 3:
         return np.nan, np.nan
     until = float(times[2])
-    one, other = (response(name, program, number, FINE, folder, until + _AFTER) for program in (PLANAR, PACKAGE))
+    one, other = (
+        response(name, program, number, FINE, folder, until + _AFTER)
+        for program in (PLANAR, PACKAGE)
+    )
     return until, apart(one, other, until)

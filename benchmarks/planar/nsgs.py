@@ -1,9 +1,11 @@
-"""The friction problem of one step: impulses p and velocities u = W p + q of n contacts, components across (n) and along (t).
+"""The friction problem of one step: impulses p and velocities u = W p + q of n contacts, components
+across (n) and along (t).
 
     0 <= u_n, 0 <= p_n, u_n p_n = 0;     |p_t| <= mu p_n, and p_t = -mu p_n sign(u_t) where u_t is not 0       (Signorini, Coulomb)
 
-Solved exactly by the states open, stick, slip of the contacts: with these given the problem is linear (a Newton method on the equations of Alart and Curnier
-1991). Where states cycle, sweeps of non-linear Gauss-Seidel (Jourdan, Alart and Jean 1998) give new ones. p in N s, u in m/s, W in 1/kg.
+Solved exactly by the states open, stick, slip of the contacts: with these given the problem is
+linear (a Newton method on the equations of Alart and Curnier 1991). Where states cycle, sweeps of
+non-linear Gauss-Seidel (Jourdan, Alart and Jean 1998) give new ones. p in N s, u in m/s, W in 1/kg.
 """
 
 from __future__ import annotations
@@ -14,7 +16,8 @@ from numba import njit
 OPEN, STICK, SLIP_BACK, SLIP_ON = 0, 1, 2, 3  # SLIP_BACK: friction along +t, SLIP_ON: along -t
 #: Largest error of a solution in velocities [m/s]
 TOLERANCE = 1e-7
-#: Added to the diagonal of W over it: tells apart impulses that no motion tells apart, those of two corners of one rigid face
+#: Added to the diagonal of W over it: tells apart impulses that no motion tells apart, those of two
+#: corners of one rigid face
 _SPREAD = 1e-10
 _NEWTON, _SWEEPS, _ROUNDS = 12, 50, 200
 
@@ -27,7 +30,9 @@ def side(state):
 
 @njit(cache=True)
 def alone(nn, nt, tt, qn, qt, mu):
-    """p_n, p_t and state of one contact whose W is [[nn, nt], [nt, tt]] and whose velocity without it is (qn, qt)."""
+    """p_n, p_t and state of one contact whose W is [[nn, nt], [nt, tt]] and whose velocity without
+    it is (qn, qt).
+    """
     if qn >= 0.0:
         return 0.0, 0.0, OPEN
     det = nn * tt - nt * nt
@@ -45,7 +50,9 @@ def alone(nn, nt, tt, qn, qt, mu):
 
 @njit(cache=True)
 def sweep(W, q, mu, p, state):
-    """One sweep of Gauss-Seidel over all contacts; W: (2 n, 2 n), q, p: (2 n,), component n of contact i at 2 i."""
+    """One sweep of Gauss-Seidel over all contacts; W: (2 n, 2 n), q, p: (2 n,), component n of
+    contact i at 2 i.
+    """
     for i in range(len(mu)):
         n, t = 2 * i, 2 * i + 1
         un, ut = q[n], q[t]
@@ -59,7 +66,9 @@ def sweep(W, q, mu, p, state):
 
 @njit(cache=True)
 def with_states(W, q, mu, state, p):
-    """Put into p the impulses with which closed contacts do not part and sticking ones do not slide."""
+    """Put into p the impulses with which closed contacts do not part and sticking ones do not
+    slide.
+    """
     n, size = len(mu), 0
     unknown = np.empty(2 * n, np.int64)
     for i in range(n):
@@ -90,7 +99,9 @@ def with_states(W, q, mu, state, p):
 
 @njit(cache=True)
 def judge(W, q, mu, p, state):
-    """Error of p in velocities [m/s], and whether `state`, which gets the state that p and its velocities ask for, has changed."""
+    """Error of p in velocities [m/s], and whether `state`, which gets the state that p and its
+    velocities ask for, has changed.
+    """
     worst, changed = 0.0, False
     for i in range(len(mu)):
         n, t = 2 * i, 2 * i + 1
@@ -99,7 +110,11 @@ def judge(W, q, mu, p, state):
             un += W[n, j] * p[j]
             ut += W[t, j] * p[j]
         across, along, bound = p[n] - un / W[n, n], p[t] - ut / W[t, t], mu[i] * max(p[n], 0.0)
-        worst = max(worst, W[n, n] * abs(p[n] - max(across, 0.0)), W[t, t] * abs(p[t] - min(max(along, -bound), bound)))
+        worst = max(
+            worst,
+            W[n, n] * abs(p[n] - max(across, 0.0)),
+            W[t, t] * abs(p[t] - min(max(along, -bound), bound)),
+        )
         if across <= 0.0:
             asked = OPEN
         elif abs(along) <= bound:
@@ -113,7 +128,9 @@ def judge(W, q, mu, p, state):
 
 @njit(cache=True)
 def solve(W, q, mu, p, state):
-    """Solve from the impulses and states given, into p (2 n,) and state (n,): the error that is left [m/s]."""
+    """Solve from the impulses and states given, into p (2 n,) and state (n,): the error that is
+    left [m/s].
+    """
     best, least = p.copy(), judge(W, q, mu, p, state.copy())[0]
     for _ in range(_ROUNDS):
         for _ in range(_NEWTON):

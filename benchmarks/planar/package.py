@@ -1,6 +1,8 @@
-"""The same structures as cases of the package: rigid blocks whose corners alone may touch, shaken along x.
+"""The same structures as cases of the package: rigid blocks whose corners alone may touch, shaken
+along x.
 
-All are as deep as the narrowest of them is wide: in the plane depth changes nothing, and a narrow face then has its four corners only.
+All are as deep as the narrowest of them is wide: in the plane depth changes nothing, and a narrow
+face then has its four corners only.
 """
 
 from __future__ import annotations
@@ -17,8 +19,10 @@ _STIFF = 1e14
 def tables(structure: Structure, dt: float) -> dict:
     """Tables of the case file of a structure of rectangles that stand on one another.
 
-    Raises:
-        ValueError: another outline, or faces that do not stand on one another.
+    Raises
+    ------
+    ValueError
+        another outline, or faces that do not stand on one another.
     """
     bodies, interfaces = {}, {}
     depth = min(float(np.ptp(body.outline[:, 0])) for body in structure.bodies if not body.fixed)
@@ -28,16 +32,37 @@ def tables(structure: Structure, dt: float) -> dict:
         (x, z), (right, _), (upper, top), _ = body.outline
         if upper != right:
             raise ValueError(f"{body.name}: the package's blocks are rectangles")
-        bodies[name_of(body)] = dict(kind="block", length_m=right - x, width_m=depth, height_m=top - z, density_kg_m3=body.density, at_m=[(x + right) / 2, 0.0, z],
-                                     rigid=True, youngs_modulus_pa=_STIFF, poissons_ratio=0.2, element_size_m=depth)
+        bodies[name_of(body)] = dict(
+            kind="block",
+            length_m=right - x,
+            width_m=depth,
+            height_m=top - z,
+            density_kg_m3=body.density,
+            at_m=[(x + right) / 2, 0.0, z],
+            rigid=True,
+            youngs_modulus_pa=_STIFF,
+            poissons_ratio=0.2,
+            element_size_m=depth,
+        )
     for joint in structure.joints:
         one, other = structure.bodies[joint.body], structure.bodies[joint.other]
         if (joint.face, joint.other_face) != (BOTTOM, TOP):
-            raise ValueError(f"{one.name} and {other.name}: the package's bodies stand on one another")
+            raise ValueError(
+                f"{one.name} and {other.name}: the package's bodies stand on one another"
+            )
         if not other.fixed and np.ptp(other.outline[:, 0]) < np.ptp(one.outline[:, 0]):
             one, other = other, one  # the narrower face has the points
-        interfaces[f"{name_of(one)}_{name_of(other)}"] = dict(slave=name_of(one), on="ground" if other.fixed else name_of(other), friction_coefficient=joint.friction)
-    return dict(bodies=bodies, interfaces=interfaces, contact=dict(interior_points=0), integration=dict(engine="rigid", dt_s=dt, duration_s=600.0))
+        interfaces[f"{name_of(one)}_{name_of(other)}"] = dict(
+            slave=name_of(one),
+            on="ground" if other.fixed else name_of(other),
+            friction_coefficient=joint.friction,
+        )
+    return dict(
+        bodies=bodies,
+        interfaces=interfaces,
+        contact=dict(interior_points=0),
+        integration=dict(engine="rigid", dt_s=dt, duration_s=600.0),
+    )
 
 
 def name_of(body) -> str:
@@ -57,14 +82,21 @@ def respond(case: Shaken, ground: np.ndarray, dt: float) -> Response:
     whole = case_from_tables(tables(case.structure, dt), "benchmarks.planar")
     engine = engine_of(whole, structure_model(whole), "benchmarks.planar")
     shaken, each = np.outer(ground, [1.0, 0.0, 0.0]), round(EVERY / dt)
-    steepest, rows, ended, failed = steepest_to_come(engine.structure.gravity, shaken), [engine.row()[None]], False, ""
+    steepest, rows, ended, failed = (
+        steepest_to_come(engine.structure.gravity, shaken),
+        [engine.row()[None]],
+        False,
+        "",
+    )
     chunk = 1000 * each
     for first in range(1, len(ground), chunk):
         try:
-            made, ended = engine.advance(shaken[first:first + chunk], steepest[first:first + chunk])
+            made, ended = engine.advance(
+                shaken[first : first + chunk], steepest[first : first + chunk]
+            )
         except StepFailed as error:
             made, failed = engine.made, str(error)
-        rows.append(made[each - 1::each])
+        rows.append(made[each - 1 :: each])
         if ended or failed:
             rows.append(made[-1:])
             break

@@ -25,8 +25,10 @@ _REACH = 20.0
 def version() -> str:
     """Of Siconos.
 
-    Raises:
-        benchmarks.peers.peer.Missing: it cannot be run.
+    Raises
+    ------
+    benchmarks.peers.peer.Missing
+        it cannot be run.
     """
     return peer.version(next(one for one in peer.PEERS if one.name == "siconos"))
 
@@ -34,22 +36,35 @@ def version() -> str:
 def moved(structure: Structure, ground, dt: float, *, place=None, every: int = 1) -> History:
     """As `advance.advance`, by Siconos; works of ground and contacts are not told, nan.
 
-    Raises:
-        RuntimeError: it ended with an error.
+    Raises
+    ------
+    RuntimeError
+        it ended with an error.
     """
     moving = [number for number, body in enumerate(structure.bodies) if not body.fixed]
     mass, inertia = structure.mass[moving], structure.inertia[moving]
     place = (structure.place if place is None else place)[moving]
-    job = dict(dt=dt, ground=ground, every=every, gravity=GRAVITY, fallen=FALLEN, mass=mass,
-               inertia=inertia, place=place, velocity=np.zeros_like(place))
+    job = dict(
+        dt=dt,
+        ground=ground,
+        every=every,
+        gravity=GRAVITY,
+        fallen=FALLEN,
+        mass=mass,
+        inertia=inertia,
+        place=place,
+        velocity=np.zeros_like(place),
+    )
     with tempfile.TemporaryDirectory() as folder:
         given, written = Path(folder) / "job.npz", Path(folder) / "found.npz"
         np.savez(given, **job, **_corners(structure, moving))
         command = [SYSTEM_PYTHON, "-P", str(_SCRIPT), str(given), str(written), folder]
         ended = run_child(command, Path(folder), _CPU_LIMIT_S)
         if ended.code or not written.exists():
-            raise RuntimeError(f"Siconos ended with code {ended.code} after {ended.cpu:.0f} CPU s "
-                               f"(limit {_CPU_LIMIT_S:.0f} s): {ended.words or 'no reason given'}")
+            raise RuntimeError(
+                f"Siconos ended with code {ended.code} after {ended.cpu:.0f} CPU s "
+                f"(limit {_CPU_LIMIT_S:.0f} s): {ended.words or 'no reason given'}"
+            )
         with np.load(written) as found:
             places = np.repeat(structure.place[None], len(found["place"]), axis=0)
             velocities = np.zeros_like(places)
@@ -86,4 +101,6 @@ def respond(case: Shaken, ground: np.ndarray, dt: float) -> Response:
     found = moved(case.structure, ground, dt, every=round(EVERY / dt))
     moving = [number for number, body in enumerate(case.structure.bodies) if not body.fixed]
     tilt = np.abs(found.tilt[:, moving])
-    return Response(found.time, found.top(case.observed), tilt, found.fallen, unsolved=found.unsolved)
+    return Response(
+        found.time, found.top(case.observed), tilt, found.fallen, unsolved=found.unsolved
+    )

@@ -1,4 +1,5 @@
-"""Siconos 4.4 (Debian python3-siconos), run by the system's Python: a planar structure, Moreau-Jean.
+"""Siconos 4.4 (Debian python3-siconos), run by the system's Python: a planar structure,
+Moreau-Jean.
 
     /usr/bin/python3 -P siconos.py JOB.npz FOUND.npz FOLDER
 

@@ -1,12 +1,14 @@
-"""The podium study: nine buildings on a rocking storey, laws CRV and CAV, near-fault motions of 5 magnitudes x 7 distances.
+"""The podium study: nine buildings on a rocking storey, laws CRV and CAV, near-fault motions of 5
+magnitudes x 7 distances.
 
     ./containers/run python -m benchmarks.podium [-n 100] [-j N] [--study] [-o DIR]
 
-Source: Bantilas, Kavvadias and Vasiliadis, "The effect of impact modeling on the seismic response of multi-storey podium structures" (COMPDYN).
--n 100 motions a scenario are the paper's 3500; a quarter of an hour of processor time. What is done is kept: the same command goes on, and one
-with a larger n makes only what is missing.
-Writes tilt.png, shear.png (and .pdf) and buildings.csv into DIR, and prints each claim with what it is here. --study writes, instead, files for
-fecolumn study, whose report has the same; of some motions a scenario, for each analysis has a folder.
+Source: Bantilas, Kavvadias and Vasiliadis, "The effect of impact modeling on the seismic response
+of multi-storey podium structures" (COMPDYN). -n 100 motions a scenario are the paper's 3500; a
+quarter of an hour of processor time. What is done is kept: the same command goes on, and one with a
+larger n makes only what is missing. Writes tilt.png, shear.png (and .pdf) and buildings.csv into
+DIR, and prints each claim with what it is here. --study writes, instead, files for fecolumn study,
+whose report has the same; of some motions a scenario, for each analysis has a folder.
 """
 
 from __future__ import annotations
@@ -28,30 +30,55 @@ from fecolumn.report.podium_claims import compared, podium_claims
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("-n", type=int, default=100, help="motions of each scenario (default: %(default)s)")
-    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="scenarios at a time (default: %(default)s)")
+    parser.add_argument(
+        "-n", type=int, default=100, help="motions of each scenario (default: %(default)s)"
+    )
+    parser.add_argument(
+        "-j",
+        "--jobs",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="scenarios at a time (default: %(default)s)",
+    )
     parser.add_argument("--seed", type=int, default=1, help="of the motions (default: %(default)s)")
     parser.add_argument("-o", "--output", metavar="DIR", default="results/podium")
-    parser.add_argument("--study", action="store_true", help="write the same study for fecolumn study and fecolumn report, and stop")
+    parser.add_argument(
+        "--study",
+        action="store_true",
+        help="write the same study for fecolumn study and fecolumn report, and stop",
+    )
     args = parser.parse_args()
     if args.study:
         file = write_study(args.n, args.seed, Path(args.output))
-        print(f"fecolumn study {file} -o {file.parent / 'results'} && fecolumn report {file.parent / 'results'}")
+        print(
+            f"fecolumn study {file} -o {file.parent / 'results'} && fecolumn report "
+            f"{file.parent / 'results'}"
+        )
         return
     folder, began = Path(args.output), time.perf_counter()
     (folder / "scenarios").mkdir(parents=True, exist_ok=True)
     parts = [(scenario, batch) for batch in batches(args.n) for scenario in SCENARIOS]
     files = {}
     with ProcessPoolExecutor(args.jobs, mp_context=get_context("spawn")) as pool:
-        futures = {pool.submit(responses, *part, args.seed, folder / "scenarios"): part for part in parts}
+        futures = {
+            pool.submit(responses, *part, args.seed, folder / "scenarios"): part for part in parts
+        }
         for number, future in enumerate(as_completed(futures), 1):
             files[futures[future]] = future.result()
             if number % 10 == 0 or number == len(parts):
-                print(f"{number} of {len(parts)} parts of {len(SCENARIOS)} scenarios, {time.perf_counter() - began:.0f} s", file=sys.stderr, flush=True)
+                print(
+                    f"{number} of {len(parts)} parts of {len(SCENARIOS)} scenarios, "
+                    f"{time.perf_counter() - began:.0f} s",
+                    file=sys.stderr,
+                    flush=True,
+                )
     found = gathered(files[part] for part in parts)
     buildings = compared(found)
     names = [field.name for field in dataclasses.fields(buildings[0]) if field.name != "drawn"]
-    write_csv(folder / "buildings.csv", [names, *([getattr(one, name) for name in names] for one in buildings)])
+    write_csv(
+        folder / "buildings.csv",
+        [names, *([getattr(one, name) for name in names] for one in buildings)],
+    )
     podium_figure(found, "tilt", r"$\theta_{\max}/\alpha$", (0.0, 1.05), folder / "tilt")
     podium_figure(found, "shear", r"$V_{\max}/V_{st}$", (1.0, 4.0), folder / "shear")
     print(f"{args.n * len(SCENARIOS)} motions, {len(buildings)} buildings\n")

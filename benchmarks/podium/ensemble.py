@@ -20,8 +20,17 @@ STOREYS = (3, 6, 9)
 BUILDINGS = tuple((profile, n) for profile in PROFILES for n in STOREYS)
 SCENARIOS = tuple((magnitude, distance) for magnitude in MAGNITUDES for distance in DISTANCES)
 _BATCH = 10  # motions of a scenario in a file
-_HEAD = ["profile", "storeys", "law", "motion", "tilt_over_alpha", "overturned", "shear_over_static"]
-# R = 1.5 m, tan(alpha) = 0.15, gamma = 10 with four columns, beam as heavy as a floor, T_1 = n/10 s, damping 5 %
+_HEAD = [
+    "profile",
+    "storeys",
+    "law",
+    "motion",
+    "tilt_over_alpha",
+    "overturned",
+    "shear_over_static",
+]
+# R = 1.5 m, tan(alpha) = 0.15, gamma = 10 with four columns, beam as heavy as a floor, T_1 = n/10
+# s, damping 5 %
 _CASE = f"""title = "Podium of Bantilas, Kavvadias and Vasiliadis"
 podium.column_mass_kg = 2500
 podium.floor_mass_kg = 1e5
@@ -32,17 +41,21 @@ integration.dt_s = 0.01
 
 
 def batches(count: int) -> tuple[tuple[int, int], ...]:
-    """First and last number of the motions of each batch, so that a study of more motions takes over what a smaller one has made."""
+    """First and last number of the motions of each batch, so that a study of more motions takes
+    over what a smaller one has made.
+    """
     return tuple((first, min(first + _BATCH - 1, count)) for first in range(1, count + 1, _BATCH))
 
 
 def responses(scenario, batch, seed: int, folder: Path) -> Path:
-    """File with the peak tilt over alpha and base shear over V_st of every building under the motions of a batch of a scenario; made where it is missing."""
+    """File with the peak tilt over alpha and base shear over V_st of every building under the
+    motions of a batch of a scenario; made where it is missing.
+    """
     first, last = batch
     file = folder / f"M{scenario[0]:g}_R{scenario[1]:g}_seed{seed}_{first}-{last}.csv"
     if file.exists():
         return file
-    motions = near_fault_ensemble(scenario[:1], scenario[1:], last, seed=seed).motions[first - 1:]
+    motions = near_fault_ensemble(scenario[:1], scenario[1:], last, seed=seed).motions[first - 1 :]
     rows = [_HEAD]
     for profile, n in BUILDINGS:
         for law in LAWS:
@@ -50,29 +63,53 @@ def responses(scenario, batch, seed: int, folder: Path) -> Path:
             for number, motion in enumerate(motions, first):
                 _, _, shears, peak, fallen = podium.shake(motion.acceleration[:, [0, 2]], motion.dt)
                 shear = podium.building_mass * shears[0] / podium.static_shear
-                rows.append([profile, n, law, number, f"{peak / podium.slenderness:.8g}", int(fallen), f"{shear:.8g}"])
+                rows.append(
+                    [
+                        profile,
+                        n,
+                        law,
+                        number,
+                        f"{peak / podium.slenderness:.8g}",
+                        int(fallen),
+                        f"{shear:.8g}",
+                    ]
+                )
     write_csv(file, rows)
     return file
 
 
 def gathered(files) -> dict[tuple[str, int, str], dict[str, np.ndarray]]:
-    """By (profile, storeys, law): tilt over alpha, inf where overturned, and shear over V_st, (motions,) each, in one order of motions."""
+    """By (profile, storeys, law): tilt over alpha, inf where overturned, and shear over V_st,
+    (motions,) each, in one order of motions.
+    """
     found: dict = {}
     for file in files:
         with open(file, newline="") as text:
             for row in csv.DictReader(text):
-                one = found.setdefault((row["profile"], int(row["storeys"]), row["law"]), {"tilt": [], "shear": []})
-                one["tilt"].append(float("inf") if row["overturned"] == "1" else float(row["tilt_over_alpha"]))
+                one = found.setdefault(
+                    (row["profile"], int(row["storeys"]), row["law"]), {"tilt": [], "shear": []}
+                )
+                one["tilt"].append(
+                    float("inf") if row["overturned"] == "1" else float(row["tilt_over_alpha"])
+                )
                 one["shear"].append(float(row["shear_over_static"]))
-    return {key: {name: np.array(values) for name, values in one.items()} for key, one in found.items()}
+    return {
+        key: {name: np.array(values) for name, values in one.items()} for key, one in found.items()
+    }
 
 
 def write_study(count: int, seed: int, folder: Path) -> Path:
-    """Write motions, podium.toml and study.toml of the same study for `fecolumn study`, whose report judges the claims; the study file."""
+    """Write motions, podium.toml and study.toml of the same study for `fecolumn study`, whose
+    report judges the claims; the study file.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     write_ensemble(near_fault_ensemble(count=count, seed=seed), folder / "near_fault.h5")
     write_bytes(folder / "podium.toml", _CASE.encode())
     levels = {"podium.impact": LAWS, "podium.storeys": STOREYS, "podium.profile": tuple(PROFILES)}
     axes = "".join(f'"{key}" = {json.dumps(list(values))}\n' for key, values in levels.items())
-    write_bytes(folder / "study.toml", f'title = "Two laws of impact of a rocking podium"\ncase = "podium.toml"\n\n[axes]\n"motion.source" = ["near_fault.h5#*"]\n{axes}'.encode())
+    write_bytes(
+        folder / "study.toml",
+        'title = "Two laws of impact of a rocking podium"\ncase = '
+        f'"podium.toml"\n\n[axes]\n"motion.source" = ["near_fault.h5#*"]\n{axes}'.encode(),
+    )
     return folder / "study.toml"

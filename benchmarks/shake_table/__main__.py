@@ -1,10 +1,13 @@
-"""Which of 582 shake-table tests of a free-standing granite rock overturn it: a rigid body from its scan against what was seen.
+"""Which of 582 shake-table tests of a free-standing granite rock overturn it: a rigid body from its
+scan against what was seen.
 
-    ./containers/run python -m benchmarks.shake_table PATH [-o DIR] [-j N] [--dt S] [--tests 11-135,600] [--mu 0.6] ...
+    ./containers/run python -m benchmarks.shake_table PATH [-o DIR] [-j N] [--dt S] [--tests
+        11-135,600] [--mu 0.6] ...
 
-PATH: a copy of the public repository ZhiangChen/virtual_shake_robot_pybullet, of which only data/ is read. No parameter is fitted to an outcome.
-What is done is kept: the same command goes on. Writes tests.csv, outcomes.png and .pdf into DIR and prints accuracy and confusion beside the models whose
-results the repository holds.
+PATH: a copy of the public repository ZhiangChen/virtual_shake_robot_pybullet, of which only data/
+is read. No parameter is fitted to an outcome. What is done is kept: the same command goes on.
+Writes tests.csv, outcomes.png and .pdf into DIR and prints accuracy and confusion beside the models
+whose results the repository holds.
 """
 
 from __future__ import annotations
@@ -32,8 +35,10 @@ from fecolumn.progress import CountProgress
 def chosen(text: str | None, numbers: list[int]) -> set[int]:
     """Numbers of `numbers` that a list such as "11-135,600" names; all where there is none.
 
-    Raises:
-        ValueError: not such a list, or it names none of them.
+    Raises
+    ------
+    ValueError
+        not such a list, or it names none of them.
     """
     if text is None:
         return set(numbers)
@@ -43,9 +48,14 @@ def chosen(text: str | None, numbers: list[int]) -> set[int]:
         try:
             wanted |= set(range(int(first), int(last or first) + 1))
         except ValueError:
-            raise ValueError(f"--tests: '{part}' is no number and no range such as 11-135") from None
+            raise ValueError(
+                f"--tests: '{part}' is no number and no range such as 11-135"
+            ) from None
     if not wanted & set(numbers):
-        raise ValueError(f"--tests {text}: none of them has a motion here; there are {len(numbers)} from {min(numbers)} to {max(numbers)}")
+        raise ValueError(
+            f"--tests {text}: none of them has a motion here; there are {len(numbers)} "
+            f"from {min(numbers)} to {max(numbers)}"
+        )
     return wanted & set(numbers)
 
 
@@ -54,18 +64,34 @@ def keep_settings(folder: Path, settings: dict) -> None:
     file = folder / "settings.json"
     if file.exists():
         before = json.loads(file.read_text())
-        if other := [f"{name} {before.get(name)}" for name, value in settings.items() if before.get(name) != value]:
-            raise ValueError(f"{folder} holds tests with {', '.join(other)}: choose another folder by -o")
+        if other := [
+            f"{name} {before.get(name)}"
+            for name, value in settings.items()
+            if before.get(name) != value
+        ]:
+            raise ValueError(
+                f"{folder} holds tests with {', '.join(other)}: choose another folder by -o"
+            )
     (folder / "tests").mkdir(parents=True, exist_ok=True)
     write_json(file, settings)
 
 
-def compute(campaign: Campaign, numbers: set[int], stone: Stone, dt: float, folder: Path, jobs: int) -> None:
-    """Compute the tests of these numbers that the folder does not hold, in an order drawn by chance: at any time those done are a fair sample."""
-    todo = [test for test in campaign.tests if test.number in numbers and not (folder / folder_name(test)).exists()]
+def compute(
+    campaign: Campaign, numbers: set[int], stone: Stone, dt: float, folder: Path, jobs: int
+) -> None:
+    """Compute the tests of these numbers that the folder does not hold, in an order drawn by
+    chance: at any time those done are a fair sample.
+    """
+    todo = [
+        test
+        for test in campaign.tests
+        if test.number in numbers and not (folder / folder_name(test)).exists()
+    ]
     todo = [todo[i] for i in np.random.default_rng(0).permutation(len(todo))]
     progress = CountProgress(len(todo), "tests")
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) if jobs > 1 else _Here() as pool:
+    with (
+        ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) if jobs > 1 else _Here() as pool
+    ):
         futures = {pool.submit(run, campaign, test, stone, dt): test for test in todo}
         for done, future in enumerate(as_completed(futures) if jobs > 1 else futures, 1):
             write_json(folder / folder_name(futures[future]), future.result())
@@ -99,28 +125,93 @@ class _Later:
 
 def main(arguments=None) -> None:
     stone = Stone(mass=353.802)
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.shake_table", description=__doc__.split("\n")[0])
-    parser.add_argument("path", metavar="PATH", help="a copy of ZhiangChen/virtual_shake_robot_pybullet")
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.shake_table", description=__doc__.split("\n")[0]
+    )
+    parser.add_argument(
+        "path", metavar="PATH", help="a copy of ZhiangChen/virtual_shake_robot_pybullet"
+    )
     parser.add_argument("-o", "--output", metavar="DIR", default="results/shake_table")
-    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="tests at a time (default: %(default)s)")
+    parser.add_argument(
+        "-j",
+        "--jobs",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="tests at a time (default: %(default)s)",
+    )
     parser.add_argument("--tests", metavar="LIST", help="only these, such as 11-135,600")
     parser.add_argument("--every", type=int, default=1, metavar="N", help="only each N-th of them")
     parser.add_argument("--report", action="store_true", help="compute nothing, judge what is done")
-    parser.add_argument("--dt", type=float, default=1e-3, help="time step [s] (default: %(default)s)")
-    parser.add_argument("--mu", type=float, default=stone.friction, help="coefficient of friction (default: %(default)s)")
-    parser.add_argument("--mass", type=float, default=stone.mass, help="[kg] (default: %(default)s, which the repository states); nan: 2700 kg/m3 times the volume")
-    parser.add_argument("--youngs", type=float, default=stone.youngs, help="modulus of the stone at its contact points [Pa] (default: %(default)g)")
-    parser.add_argument("--softer", type=float, default=stone.softer, help="factor on the compliance of each contact point (default: %(default)s)")
-    parser.add_argument("--restitution", type=float, default=stone.restitution, help="of a contact point, 0 to 1 (default: %(default)s)")
-    parser.add_argument("--direction", type=float, default=0.0, help="of the table's positive displacement, from the scan's x to its y [deg] (default: %(default)s)")
+    parser.add_argument(
+        "--dt", type=float, default=1e-3, help="time step [s] (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--mu",
+        type=float,
+        default=stone.friction,
+        help="coefficient of friction (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--mass",
+        type=float,
+        default=stone.mass,
+        help="[kg] (default: %(default)s, which the repository states); nan: 2700 kg/m3 "
+        "times the volume",
+    )
+    parser.add_argument(
+        "--youngs",
+        type=float,
+        default=stone.youngs,
+        help="modulus of the stone at its contact points [Pa] (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--softer",
+        type=float,
+        default=stone.softer,
+        help="factor on the compliance of each contact point (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--restitution",
+        type=float,
+        default=stone.restitution,
+        help="of a contact point, 0 to 1 (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--direction",
+        type=float,
+        default=0.0,
+        help="of the table's positive displacement, from the scan's x to its y [deg] "
+        "(default: %(default)s)",
+    )
     args = parser.parse_args(arguments)
     try:
-        stone = Stone(mass=args.mass, youngs=args.youngs, softer=args.softer, friction=args.mu, restitution=args.restitution, direction=float(np.radians(args.direction)))
+        stone = Stone(
+            mass=args.mass,
+            youngs=args.youngs,
+            softer=args.softer,
+            friction=args.mu,
+            restitution=args.restitution,
+            direction=float(np.radians(args.direction)),
+        )
         campaign, folder = read_campaign(args.path), Path(args.output)
-        numbers = sorted(chosen(args.tests, sorted({test.number for test in campaign.tests} - set(campaign.missing))))[::max(args.every, 1)]
-        keep_settings(folder, {"dt": args.dt, **{name: str(value) for name, value in dataclasses.asdict(stone).items()}})
+        numbers = sorted(
+            chosen(
+                args.tests, sorted({test.number for test in campaign.tests} - set(campaign.missing))
+            )
+        )[:: max(args.every, 1)]
+        keep_settings(
+            folder,
+            {
+                "dt": args.dt,
+                **{name: str(value) for name, value in dataclasses.asdict(stone).items()},
+            },
+        )
         if campaign.missing:
-            print(f"{len(campaign.missing)} of {len(campaign.tests)} tests have no file of their motion and are left out", file=sys.stderr)
+            print(
+                f"{len(campaign.missing)} of {len(campaign.tests)} tests have no file "
+                "of their motion and are left out",
+                file=sys.stderr,
+            )
         if not args.report:
             compute(campaign, set(numbers), stone, args.dt, folder, args.jobs)
         rows = rows_of(campaign, set(numbers), folder)
@@ -134,17 +225,40 @@ def report(campaign: Campaign, rows: list[dict], folder: Path) -> None:
     """Print the scores of the tests that were computed, draw the figure."""
     told = [row for row in rows if row["failed"] == ""]
     if len(told) < len(rows):
-        print(f"{len(rows) - len(told)} of {len(rows)} tests failed and are left out: {', '.join(str(row['test']) for row in rows if row['failed'])}", file=sys.stderr)
+        print(
+            f"{len(rows) - len(told)} of {len(rows)} tests failed and are left out: "
+            f"{', '.join(str(row['test']) for row in rows if row['failed'])}",
+            file=sys.stderr,
+        )
     if not told:
         sys.exit("error: no test was computed")
     tests = {test.number: test for test in campaign.tests}
     measured, ours = ([row[name] == 1 for row in told] for name in ("measured", "computed"))
-    models = {name: [tests[row["test"]].computed[name] for row in told] for name in campaign.tests[0].computed}
-    print(table({"fecolumn": confusion(measured, ours), **{f"discrete elements, {name}": confusion(measured, those) for name, those in models.items()}}))
+    models = {
+        name: [tests[row["test"]].computed[name] for row in told]
+        for name in campaign.tests[0].computed
+    }
+    print(
+        table(
+            {
+                "fecolumn": confusion(measured, ours),
+                **{
+                    f"discrete elements, {name}": confusion(measured, those)
+                    for name, those in models.items()
+                },
+            }
+        )
+    )
     if models:
         best = max(models, key=lambda name: confusion(measured, models[name]).accuracy)
-        print(f"\nfecolumn and {best}, the best of those, tell right equally often: p = {chance(measured, ours, models[best]):.3g}")
-    print(f"largest error of the energy balance over the kinetic energy: {max(row['closure_rel'] for row in told):.2g}")
+        print(
+            f"\nfecolumn and {best}, the best of those, tell right equally often: p = "
+            f"{chance(measured, ours, models[best]):.3g}"
+        )
+    print(
+        "largest error of the energy balance over the kinetic energy: "
+        f"{max(row['closure_rel'] for row in told):.2g}"
+    )
     draw(told, folder / "outcomes")
     print(f"wrote {folder}")
 

@@ -19,14 +19,17 @@ from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureM
 
 #: The pose of rest is sought within this angle of the scan's vertical.
 NEAR = np.radians(5)
-#: Tilt from rest at which the rock has overturned, and the farther one up to which its surface may touch.
+#: Tilt from rest at which the rock has overturned, and the farther one up to which its surface may
+#: touch.
 OVERTURNED, TOUCHES = np.radians(45), np.radians(60)
 
 
 @dataclass(frozen=True)
 class Stone:
-    """mass [kg], or nan for density [kg/m3] times the scan's volume; youngs [Pa], poisson; softer: factor on the compliance of each contact point;
-    friction, restitution; direction: of the table's positive displacement, from the scan's x towards its y [rad]."""
+    """mass [kg], or nan for density [kg/m3] times the scan's volume; youngs [Pa], poisson; softer:
+    factor on the compliance of each contact point; friction, restitution; direction: of the table's
+    positive displacement, from the scan's x towards its y [rad].
+    """
 
     mass: float = np.nan
     density: float = 2700.0
@@ -41,8 +44,10 @@ class Stone:
 def read_scan(file: Path) -> tuple[np.ndarray, np.ndarray]:
     """Corners (n, 3) [m] and outward triangles (t, 3) of a closed surface.
 
-    Raises:
-        ValueError: no triangles, or the surface is not closed.
+    Raises
+    ------
+    ValueError
+        no triangles, or the surface is not closed.
     """
     import meshio
 
@@ -58,7 +63,10 @@ def read_scan(file: Path) -> tuple[np.ndarray, np.ndarray]:
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     open_sides = (np.unique(sides, axis=0, return_counts=True)[1] != 2).sum()
     if open_sides:
-        raise ValueError(f"{file}: the surface is not closed, {open_sides} of its edges do not part two triangles")
+        raise ValueError(
+            f"{file}: the surface is not closed, {open_sides} of its edges do not part "
+            "two triangles"
+        )
     corners = corners - corners.mean(axis=0)
     if signed_volumes(corners, triangles).sum() < 0:
         triangles = triangles[:, ::-1]
@@ -72,37 +80,53 @@ def signed_volumes(corners, triangles):
 
 
 def solid(corners, triangles) -> tuple[float, np.ndarray, np.ndarray]:
-    """Volume [m3], centre (3,) [m] and inertia (3, 3) [m5] about it of the solid in a closed surface, of density 1: exact, by tetrahedra."""
+    """Volume [m3], centre (3,) [m] and inertia (3, 3) [m5] about it of the solid in a closed
+    surface, of density 1: exact, by tetrahedra.
+    """
     volumes = signed_volumes(corners, triangles)
     volume = volumes.sum()
     center = volumes @ corners[triangles].sum(axis=1) / 4 / volume
     points = corners[triangles] - center
     volumes = np.einsum("ij,ij->i", points[:, 0], np.cross(points[:, 1], points[:, 2])) / 6
     whole = points.sum(axis=1)
-    second = (np.einsum("t,tka,tkb->ab", volumes, points, points) + np.einsum("t,ta,tb->ab", volumes, whole, whole)) / 20
+    second = (
+        np.einsum("t,tka,tkb->ab", volumes, points, points)
+        + np.einsum("t,ta,tb->ab", volumes, whole, whole)
+    ) / 20
     return volume, center, np.trace(second) * np.eye(3) - second
 
 
 def at_rest(corners, center, facets) -> tuple[np.ndarray, float]:
-    """Rotation (3, 3) from the scan to rest, and its angle [rad]: on that facet near below on which the centre of mass is lowest."""
+    """Rotation (3, 3) from the scan to rest, and its angle [rad]: on that facet near below on which
+    the centre of mass is lowest.
+    """
     normals, heights = facets[:, :3], -facets[:, 3] - facets[:, :3] @ center
     near = np.arccos(np.clip(-normals[:, 2], -1, 1)) < NEAR
     if not near.any():
-        raise ValueError(f"the scan does not stand: no facet of its convex hull lies within {np.degrees(NEAR):.0f} degrees of the ground")
+        raise ValueError(
+            "the scan does not stand: no facet of its convex hull lies within "
+            f"{np.degrees(NEAR):.0f} degrees of the ground"
+        )
     down = normals[near][np.argmin(heights[near])]
     angle = np.arccos(np.clip(-down[2], -1, 1))
     axis = np.cross(down, [0.0, 0.0, -1.0])
-    return Rotation.from_rotvec(angle * axis / max(np.linalg.norm(axis), np.finfo(float).tiny)).as_matrix(), float(angle)
+    return Rotation.from_rotvec(
+        angle * axis / max(np.linalg.norm(axis), np.finfo(float).tiny)
+    ).as_matrix(), float(angle)
 
 
 def body_of(scan: Path, stone: Stone) -> BodyModel:
-    """The rigid body of a scan, at rest, with the corners of its convex hull that touch up to TOUCHES as contact points.
+    """The rigid body of a scan, at rest, with the corners of its convex hull that touch up to
+    TOUCHES as contact points.
 
-    A point has the local compliance of the half-space under a rigid disk of its tributary area, normal (1 - nu^2) / (2 a E) and tangential that times
-    (2 - nu) / (2 - 2 nu) (Johnson, Contact Mechanics, 3.4 and 3.7): the stone's alone, the ground is rigid.
+    A point has the local compliance of the half-space under a rigid disk of its tributary area,
+    normal (1 - nu^2) / (2 a E) and tangential that times (2 - nu) / (2 - 2 nu) (Johnson, Contact
+    Mechanics, 3.4 and 3.7): the stone's alone, the ground is rigid.
 
-    Raises:
-        ValueError: the scan is not closed, or does not stand.
+    Raises
+    ------
+    ValueError
+        the scan is not closed, or does not stand.
     """
     corners, triangles = read_scan(scan)
     volume, center, inertia = solid(corners, triangles)
@@ -114,23 +138,65 @@ def body_of(scan: Path, stone: Stone) -> BodyModel:
     feet = np.unique(hull.simplices[down])
     areas = np.zeros(len(corners))
     spans = corners[triangles[:, 1:]] - corners[triangles[:, :1]]
-    np.add.at(areas, triangles, np.linalg.norm(np.cross(spans[:, 0], spans[:, 1]), axis=1)[:, None] / 6)
+    np.add.at(
+        areas, triangles, np.linalg.norm(np.cross(spans[:, 0], spans[:, 1]), axis=1)[:, None] / 6
+    )
     arms, area = (corners[feet] - center) @ spin.T, areas[feet]
     n, nu = len(feet), stone.poisson
     normal = stone.softer * (1 - nu**2) / (2 * np.sqrt(area / np.pi) * stone.youngs)
     flexibility = np.zeros((n, n, 3, 3))
-    flexibility[np.arange(n), np.arange(n)] = normal[:, None, None] * np.diag([(2 - nu) / (2 - 2 * nu)] * 2 + [1.0])
-    foot = Surface(np.arange(n), np.array([0.0, 0, arms[:, 2].min()]), np.diag([1.0, -1.0, -1.0]), area, np.ones(n, bool), np.zeros((0, 3), int))
+    flexibility[np.arange(n), np.arange(n)] = normal[:, None, None] * np.diag(
+        [(2 - nu) / (2 - 2 * nu)] * 2 + [1.0]
+    )
+    foot = Surface(
+        np.arange(n),
+        np.array([0.0, 0, arms[:, 2].min()]),
+        np.diag([1.0, -1.0, -1.0]),
+        area,
+        np.ones(n, bool),
+        np.zeros((0, 3), int),
+    )
     top = (corners @ spin.T)[:, 2].argmax()
-    return BodyModel(mass, mass / volume * spin @ inertia @ spin.T, np.array([0.0, 0, -arms[:, 2].min()]), np.zeros(0), np.zeros((n, 3, 0)), flexibility,
-                     arms, 0, {"foot": foot}, {"top": ((corners[top] - center) @ spin.T, np.zeros((3, 0)))})
+    return BodyModel(
+        mass,
+        mass / volume * spin @ inertia @ spin.T,
+        np.array([0.0, 0, -arms[:, 2].min()]),
+        np.zeros(0),
+        np.zeros((n, 3, 0)),
+        flexibility,
+        arms,
+        0,
+        {"foot": foot},
+        {"top": ((corners[top] - center) @ spin.T, np.zeros((3, 0)))},
+    )
 
 
 def engine_of(body: BodyModel, stone: Stone, dt: float, alpha: float = -0.05) -> Engine:
     """Engine of the rock alone on rigid ground, standing."""
     part = Part("rock", body, body.center, np.eye(3), 0.0, np.zeros(3), np.zeros(3))
-    joint = Joint("rock on table", 0, "foot", GROUND, None, stone.friction, np.zeros((len(body.arms), 3)), False, stone.restitution)
+    joint = Joint(
+        "rock on table",
+        0,
+        "foot",
+        GROUND,
+        None,
+        stone.friction,
+        np.zeros((len(body.arms), 3)),
+        False,
+        stone.restitution,
+    )
     base = rigid_base(body.reference)
-    model, hht, gravity = StructureModel((part,), (joint,), (), base, (0, "top")), HHT(dt, alpha), (0.0, 0.0, -GRAVITY)
+    model, hht, gravity = (
+        StructureModel((part,), (joint,), (), base, (0, "top")),
+        HHT(dt, alpha),
+        (0.0, 0.0, -GRAVITY),
+    )
     eye = view_of(model, structure_of(model, hht, gravity)[0], body.mass * GRAVITY, lost=OVERTURNED)
-    return Engine(lambda step: structure_of(model, step, gravity), base, eye, hht, lambda made: of_parts(made, model.parts, True), model=model)
+    return Engine(
+        lambda step: structure_of(model, step, gravity),
+        base,
+        eye,
+        hht,
+        lambda made: of_parts(made, model.parts, True),
+        model=model,
+    )

@@ -1,4 +1,6 @@
-"""How well outcomes were told: confusion, accuracy, and whether two that tell differ by more than chance."""
+"""How well outcomes were told: confusion, accuracy, and whether two that tell differ by more than
+chance.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ from fecolumn.statistics.ecdf import proportion_interval
 
 @dataclass(frozen=True)
 class Confusion:
-    """Counts of tests: overturned and told so, overturned and told to stand, stood and told to overturn, stood and told so."""
+    """Counts of tests: overturned and told so, overturned and told to stand, stood and told to
+    overturn, stood and told so.
+    """
 
     hit: int
     missed: int
@@ -41,16 +45,28 @@ def confusion(measured, told) -> Confusion:
 
 
 def chance(measured, told, other) -> float:
-    """Probability that two equally good ones differ as much in the tests that only one tells right (exact test of McNemar 1947)."""
-    right, better = np.asarray(told) == np.asarray(measured), np.asarray(other) == np.asarray(measured)
+    """Probability that two equally good ones differ as much in the tests that only one tells right
+    (exact test of McNemar 1947).
+    """
+    right, better = (
+        np.asarray(told) == np.asarray(measured),
+        np.asarray(other) == np.asarray(measured),
+    )
     only, others = int((right & ~better).sum()), int((~right & better).sum())
     return binomtest(only, only + others).pvalue if only + others else 1.0
 
 
 def table(scores: dict[str, Confusion]) -> str:
     """Table of Markdown, a line for each that tells."""
-    lines = ["| told by | N | accuracy [95 %] | overturned: told so | told to stand | stood: told to overturn | told so |", "|---|--:|---|--:|--:|--:|--:|"]
+    lines = [
+        "| told by | N | accuracy [95 %] | overturned: told so | told to stand | "
+        "stood: told to overturn | told so |",
+        "|---|--:|---|--:|--:|--:|--:|",
+    ]
     for name, c in scores.items():
         low, high = c.interval
-        lines.append(f"| {name} | {c.n} | {c.accuracy:.3f} [{low:.3f}, {high:.3f}] | {c.hit} | {c.missed} | {c.false} | {c.stood} |")
+        lines.append(
+            f"| {name} | {c.n} | {c.accuracy:.3f} [{low:.3f}, {high:.3f}] | {c.hit} | "
+            f"{c.missed} | {c.false} | {c.stood} |"
+        )
     return "\n".join(lines)

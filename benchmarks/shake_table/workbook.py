@@ -1,4 +1,6 @@
-"""First sheet of an .xlsx workbook as rows of cells; numbers and texts only, which is all that a table of tests needs."""
+"""First sheet of an .xlsx workbook as rows of cells; numbers and texts only, which is all that a
+table of tests needs.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +13,13 @@ _SPACE = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 
 def first_sheet(path: Path) -> list[dict[str, str]]:
-    """Rows of the first sheet, each a dict of column letter to text; empty cells and empty rows are left out.
+    """Rows of the first sheet, each a dict of column letter to text; empty cells and empty rows are
+    left out.
 
-    Raises:
-        ValueError: not an .xlsx workbook.
+    Raises
+    ------
+    ValueError
+        not an .xlsx workbook.
     """
     try:
         with zipfile.ZipFile(path) as book:
@@ -24,7 +29,10 @@ def first_sheet(path: Path) -> list[dict[str, str]]:
         raise ValueError(f"{path}: not an .xlsx workbook ({error})") from None
     rows = []
     for line in sheet.iter(_SPACE + "row"):
-        cells = {re.match("[A-Z]+", cell.get("r"))[0]: _text(cell, shared) for cell in line.iter(_SPACE + "c")}
+        cells = {
+            re.match("[A-Z]+", cell.get("r"))[0]: _text(cell, shared)
+            for cell in line.iter(_SPACE + "c")
+        }
         if cells := {column: text.strip() for column, text in cells.items() if text.strip()}:
             rows.append(cells)
     return rows
@@ -33,7 +41,10 @@ def first_sheet(path: Path) -> list[dict[str, str]]:
 def _shared(book: zipfile.ZipFile) -> list[str]:
     if "xl/sharedStrings.xml" not in book.namelist():
         return []
-    return [_joined(entry) for entry in ElementTree.fromstring(book.read("xl/sharedStrings.xml")).iter(_SPACE + "si")]
+    return [
+        _joined(entry)
+        for entry in ElementTree.fromstring(book.read("xl/sharedStrings.xml")).iter(_SPACE + "si")
+    ]
 
 
 def _joined(entry) -> str:

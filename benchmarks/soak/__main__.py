@@ -1,11 +1,14 @@
-"""Very many analyses of drawn cases, with kills: none may be lost, nothing may grow, and what fails is told.
+"""Very many analyses of drawn cases, with kills: none may be lost, nothing may grow, and what fails
+is told.
 
     python -m benchmarks.soak -n 2000 -j 1 -o results/soak --kill 5     # a worker or the driver is killed every five minutes or so
     python -m benchmarks.soak -n 100000 -j 2 -o results/soak            # goes on with the same analyses, and more
     python -m benchmarks.soak -o results/soak --report                  # what has come of it so far
     python -m benchmarks.soak -o results/soak --only 1234               # one of them alone, into results/soak/only-1234
 
-Analyses are short, a tenth of a second each: 10^5 take about three hours of processor time, and the models of the first hundreds some minutes. Models of the specimens are kept in FECOLUMN_CACHE, or ~/.cache/fecolumn.
+Analyses are short, a tenth of a second each: 10^5 take about three hours of processor time, and the
+models of the first hundreds some minutes. Models of the specimens are kept in FECOLUMN_CACHE, or
+~/.cache/fecolumn.
 """
 
 from __future__ import annotations
@@ -24,23 +27,58 @@ _SETTINGS = "soak.json"
 
 def main(argv=None) -> int:
     """Do what is missing and print the report; 0 where no analysis failed or was lost."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.soak", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.soak",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("-n", type=int, default=100_000, help="analyses (default: %(default)s)")
-    parser.add_argument("-j", type=int, default=os.cpu_count() or 1, help="workers (default: one a core)")
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, type=Path, help="folder; what is done there is kept")
-    parser.add_argument("--kill", metavar="MINUTES", type=float, default=0.0, help="mean time between kills with SIGKILL (default: none)")
-    parser.add_argument("--seed", type=int, default=1, help="of the random numbers (default: %(default)s)")
-    parser.add_argument("--specimens", type=int, default=specimens.COUNT, help="number of specimens, each with a model to make (default: %(default)s)")
-    parser.add_argument("--report", action="store_true", help="only print what has come of it so far")
-    parser.add_argument("--only", type=int, metavar="NUMBER", help="only this analysis, as fecolumn run does it")
+    parser.add_argument(
+        "-j", type=int, default=os.cpu_count() or 1, help="workers (default: one a core)"
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        required=True,
+        type=Path,
+        help="folder; what is done there is kept",
+    )
+    parser.add_argument(
+        "--kill",
+        metavar="MINUTES",
+        type=float,
+        default=0.0,
+        help="mean time between kills with SIGKILL (default: none)",
+    )
+    parser.add_argument(
+        "--seed", type=int, default=1, help="of the random numbers (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--specimens",
+        type=int,
+        default=specimens.COUNT,
+        help="number of specimens, each with a model to make (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--report", action="store_true", help="only print what has come of it so far"
+    )
+    parser.add_argument(
+        "--only", type=int, metavar="NUMBER", help="only this analysis, as fecolumn run does it"
+    )
     args = parser.parse_args(argv)
     args.output.mkdir(parents=True, exist_ok=True)
     settings = _settings(args)
     if args.only is not None:
         return _alone(args.output, args.only, **settings)
     if not args.report:
-        if code := keep_running(args.output, [args.n, args.j, settings["seed"], settings["specimens"]], 60 * args.kill):
-            print(f"the driver ended with exit code {code}: {args.output / 'driver.log'}", file=sys.stderr)
+        if code := keep_running(
+            args.output, [args.n, args.j, settings["seed"], settings["specimens"]], 60 * args.kill
+        ):
+            print(
+                f"the driver ended with exit code {code}: {args.output / 'driver.log'}",
+                file=sys.stderr,
+            )
             return 1
     from benchmarks.soak.report import report
 
@@ -66,7 +104,10 @@ def _alone(folder: Path, number: int, seed: int, specimens: int) -> int:
     except AnalysisFailed as error:
         print(error, file=sys.stderr)
         return 1
-    print(f"{folder / f'only-{number}'}: {ending_text(summary)}; energy closure {summary['energy_closure_rel']:.1e}, {summary['cuts']} cuts")
+    print(
+        f"{folder / f'only-{number}'}: {ending_text(summary)}; energy closure "
+        f"{summary['energy_closure_rel']:.1e}, {summary['cuts']} cuts"
+    )
     return 0
 
 

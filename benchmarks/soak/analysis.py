@@ -13,21 +13,29 @@ _done = 0
 
 
 def run(case, folder, **options) -> dict:
-    """Summary of `fecolumn.simulation.run`, with `process`: pid, analyses that this one has done, memory [MB] and open files.
+    """Summary of `fecolumn.simulation.run`, with `process`: pid, analyses that this one has done,
+    memory [MB] and open files.
 
     Its history, which a hundred thousand would fill a disk with, goes.
     """
     global _done
     summary = simulation.run(case, folder, **options)
     _done += 1
-    summary["process"] = {"pid": os.getpid(), "done": _done, "memory_mb": memory_mb("self"), "open_files": open_files("self")}
+    summary["process"] = {
+        "pid": os.getpid(),
+        "done": _done,
+        "memory_mb": memory_mb("self"),
+        "open_files": open_files("self"),
+    }
     (folder / "history.h5").unlink(missing_ok=True)
     write_json(folder / "summary.json", summary)
     return summary
 
 
 def memory_mb(pid) -> float:
-    """Memory of a process that is its own [MB]: without files that the operating system keeps mapped for all."""
+    """Memory of a process that is its own [MB]: without files that the operating system keeps
+    mapped for all.
+    """
     fields = Path(f"/proc/{pid}/statm").read_text().split()
     return round((int(fields[1]) - int(fields[2])) * os.sysconf("SC_PAGE_SIZE") / 1e6, 2)
 

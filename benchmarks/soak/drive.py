@@ -1,4 +1,6 @@
-"""The process that drives the blocks one by one: python -m benchmarks.soak.drive DIR TOTAL JOBS SEED SPECIMENS"""
+"""The process that drives the blocks one by one: python -m benchmarks.soak.drive DIR TOTAL JOBS
+SEED SPECIMENS
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,13 @@ def main() -> None:
     for number, size in blocks(total):
         plan, rows = block(number, size, sources, seed, columns), None
         while rows is None or any(map(killed, rows)):
-            rows = run_study(plan, block_folder(folder, number), workers=jobs, entry=ENTRY, retry_failed=rows is not None)
+            rows = run_study(
+                plan,
+                block_folder(folder, number),
+                workers=jobs,
+                entry=ENTRY,
+                retry_failed=rows is not None,
+            )
 
 
 if __name__ == "__main__":

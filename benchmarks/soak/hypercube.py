@@ -9,8 +9,10 @@ from scipy.stats import qmc
 class Draw:
     """One sample: a share in [0, 1) for each name.
 
-    Args:
-        shares: by name.
+    Parameters
+    ----------
+    shares
+        by name.
     """
 
     def __init__(self, shares: dict[str, float]):

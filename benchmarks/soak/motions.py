@@ -55,14 +55,27 @@ def _near_fault() -> Ensemble:
 
 
 def _pulses() -> Ensemble:
-    motions = tuple(sample(Pulse(shape, 1.0, period), 1e-3, lead=0.05, tail=1.0) for shape in SHAPES for period in _PERIODS)
-    return Ensemble("pulses", motions, {"period_s": np.tile(_PERIODS, len(SHAPES))}, {"model": "closed form"})
+    motions = tuple(
+        sample(Pulse(shape, 1.0, period), 1e-3, lead=0.05, tail=1.0)
+        for shape in SHAPES
+        for period in _PERIODS
+    )
+    return Ensemble(
+        "pulses", motions, {"period_s": np.tile(_PERIODS, len(SHAPES))}, {"model": "closed form"}
+    )
 
 
 def _three_components() -> Ensemble:
     """Near-fault motions with the next one's fault-normal component upright."""
     motions = _near_fault().motions
     length = min(len(motion.acceleration) for motion in motions)
-    whole = tuple(dataclasses.replace(one, acceleration=np.column_stack([one.acceleration[:length, :2], _VERTICAL * other.acceleration[:length, 0]]))
-                  for one, other in zip(motions, (*motions[1:], motions[0])))
+    whole = tuple(
+        dataclasses.replace(
+            one,
+            acceleration=np.column_stack(
+                [one.acceleration[:length, :2], _VERTICAL * other.acceleration[:length, 0]]
+            ),
+        )
+        for one, other in zip(motions, (*motions[1:], motions[0]))
+    )
     return Ensemble("three components", whole, {}, {"model": "near-fault synthetics"})

@@ -1,4 +1,6 @@
-"""The driver's keeper: starts it until it has done all, kills it or a worker now and then, and looks at its memory."""
+"""The driver's keeper: starts it until it has done all, kills it or a worker now and then, and
+looks at its memory.
+"""
 
 from __future__ import annotations
 
@@ -21,9 +23,13 @@ _LOOK_S = 10.0
 def keep_running(folder: Path, numbers: list[int], kill_s: float) -> int:
     """Have all done; exit code of a driver that ends otherwise than killed from here.
 
-    Args:
-        folder, numbers: arguments of `benchmarks.soak.drive`; `driver.csv` in the folder gets the driver's memory and what was killed.
-        kill_s: mean time between kills [s], 0 for none.
+    Parameters
+    ----------
+    folder, numbers
+        arguments of `benchmarks.soak.drive`; `driver.csv` in the folder gets the driver's memory
+        and what was killed.
+    kill_s
+        mean time between kills [s], 0 for none.
     """
     draw = random.Random()
     command = [sys.executable, "-m", "benchmarks.soak.drive", str(folder), *map(str, numbers)]

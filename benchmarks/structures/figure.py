@@ -7,7 +7,16 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.post.style import BLACK, BLUE, GREEN, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
+from fecolumn.post.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    PAGE_WIDTH_IN,
+    VERMILION,
+    new_figure,
+    save,
+    styled,
+)
 
 # Height of a legend of two rows, over that of the lines [-]
 _ROOM = 0.3
@@ -28,7 +37,9 @@ def _value(text: str):
 
 
 def draw(folder: Path) -> list[Path]:
-    """Force against displacement, ways of the slab, velocity kept at impacts, free rocking of podia; a panel of what is missing stays empty. Nothing of nothing."""
+    """Force against displacement, ways of the slab, velocity kept at impacts, free rocking of
+    podia; a panel of what is missing stays empty. Nothing of nothing.
+    """
     if not any((folder / f"{name}.csv").exists() for name in PANELS):
         return []
     with styled():
@@ -42,37 +53,109 @@ def draw(folder: Path) -> list[Path]:
 
 
 def _forces(axes, table) -> None:
-    for held, colour, dashes, words in (("True", BLUE, "-", "with tendons"), ("False", VERMILION, "--", "without")):
+    for held, colour, dashes, words in (
+        ("True", BLUE, "-", "with tendons"),
+        ("False", VERMILION, "--", "without"),
+    ):
         of = table["tendons"] == held
-        axes.plot(table["slab_m"][of], table["virtual_work_n"][of] / 1e3, dashes, color=colour, label=f"virtual work, {words}")
-        axes.plot(table["slab_m"][of], table["elements_n"][of] / 1e3, "o", color=colour, markersize=4, markerfacecolor="none", label=f"finite elements, {words}")
-    axes.set(xlabel="displacement of the slab [m]", ylabel="restoring force [kN]", title="restrained frame, held still", xlim=(0, None), ylim=(0, None))
+        axes.plot(
+            table["slab_m"][of],
+            table["virtual_work_n"][of] / 1e3,
+            dashes,
+            color=colour,
+            label=f"virtual work, {words}",
+        )
+        axes.plot(
+            table["slab_m"][of],
+            table["elements_n"][of] / 1e3,
+            "o",
+            color=colour,
+            markersize=4,
+            markerfacecolor="none",
+            label=f"finite elements, {words}",
+        )
+    axes.set(
+        xlabel="displacement of the slab [m]",
+        ylabel="restoring force [kN]",
+        title="restrained frame, held still",
+        xlim=(0, None),
+        ylim=(0, None),
+    )
     axes.legend()
 
 
 def _planar(axes, table) -> None:
-    axes.plot(table["time_s"], 1e3 * table["model_x_m"], "--", color=BLACK, linewidth=0.8, label="wobbling model: no loss")
+    axes.plot(
+        table["time_s"],
+        1e3 * table["model_x_m"],
+        "--",
+        color=BLACK,
+        linewidth=0.8,
+        label="wobbling model: no loss",
+    )
     axes.plot(table["time_s"], 1e3 * table["x_m"], color=BLUE, label="finite elements")
-    axes.set(xlabel="time [s]", ylabel="slab along x [mm]", title="restrained frame, let go in a plane", xlim=(0, table["time_s"][-1]))
+    axes.set(
+        xlabel="time [s]",
+        ylabel="slab along x [mm]",
+        title="restrained frame, let go in a plane",
+        xlim=(0, table["time_s"][-1]),
+    )
     _legend_below(axes, columns=1)
 
 
 def _impacts(axes, table) -> None:
     for kind, colour, mark in (("rigid", BLUE, "o"), ("concrete", VERMILION, "s")):
         of = table["kind"] == kind
-        axes.semilogx(table["period_s"][of], table["root_of_energy_kept"][of], mark, color=colour, markersize=4, markerfacecolor="none", label=f"{kind}: root of energy at the next top")
+        axes.semilogx(
+            table["period_s"][of],
+            table["root_of_energy_kept"][of],
+            mark,
+            color=colour,
+            markersize=4,
+            markerfacecolor="none",
+            label=f"{kind}: root of energy at the next top",
+        )
         if kind == "rigid":
-            axes.semilogx(table["period_s"][of], table["rate_kept"][of], "x", color=BLACK, markersize=4, label="rigid: velocity just after")
+            axes.semilogx(
+                table["period_s"][of],
+                table["rate_kept"][of],
+                "x",
+                color=BLACK,
+                markersize=4,
+                label="rigid: velocity just after",
+            )
     for name, dashes in (("crv", "-"), ("cav", "--")):
-        axes.axhline(table[name][0], color=GREEN, linestyle=dashes, linewidth=0.8, label=name.upper())
-    axes.set(xlabel="period of the building on a fixed slab [s]", ylabel="after / before", title="podium with 3 storeys, one impact")
+        axes.axhline(
+            table[name][0], color=GREEN, linestyle=dashes, linewidth=0.8, label=name.upper()
+        )
+    axes.set(
+        xlabel="period of the building on a fixed slab [s]",
+        ylabel="after / before",
+        title="podium with 3 storeys, one impact",
+    )
     axes.legend()
 
 
 def _podium(axes, table) -> None:
-    for name, colour, dashes, words in (("concrete", VERMILION, "-", "finite elements"), ("rigid", BLUE, "-", "rigid columns"), ("crv", BLACK, "--", "CRV"), ("cav", GREEN, ":", "CAV")):
-        axes.plot(table["time_s"], table[f"{name}_rad"] / np.arctan(0.15), dashes, color=colour, label=words)
-    axes.set(xlabel="time [s]", ylabel=r"$\theta/\alpha$", title=r"podium with 3 storeys, let go at 0.9 $\alpha$", xlim=(0, 4))
+    for name, colour, dashes, words in (
+        ("concrete", VERMILION, "-", "finite elements"),
+        ("rigid", BLUE, "-", "rigid columns"),
+        ("crv", BLACK, "--", "CRV"),
+        ("cav", GREEN, ":", "CAV"),
+    ):
+        axes.plot(
+            table["time_s"],
+            table[f"{name}_rad"] / np.arctan(0.15),
+            dashes,
+            color=colour,
+            label=words,
+        )
+    axes.set(
+        xlabel="time [s]",
+        ylabel=r"$\theta/\alpha$",
+        title=r"podium with 3 storeys, let go at 0.9 $\alpha$",
+        xlim=(0, 4),
+    )
     _legend_below(axes, columns=2)
 
 

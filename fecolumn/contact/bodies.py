@@ -1,4 +1,6 @@
-"""Bodies as contact sees them: how far their surface nodes move under forces, whatever else they are."""
+"""Bodies as contact sees them: how far their surface nodes move under forces, whatever else they
+are.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +10,22 @@ import numpy as np
 
 from fecolumn.contact.record import record
 
-#: A body: mass [kg], inertia about its centre of mass [kg m2] and their inverses, which are zero where the mobility of rigid motion is part of
-#: the nodal one; first, count: its rows among the surface nodes of all bodies.
-BODY = record(("mass", "f8"), ("inverse_mass", "f8"), ("inertia", "f8", (3, 3)), ("inverse_inertia", "f8", (3, 3)),
-                 ("first", "i8"), ("count", "i8"))
+#: A body: mass [kg], inertia about its centre of mass [kg m2] and their inverses, which are zero
+#: where the mobility of rigid motion is part of the nodal one; first, count: its rows among the
+#: surface nodes of all bodies.
+BODY = record(
+    ("mass", "f8"),
+    ("inverse_mass", "f8"),
+    ("inertia", "f8", (3, 3)),
+    ("inverse_inertia", "f8", (3, 3)),
+    ("first", "i8"),
+    ("count", "i8"),
+)
 
 
-#: A triangle of a body's surface on which others stand: nodes (3,), rows of all bodies; neighbours (3,): across the side opposite to each, -1 at an
-#: outline, GOES_ON where the body's face goes on without nodes that are known; corners: (3, 2) [m] in the frame of the surface.
+#: A triangle of a body's surface on which others stand: nodes (3,), rows of all bodies; neighbours
+#: (3,): across the side opposite to each, -1 at an outline, GOES_ON where the body's face goes on
+#: without nodes that are known; corners: (3, 2) [m] in the frame of the surface.
 GOES_ON = -2
 FACET = record(("nodes", "i8", 3), ("neighbours", "i8", 3), ("corners", "f8", (3, 2)))
 
@@ -24,7 +34,8 @@ class Bodies(NamedTuple):
     """Bodies that move, and their surface nodes, N in all, n at most on one body.
 
     body: (nb,) of BODY. arms: (N, 3) [m] of the nodes from the body's centre of mass, in its frame.
-    static: (3 N, 3 n) [m/N] displacement that follows forces at once, mobility: (3 N, 3 n) [1/kg] velocity per impulse beside that of rigid motion:
+    static: (3 N, 3 n) [m/N] displacement that follows forces at once, mobility: (3 N, 3 n) [1/kg]
+    velocity per impulse beside that of rigid motion:
         rows by node, columns by node of the same body, in its frame.
     facets: of FACET, of the surfaces on which others stand.
     """
@@ -41,7 +52,11 @@ def one_body(arms, static, mobility, mass: float = np.inf, inertia=None) -> Bodi
     body = np.zeros(1, BODY)
     body["mass"], body["count"] = mass, len(arms)
     if inertia is not None:
-        body["inverse_mass"], body["inertia"], body["inverse_inertia"] = 1 / mass, inertia, np.linalg.inv(inertia)
+        body["inverse_mass"], body["inertia"], body["inverse_inertia"] = (
+            1 / mass,
+            inertia,
+            np.linalg.inv(inertia),
+        )
     return Bodies(body, *(np.ascontiguousarray(array, float) for array in (arms, static, mobility)))
 
 
@@ -55,8 +70,14 @@ def joined(parts: list[Bodies]) -> Bodies:
     def wide(array):
         return np.pad(array, ((0, 0), (0, width - array.shape[1])))
 
-    return Bodies(body, np.concatenate([part.arms for part in parts]), *(
-        np.ascontiguousarray(np.concatenate([wide(getattr(part, name)) for part in parts])) for name in ("static", "mobility")))
+    return Bodies(
+        body,
+        np.concatenate([part.arms for part in parts]),
+        *(
+            np.ascontiguousarray(np.concatenate([wide(getattr(part, name)) for part in parts]))
+            for name in ("static", "mobility")
+        ),
+    )
 
 
 def node_matrix(blocks: np.ndarray) -> np.ndarray:

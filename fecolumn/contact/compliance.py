@@ -1,4 +1,6 @@
-"""Compliance of contact points relative to one another: of their bodies, of the base, and of each point alone (Delassus 1917)."""
+"""Compliance of contact points relative to one another: of their bodies, of the base, and of each
+point alone (Delassus 1917).
+"""
 
 from __future__ import annotations
 
@@ -13,19 +15,41 @@ from fecolumn.contact.tolerances import FEW_SIDES
 
 @njit
 def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, own, W):
-    """W (3 k, 3 k): displacement of the active points, slave relative to master, per force [m/N], or velocity per impulse,
-    each in the frame of its interface.
+    """W (3 k, 3 k): displacement of the active points, slave relative to master, per force [m/N],
+    or velocity per impulse, each in the frame of its interface.
 
-    W_pq = sum over the bodies that p and q share of s_p s_q T_p [rigid (1/m + [a_p] J^-1 [a_q]^T) + nodal_pq] T_q^T, s = 1 on the slave, -1 on the master;
-    then `factor` times the compliance of the base and `uneven` + `own` on the diagonal.
+    W_pq = sum over the bodies that p and q share of s_p s_q T_p [rigid (1/m + [a_p] J^-1 [a_q]^T) +
+    nodal_pq] T_q^T, s = 1 on the slave, -1 on the master; then `factor` times the compliance of the
+    base and `uneven` + `own` on the diagonal.
 
-    Args:
-        arms: (n, 3) of the points on their slaves. active: (k,). poses: (ni,) of POSE, which has the turns T. rigid: factor of rigid motion's mobility.
-        nodal: (3 N, 3 n) as of Bodies. own: (n, 3) of the points alone.
+    Parameters
+    ----------
+    arms
+        (n, 3) of the points on their slaves.
+    active
+        (k,).
+    poses
+        (ni,) of POSE, which has the turns T.
+    rigid
+        factor of rigid motion's mobility.
+    nodal
+        (3 N, 3 n) as of Bodies.
+    own
+        (n, 3) of the points alone.
     """
     k, m = len(active), 2 * len(active)
-    rows, signs, nodes, shares, sides = np.empty(m, np.int64), np.empty(m), np.empty((m, 4), np.int64), np.empty((m, 4)), np.empty((m, 3))
-    turned, faces, concerned = turns(poses), np.empty((m, 2), np.int64), np.zeros(len(bodies.body), np.bool_)
+    rows, signs, nodes, shares, sides = (
+        np.empty(m, np.int64),
+        np.empty(m),
+        np.empty((m, 4), np.int64),
+        np.empty((m, 4)),
+        np.empty((m, 3)),
+    )
+    turned, faces, concerned = (
+        turns(poses),
+        np.empty((m, 2), np.int64),
+        np.zeros(len(bodies.body), np.bool_),
+    )
     W[:] = 0.0
     for i in active:
         concerned[points[i].slave] = True
@@ -48,7 +72,9 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
                     sides[count, a] = points[i].seat[a] if side else arms[i, a]
                 faces[count, 0], faces[count, 1] = points[i].interface, MASTER if side else SLAVE
                 count += 1
-        _add_body(bodies, b, rows, signs, nodes, shares, sides, faces, turned, count, rigid, nodal, W)
+        _add_body(
+            bodies, b, rows, signs, nodes, shares, sides, faces, turned, count, rigid, nodal, W
+        )
     if factor != 0.0:
         count = 0
         gather(base, points, active)
@@ -61,7 +87,9 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
                     if shares[count, q] != 0.0:
                         nodes[count, q] = base.gathered.place[points[i].below[q]]
                 count += 1
-        _add_interpolated(base.gathered.matrix, 0, base.gathered.number[0], rows, nodes, shares, count, factor, W)
+        _add_interpolated(
+            base.gathered.matrix, 0, base.gathered.number[0], rows, nodes, shares, count, factor, W
+        )
         for j in range(k):
             for a in range(3):
                 W[3 * j + a, 3 * j + a] += factor * own[active[j], a]
@@ -74,10 +102,20 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
 
 @njit
 def _add_body(bodies, b, rows, signs, nodes, shares, arms, faces, turned, count, rigid, nodal, W):
-    """Add to the upper blocks of W what one body gives: `count` sides of points on it, for each row in W, sign, nodes, shares, arm, and its
-    interface and side, whose turns (ni, 2, 3, 3) lead from the body to the frame of the interface."""
-    B, block, half, lever, places = np.zeros((3 * count, 3 * count)), np.empty((3, 3)), np.empty((3, 3)), np.empty((count, 3, 3)), np.arange(count)
-    _add_interpolated(nodal, bodies.body[b].first, bodies.body[b].count, places, nodes, shares, count, 1.0, B)
+    """Add to the upper blocks of W what one body gives: `count` sides of points on it, for each row
+    in W, sign, nodes, shares, arm, and its interface and side, whose turns (ni, 2, 3, 3) lead from
+    the body to the frame of the interface.
+    """
+    B, block, half, lever, places = (
+        np.zeros((3 * count, 3 * count)),
+        np.empty((3, 3)),
+        np.empty((3, 3)),
+        np.empty((count, 3, 3)),
+        np.arange(count),
+    )
+    _add_interpolated(
+        nodal, bodies.body[b].first, bodies.body[b].count, places, nodes, shares, count, 1.0, B
+    )
     mobile = rigid * bodies.body[b].inverse_mass
     floats = mobile != 0.0
     if floats:
@@ -93,7 +131,11 @@ def _add_body(bodies, b, rows, signs, nodes, shares, arms, faces, turned, count,
         x, y, z = arms[i, 0], arms[i, 1], arms[i, 2]
         for j in range(i, count):
             for c in range(3):
-                block[0, c], block[1, c], block[2, c] = B[3 * i, 3 * j + c], B[3 * i + 1, 3 * j + c], B[3 * i + 2, 3 * j + c]
+                block[0, c], block[1, c], block[2, c] = (
+                    B[3 * i, 3 * j + c],
+                    B[3 * i + 1, 3 * j + c],
+                    B[3 * i + 2, 3 * j + c],
+                )
                 if floats:
                     # [arm]^T = -[arm]
                     l0, l1, l2 = lever[j, 0, c], lever[j, 1, c], lever[j, 2, c]
@@ -101,13 +143,27 @@ def _add_body(bodies, b, rows, signs, nodes, shares, arms, faces, turned, count,
                     block[1, c] += rigid * (x * l2 - z * l0)
                     block[2, c] += rigid * (y * l0 - x * l1)
                     block[c, c] += mobile
-            sign, k, s, l, t = signs[i] * signs[j], faces[i, 0], faces[i, 1], faces[j, 0], faces[j, 1]
+            sign, k, s, l, t = (
+                signs[i] * signs[j],
+                faces[i, 0],
+                faces[i, 1],
+                faces[j, 0],
+                faces[j, 1],
+            )
             for a in range(3):
                 for c in range(3):
-                    half[a, c] = turned[k, s, a, 0] * block[0, c] + turned[k, s, a, 1] * block[1, c] + turned[k, s, a, 2] * block[2, c]
+                    half[a, c] = (
+                        turned[k, s, a, 0] * block[0, c]
+                        + turned[k, s, a, 1] * block[1, c]
+                        + turned[k, s, a, 2] * block[2, c]
+                    )
             for a in range(3):
                 for c in range(3):
-                    value = sign * (half[a, 0] * turned[l, t, c, 0] + half[a, 1] * turned[l, t, c, 1] + half[a, 2] * turned[l, t, c, 2])
+                    value = sign * (
+                        half[a, 0] * turned[l, t, c, 0]
+                        + half[a, 1] * turned[l, t, c, 1]
+                        + half[a, 2] * turned[l, t, c, 2]
+                    )
                     W[3 * rows[i] + a, 3 * rows[j] + c] += value
                     if rows[i] == rows[j] and i != j:
                         # both sides of one point on one body
@@ -116,10 +172,11 @@ def _add_body(bodies, b, rows, signs, nodes, shares, arms, faces, turned, count,
 
 @njit
 def _add_interpolated(compliance, first, number, rows, nodes, shares, count, factor, W):
-    """Add factor times the compliance of nodes, interpolated, to the upper blocks of W (3 k, 3 k) at the rows (count,) of the sides.
+    """Add factor times the compliance of nodes, interpolated, to the upper blocks of W (3 k, 3 k)
+    at the rows (count,) of the sides.
 
-    compliance: rows 3 node + a, columns 3 (node - first) + a of `number` nodes. nodes, shares: (m, 4) those of which each side takes the displacement and to
-    which it gives its force.
+    compliance: rows 3 node + a, columns 3 (node - first) + a of `number` nodes. nodes, shares: (m,
+    4) those of which each side takes the displacement and to which it gives its force.
     """
     if count <= FEW_SIDES:
         for i in range(count):
@@ -159,9 +216,11 @@ def _add_interpolated(compliance, first, number, rows, nodes, shares, count, fac
 
 @njit
 def even_out(bodies, base, points, i, poses):
-    """Find `uneven` of point i: the compliance by which forces at a point between nodes of slave and base meet less than at a node.
+    """Find `uneven` of point i: the compliance by which forces at a point between nodes of slave
+    and base meet less than at a node.
 
-    Given back so that the indentation of a rolling rim is even: it would otherwise store and return energy at each node. Zero at a node.
+    Given back so that the indentation of a rolling rim is even: it would otherwise store and return
+    energy at each node. Zero at a node.
     """
     target, b = points[i].uneven, points[i].slave
     for a in range(3):
@@ -170,12 +229,20 @@ def even_out(bodies, base, points, i, poses):
     if points[i].count == 1:
         return
     block, C, pose = np.empty((3, 3)), bodies.static, poses[points[i].interface]
-    first, second, start = 3 * points[i].carriers[0], 3 * points[i].carriers[1], 3 * bodies.body[b].first
+    first, second, start = (
+        3 * points[i].carriers[0],
+        3 * points[i].carriers[1],
+        3 * bodies.body[b].first,
+    )
     share = points[i].weights[0] * points[i].weights[1]
     for a in range(3):
         for c in range(3):
-            block[a, c] = share * (C[first + a, first - start + c] + C[second + a, second - start + c]
-                                   - C[first + a, second - start + c] - C[second + a, first - start + c])
+            block[a, c] = share * (
+                C[first + a, first - start + c]
+                + C[second + a, second - start + c]
+                - C[first + a, second - start + c]
+                - C[second + a, first - start + c]
+            )
     _add_turned(block, pose.turned[SLAVE], target)
     block[:] = 0.0
     for q in range(4):
@@ -202,7 +269,11 @@ def _add_turned(block, turn, target):
     half = np.empty((3, 3))
     for a in range(3):
         for c in range(3):
-            half[a, c] = turn[a, 0] * block[0, c] + turn[a, 1] * block[1, c] + turn[a, 2] * block[2, c]
+            half[a, c] = (
+                turn[a, 0] * block[0, c] + turn[a, 1] * block[1, c] + turn[a, 2] * block[2, c]
+            )
     for a in range(3):
         for c in range(3):
-            target[a, c] += half[a, 0] * turn[c, 0] + half[a, 1] * turn[c, 1] + half[a, 2] * turn[c, 2]
+            target[a, c] += (
+                half[a, 0] * turn[c, 0] + half[a, 1] * turn[c, 1] + half[a, 2] * turn[c, 2]
+            )

@@ -1,4 +1,6 @@
-"""The laws of contact, Signorini's and Coulomb's: what they ask of forces, slips and gaps, and how far forces are from them."""
+"""The laws of contact, Signorini's and Coulomb's: what they ask of forces, slips and gaps, and how
+far forces are from them.
+"""
 
 from __future__ import annotations
 
@@ -24,13 +26,19 @@ def slips_and_gaps(W, q, forces):
             result[i, a] = q[i, a]
             line = W[3 * i + a]
             for j in range(n):
-                result[i, a] += line[3 * j] * forces[j, 0] + line[3 * j + 1] * forces[j, 1] + line[3 * j + 2] * forces[j, 2]
+                result[i, a] += (
+                    line[3 * j] * forces[j, 0]
+                    + line[3 * j + 1] * forces[j, 1]
+                    + line[3 * j + 2] * forces[j, 2]
+                )
     return result
 
 
 @njit
 def in_cone(x, y, normal, friction):
-    """Coulomb's projection of a trial force: its normal part not below 0, its tangential part not above friction times that."""
+    """Coulomb's projection of a trial force: its normal part not below 0, its tangential part not
+    above friction times that.
+    """
     normal = max(0.0, normal)
     length = np.sqrt(x * x + y * y)
     if length > friction * normal:
@@ -41,9 +49,11 @@ def in_cone(x, y, normal, friction):
 
 @njit
 def law_error(r0, r1, r2, s0, s1, s2, stiffness, friction):
-    """Violation of the contact laws by a force r and a slip and gap s [m]: distance of r from the projection of r - stiffness s, over stiffness.
+    """Violation of the contact laws by a force r and a slip and gap s [m]: distance of r from the
+    projection of r - stiffness s, over stiffness.
 
-    Zero exactly when gap >= 0, r_n >= 0, r_n gap = 0, |r_t| <= friction r_n and slip is opposed by r_t.
+    Zero exactly when gap >= 0, r_n >= 0, r_n gap = 0, |r_t| <= friction r_n and slip is opposed by
+    r_t.
     """
     x, y, normal = in_cone(r0 - stiffness * s0, r1 - stiffness * s1, r2 - stiffness * s2, friction)
     return np.sqrt((r0 - x) ** 2 + (r1 - y) ** 2 + (r2 - normal) ** 2) / stiffness
@@ -51,8 +61,22 @@ def law_error(r0, r1, r2, s0, s1, s2, stiffness, friction):
 
 @njit
 def violation(relative, forces, friction, rho):
-    """Largest violation of the contact laws [m], see `law_error`, by forces (n, 3) under slips and gaps (n, 3); rho: (n,) stiffness by which it is measured [N/m]."""
+    """Largest violation of the contact laws [m], see `law_error`, by forces (n, 3) under slips and
+    gaps (n, 3); rho: (n,) stiffness by which it is measured [N/m].
+    """
     worst = 0.0
     for i in range(len(forces)):
-        worst = max(worst, law_error(forces[i, 0], forces[i, 1], forces[i, 2], relative[i, 0], relative[i, 1], relative[i, 2], rho[i], friction[i]))
+        worst = max(
+            worst,
+            law_error(
+                forces[i, 0],
+                forces[i, 1],
+                forces[i, 2],
+                relative[i, 0],
+                relative[i, 1],
+                relative[i, 2],
+                rho[i],
+                friction[i],
+            ),
+        )
     return worst

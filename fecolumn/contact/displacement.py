@@ -13,8 +13,9 @@ from fecolumn.contact.tolerances import FEW_SIDES
 
 @njit
 def static_displacement(bodies, base, points, poses, contact, listed, target):
-    """target (n, 3): displacement [m] of the listed points (k,), slave relative to master, that follows their forces in `contact` at once; without what
-    the points give alone."""
+    """Target (n, 3): displacement [m] of the listed points (k,), slave relative to master, that
+    follows their forces in `contact` at once; without what the points give alone.
+    """
     loaded = 0
     for i in listed:
         loaded += contact[i].force[2] > 0.0
@@ -40,7 +41,9 @@ def _displace_few(bodies, base, points, turned, contact, listed, target):
     for i in listed:
         for side in range(2):
             b, k = points[i].master if side else points[i].slave, points[i].interface
-            compliance, first = (base.compliance, 0) if b == BASE else (bodies.static, bodies.body[b].first)
+            compliance, first = (
+                (base.compliance, 0) if b == BASE else (bodies.static, bodies.body[b].first)
+            )
             for a in range(3):
                 way[a] = 0.0
             for j in listed:
@@ -51,30 +54,67 @@ def _displace_few(bodies, base, points, turned, contact, listed, target):
                         continue
                     l, f = points[j].interface, contact[j].force
                     for a in range(3):
-                        force[a] = f[a] if b == BASE else turned[l, other, 0, a] * f[0] + turned[l, other, 1, a] * f[1] + turned[l, other, 2, a] * f[2]
+                        force[a] = (
+                            f[a]
+                            if b == BASE
+                            else turned[l, other, 0, a] * f[0]
+                            + turned[l, other, 1, a] * f[1]
+                            + turned[l, other, 2, a] * f[2]
+                        )
                     for q in range(4 if side else points[i].count):
-                        w, node = -points[i].shares[q] if side else points[i].weights[q], points[i].below[q] if side else points[i].carriers[q]
+                        w, node = (
+                            -points[i].shares[q] if side else points[i].weights[q],
+                            points[i].below[q] if side else points[i].carriers[q],
+                        )
                         for r in range(4 if other else points[j].count):
-                            x, under = -points[j].shares[r] if other else points[j].weights[r], points[j].below[r] if other else points[j].carriers[r]
+                            x, under = (
+                                -points[j].shares[r] if other else points[j].weights[r],
+                                points[j].below[r] if other else points[j].carriers[r],
+                            )
                             if w * x == 0.0:
                                 continue
                             column = 3 * (under - first)
                             for a in range(3):
                                 line = compliance[3 * node + a]
-                                way[a] += w * x * (line[column] * force[0] + line[column + 1] * force[1] + line[column + 2] * force[2])
+                                way[a] += (
+                                    w
+                                    * x
+                                    * (
+                                        line[column] * force[0]
+                                        + line[column + 1] * force[1]
+                                        + line[column + 2] * force[2]
+                                    )
+                                )
             for a in range(3):
-                target[i, a] += way[a] if b == BASE else turned[k, side, a, 0] * way[0] + turned[k, side, a, 1] * way[1] + turned[k, side, a, 2] * way[2]
+                target[i, a] += (
+                    way[a]
+                    if b == BASE
+                    else turned[k, side, a, 0] * way[0]
+                    + turned[k, side, a, 1] * way[1]
+                    + turned[k, side, a, 2] * way[2]
+                )
 
 
 @njit
 def _displace_many(bodies, base, points, turned, contact, listed, target):
     """`static_displacement` without `uneven`, of many points: by forces on nodes, which they share."""
     gather(base, points, listed)
-    # nodes of all bodies, then those gathered of the base; those of each that are pushed are listed from its first one on
+    # nodes of all bodies, then those gathered of the base; those of each that are pushed are listed
+    # from its first one on
     own, own_count = len(bodies.arms), len(bodies.body)
     count = own + base.gathered.number[0]
-    pushes, moved, pushed, number = np.zeros((count, 3)), np.empty((count, 3)), np.empty(count, np.int64), np.zeros(own_count + 1, np.int64)
-    is_pushed, is_moved, push, way = np.zeros(count, np.bool_), np.zeros(count, np.bool_), np.empty(3), np.empty(3)
+    pushes, moved, pushed, number = (
+        np.zeros((count, 3)),
+        np.empty((count, 3)),
+        np.empty(count, np.int64),
+        np.zeros(own_count + 1, np.int64),
+    )
+    is_pushed, is_moved, push, way = (
+        np.zeros(count, np.bool_),
+        np.zeros(count, np.bool_),
+        np.empty(3),
+        np.empty(3),
+    )
     for i in listed:
         if not contact[i].force[2] > 0.0:
             continue
@@ -83,7 +123,13 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
             b, f = points[i].master if side else points[i].slave, contact[i].force
             first = own if b == BASE else bodies.body[b].first
             for a in range(3):
-                push[a] = f[a] if b == BASE else turned[k, side, 0, a] * f[0] + turned[k, side, 1, a] * f[1] + turned[k, side, 2, a] * f[2]
+                push[a] = (
+                    f[a]
+                    if b == BASE
+                    else turned[k, side, 0, a] * f[0]
+                    + turned[k, side, 1, a] * f[1]
+                    + turned[k, side, 2, a] * f[2]
+                )
             for q in range(4 if side else points[i].count):
                 w, node = _share(base, points[i], side, q, own)
                 if w == 0.0:
@@ -101,7 +147,9 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
             b = points[i].master if side else points[i].slave
             if number[b] == 0:
                 continue
-            first, nodes = (own, count - own) if b == BASE else (bodies.body[b].first, bodies.body[b].count)
+            first, nodes = (
+                (own, count - own) if b == BASE else (bodies.body[b].first, bodies.body[b].count)
+            )
             for a in range(3):
                 way[a] = 0.0
             for q in range(4 if side else points[i].count):
@@ -110,21 +158,43 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
                     continue
                 if not is_moved[node]:
                     is_moved[node] = True
-                    compliance, row = (base.gathered.matrix, 3 * (node - own)) if b == BASE else (bodies.static, 3 * node)
+                    compliance, row = (
+                        (base.gathered.matrix, 3 * (node - own))
+                        if b == BASE
+                        else (bodies.static, 3 * node)
+                    )
                     if 3 * number[b] > nodes:
-                        _move(compliance, row, pushes[first:first + nodes], moved[node])
+                        _move(compliance, row, pushes[first : first + nodes], moved[node])
                     else:
-                        _move_by_few(compliance, row, first, pushed[first:first + number[b]], pushes, moved[node])
+                        _move_by_few(
+                            compliance,
+                            row,
+                            first,
+                            pushed[first : first + number[b]],
+                            pushes,
+                            moved[node],
+                        )
                 for a in range(3):
                     way[a] += w * moved[node, a]
             for a in range(3):
-                target[i, a] += way[a] if b == BASE else turned[k, side, a, 0] * way[0] + turned[k, side, a, 1] * way[1] + turned[k, side, a, 2] * way[2]
+                target[i, a] += (
+                    way[a]
+                    if b == BASE
+                    else turned[k, side, a, 0] * way[0]
+                    + turned[k, side, a, 1] * way[1]
+                    + turned[k, side, a, 2] * way[2]
+                )
 
 
 @njit
 def _share(base, point, side, q, own):
-    """What a point gives to node q of its slave (side 0) or of its master, negative there, and the node; those gathered of the base come after the `own` of all bodies."""
-    w, node = -point.shares[q] if side else point.weights[q], point.below[q] if side else point.carriers[q]
+    """What a point gives to node q of its slave (side 0) or of its master, negative there, and the
+    node; those gathered of the base come after the `own` of all bodies.
+    """
+    w, node = (
+        -point.shares[q] if side else point.weights[q],
+        point.below[q] if side else point.carriers[q],
+    )
     if side and point.master == BASE and w != 0.0:
         node = own + base.gathered.place[node]
     return w, node
@@ -132,7 +202,9 @@ def _share(base, point, side, q, own):
 
 @njit(fastmath={"reassoc", "contract"})
 def _move(compliance, row, pushes, target):
-    """target (3,): displacement in three rows of a compliance by the pushes (n, 3) on all nodes of its columns."""
+    """Target (3,): displacement in three rows of a compliance by the pushes (n, 3) on all nodes of
+    its columns.
+    """
     flat = pushes.reshape(3 * len(pushes))
     for a in range(3):
         line, total = compliance[row + a], 0.0
@@ -148,5 +220,9 @@ def _move_by_few(compliance, row, first, pushed, pushes, target):
         line, total = compliance[row + a], 0.0
         for j in pushed:
             column = 3 * (j - first)
-            total += line[column] * pushes[j, 0] + line[column + 1] * pushes[j, 1] + line[column + 2] * pushes[j, 2]
+            total += (
+                line[column] * pushes[j, 0]
+                + line[column + 1] * pushes[j, 1]
+                + line[column + 2] * pushes[j, 2]
+            )
         target[a] = total

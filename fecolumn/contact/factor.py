@@ -1,4 +1,6 @@
-"""Symmetric matrices of points in blocks (`contact.blocks`), made once for many products and right sides: these cost what the blocks move, not the square of all points."""
+"""Symmetric matrices of points in blocks (`contact.blocks`), made once for many products and right
+sides: these cost what the blocks move, not the square of all points.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +13,13 @@ from fecolumn.contact.blocks import find_blocks
 
 
 class Blocked(NamedTuple):
-    """Symmetric matrix (3 n, 3 n) of n points in g blocks, or its factor, by their order of elimination.
+    """Symmetric matrix (3 n, 3 n) of n points in g blocks, or its factor, by their order of
+    elimination.
 
-    values: (9 n^2,) room for the blocks that are not zero, one after another, each row by row. place: (n, n) where block k, l begins in it, -1 where it is zero; of a symmetric matrix
-    l >= k. rows: (n, 2) first row of each block and the row after its last. number: (1,) of blocks, 0 before there are any.
+    values: (9 n^2,) room for the blocks that are not zero, one after another, each row by row.
+    place: (n, n) where block k, l begins in it, -1 where it is zero; of a symmetric matrix l >= k.
+    rows: (n, 2) first row of each block and the row after its last. number: (1,) of blocks, 0
+    before there are any.
     """
 
     values: np.ndarray
@@ -25,19 +30,29 @@ class Blocked(NamedTuple):
 
 def no_blocks(n: int) -> Blocked:
     """Of n points, not found yet."""
-    return Blocked(np.zeros(9 * n * n), np.zeros((n, n), np.int64), np.zeros((n, 2), np.int64), np.zeros(1, np.int64))
+    return Blocked(
+        np.zeros(9 * n * n),
+        np.zeros((n, n), np.int64),
+        np.zeros((n, 2), np.int64),
+        np.zeros(1, np.int64),
+    )
 
 
 @njit
 def factorize(W, factor):
-    """Find the factor of a symmetric positive definite W (3 n, 3 n): of each block, once those before are eliminated, its inverse D^-1, and D^-1 times what couples it to those after it."""
+    """Find the factor of a symmetric positive definite W (3 n, 3 n): of each block, once those
+    before are eliminated, its inverse D^-1, and D^-1 times what couples it to those after it.
+    """
     blocks = find_blocks(W)
     g = len(blocks.coupled)
     factor.number[0] = g
     for k in range(g):
         # the points of a block are beside each other
         begin = 3 * blocks.order[blocks.first[k]]
-        factor.rows[k, 0], factor.rows[k, 1] = begin, begin + 3 * (blocks.first[k + 1] - blocks.first[k])
+        factor.rows[k, 0], factor.rows[k, 1] = (
+            begin,
+            begin + 3 * (blocks.first[k + 1] - blocks.first[k]),
+        )
     _take_blocks(W, blocks.coupled, factor)
     for k in range(g):
         _eliminate_block(factor, k)
@@ -75,18 +90,26 @@ def _take_blocks(matrix, coupled, blocked):
 @njit
 def _block(blocked, k, l):
     """Block k, l: (rows of k, rows of l)."""
-    m, n, begin = blocked.rows[k, 1] - blocked.rows[k, 0], blocked.rows[l, 1] - blocked.rows[l, 0], blocked.place[k, l]
-    return blocked.values[begin:begin + m * n].reshape(m, n)
+    m, n, begin = (
+        blocked.rows[k, 1] - blocked.rows[k, 0],
+        blocked.rows[l, 1] - blocked.rows[l, 0],
+        blocked.place[k, l],
+    )
+    return blocked.values[begin : begin + m * n].reshape(m, n)
 
 
 @njit
 def _eliminate_block(factor, k):
-    """Invert block k, take from the later ones what it does to them, and divide what couples it to them by it."""
+    """Invert block k, take from the later ones what it does to them, and divide what couples it to
+    them by it.
+    """
     own = _block(factor, k, k)
     inverse = np.linalg.inv(own)
     for i in range(len(own)):
         for j in range(i + 1):
-            inverse[i, j] = inverse[j, i] = own[i, j] = own[j, i] = (inverse[i, j] + inverse[j, i]) / 2
+            inverse[i, j] = inverse[j, i] = own[i, j] = own[j, i] = (
+                inverse[i, j] + inverse[j, i]
+            ) / 2
     for l in range(k + 1, factor.number[0]):
         if factor.place[k, l] < 0:
             continue
@@ -95,7 +118,10 @@ def _eliminate_block(factor, k):
         for m in range(l, factor.number[0]):
             if factor.place[k, m] >= 0:
                 # beside[m] is not divided yet
-                later, taken = _block(factor, l, m), np.ascontiguousarray(divided.T) @ _block(factor, k, m)
+                later, taken = (
+                    _block(factor, l, m),
+                    np.ascontiguousarray(divided.T) @ _block(factor, k, m),
+                )
                 for i in range(len(later)):
                     for j in range(later.shape[1]):
                         later[i, j] -= taken[i, j]
@@ -124,7 +150,7 @@ def solve_factored(factor, right):
 
 @njit
 def multiply(blocked, source, target):
-    """target (3 n,): a symmetric matrix times source (3 n,)."""
+    """Target (3 n,): a symmetric matrix times source (3 n,)."""
     values, place, rows = blocked.values, blocked.place, blocked.rows
     for i in range(len(target)):
         target[i] = 0.0
@@ -138,11 +164,13 @@ def multiply(blocked, source, target):
 
 @njit(fastmath={"reassoc", "contract"})
 def _add_block(values, begin, rows, columns, factor, source, target):
-    """Add to `target` in the rows, first and the one after the last, the factor times a block that begins in `values` there, times `source` in the columns."""
+    """Add to `target` in the rows, first and the one after the last, the factor times a block that
+    begins in `values` there, times `source` in the columns.
+    """
     count = columns[1] - columns[0]
-    part = source[columns[0]:columns[1]]
+    part = source[columns[0] : columns[1]]
     for i in range(rows[0], rows[1]):
-        line, total = values[begin:begin + count], 0.0
+        line, total = values[begin : begin + count], 0.0
         for j in range(count):
             total += line[j] * part[j]
         target[i] += factor * total
@@ -151,11 +179,13 @@ def _add_block(values, begin, rows, columns, factor, source, target):
 
 @njit
 def _add_transposed(values, begin, rows, columns, factor, source, target):
-    """Add to `target` in the columns the factor times the transpose of a block, times `source` in the rows."""
+    """Add to `target` in the columns the factor times the transpose of a block, times `source` in
+    the rows.
+    """
     count = columns[1] - columns[0]
-    part = target[columns[0]:columns[1]]
+    part = target[columns[0] : columns[1]]
     for i in range(rows[0], rows[1]):
-        line, value = values[begin:begin + count], factor * source[i]
+        line, value = values[begin : begin + count], factor * source[i]
         for j in range(count):
             part[j] += value * line[j]
         begin += count

@@ -1,4 +1,6 @@
-"""Which nodes of a foot are contact points: all on its outlines, and inside them as many as the case says."""
+"""Which nodes of a foot are contact points: all on its outlines, and inside them as many as the
+case says.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +16,9 @@ from fecolumn.contact.tolerances import SAME_PLACE
 class Footprint:
     """Contact points of a foot, and the nodes that they stand for.
 
-    nodes: (n,) nodes of the column that are contact points; areas: (n,) of the foot that belong to them [m2].
-    all_nodes: (m,) nodes of the foot; all_areas: (m,) tributary to them [m2]; nearest: (m,) the point that each belongs to.
-    inner: (n,) whether a point lies inside the outlines.
+    nodes: (n,) nodes of the column that are contact points; areas: (n,) of the foot that belong to
+    them [m2]. all_nodes: (m,) nodes of the foot; all_areas: (m,) tributary to them [m2]; nearest:
+    (m,) the point that each belongs to. inner: (n,) whether a point lies inside the outlines.
     """
 
     nodes: np.ndarray
@@ -32,15 +34,32 @@ class Footprint:
         return cls(nodes, areas, nodes, areas, np.arange(len(nodes)), np.zeros(len(nodes), bool))
 
 
-def footprint(nodes: np.ndarray, positions: np.ndarray, areas: np.ndarray, on_outline: np.ndarray, interior: int) -> Footprint:
-    """Choose contact points: the outlines, and at most about `interior` nodes inside, evenly spread.
+def footprint(
+    nodes: np.ndarray,
+    positions: np.ndarray,
+    areas: np.ndarray,
+    on_outline: np.ndarray,
+    interior: int,
+) -> Footprint:
+    """Choose contact points: the outlines, and at most about `interior` nodes inside, evenly
+    spread.
 
-    Each further point is the one farthest from all others, together with its mirror images, so that the choice prefers no direction.
-    A column rocks, rolls and lands on its outlines; inside, points only share the pressure while it stands.
+    Each further point is the one farthest from all others, together with its mirror images, so that
+    the choice prefers no direction. A column rocks, rolls and lands on its outlines; inside, points
+    only share the pressure while it stands.
 
-    Args:
-        nodes: (m,) of the foot. positions: (m, 3) [m]. areas: (m,) [m2]. on_outline: (m,) mask.
-        interior: largest number of points inside but for mirror images.
+    Parameters
+    ----------
+    nodes
+        (m,) of the foot.
+    positions
+        (m, 3) [m].
+    areas
+        (m,) [m2].
+    on_outline
+        (m,) mask.
+    interior
+        largest number of points inside but for mirror images.
     """
     inside = np.flatnonzero(~on_outline)
     kept = np.ones(len(nodes), bool)
@@ -54,7 +73,9 @@ def footprint(nodes: np.ndarray, positions: np.ndarray, areas: np.ndarray, on_ou
         while kept[inside].sum() < interior:
             # rounded, so that rounding does not decide between mirror images
             farthest = inside[np.argmax(np.round(away[inside] / width / SAME_PLACE))]
-            images = middle + (plane[farthest] - middle) * np.array([[1, 1], [-1, 1], [1, -1], [-1, -1]])
+            images = middle + (plane[farthest] - middle) * np.array(
+                [[1, 1], [-1, 1], [1, -1], [-1, -1]]
+            )
             distance, found = tree.query(images)
             chosen = np.unique(found[(distance < SAME_PLACE * width) & ~kept[found]])
             kept[chosen] = True

@@ -1,4 +1,6 @@
-"""Frictional unilateral contact of a few points: find forces r with s = W r + q, r in Coulomb's cone."""
+"""Frictional unilateral contact of a few points: find forces r with s = W r + q, r in Coulomb's
+cone.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,9 @@ from fecolumn.contact.newton import newton_steps, solve_in_place, stiffnesses
 
 @dataclass(frozen=True, slots=True)
 class ContactSolution:
-    """Forces (n, 3) [N], residual of the contact laws [m], Newton iterations, and interior point iterations and Gauss-Seidel sweeps used."""
+    """Forces (n, 3) [N], residual of the contact laws [m], Newton iterations, and interior point
+    iterations and Gauss-Seidel sweeps used.
+    """
 
     forces: np.ndarray
     residual: float
@@ -27,7 +31,9 @@ class ContactSolution:
 
 @njit
 def gauss_seidel(W, q, forces, friction, rho, sweeps, tolerance):
-    """Projected nonlinear Gauss-Seidel (Jourdan, Alart, Jean 1998); changes `forces`, returns the sweeps made."""
+    """Projected nonlinear Gauss-Seidel (Jourdan, Alart, Jean 1998); changes `forces`, returns the
+    sweeps made.
+    """
     n, s = len(q), np.empty(3)
     for sweep in range(sweeps):
         change = 0.0
@@ -35,10 +41,18 @@ def gauss_seidel(W, q, forces, friction, rho, sweeps, tolerance):
             for a in range(3):
                 s[a], row = q[i, a], W[3 * i + a]
                 for j in range(n):
-                    s[a] += row[3 * j] * forces[j, 0] + row[3 * j + 1] * forces[j, 1] + row[3 * j + 2] * forces[j, 2]
+                    s[a] += (
+                        row[3 * j] * forces[j, 0]
+                        + row[3 * j + 1] * forces[j, 1]
+                        + row[3 * j + 2] * forces[j, 2]
+                    )
             normal = forces[i, 2] - s[2] / W[3 * i + 2, 3 * i + 2]
-            t0, t1, normal = in_cone(forces[i, 0] - rho[i] * s[0], forces[i, 1] - rho[i] * s[1], normal, friction[i])
-            change = max(change, abs(t0 - forces[i, 0]), abs(t1 - forces[i, 1]), abs(normal - forces[i, 2]))
+            t0, t1, normal = in_cone(
+                forces[i, 0] - rho[i] * s[0], forces[i, 1] - rho[i] * s[1], normal, friction[i]
+            )
+            change = max(
+                change, abs(t0 - forces[i, 0]), abs(t1 - forces[i, 1]), abs(normal - forces[i, 2])
+            )
             forces[i, 0], forces[i, 1], forces[i, 2] = t0, t1, normal
         if change <= tolerance:
             return sweep + 1
@@ -47,7 +61,9 @@ def gauss_seidel(W, q, forces, friction, rho, sweeps, tolerance):
 
 @njit
 def frictionless(W, q, start):
-    """Forces (n, 3) without friction by primal-dual active sets, or the last ones before they cycle: a guess of the points that press."""
+    """Forces (n, 3) without friction by primal-dual active sets, or the last ones before they
+    cycle: a guess of the points that press.
+    """
     n = len(q)
     forces, pressed = np.zeros((n, 3)), np.empty(n, np.bool_)
     for i in range(n):
@@ -95,7 +111,19 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
         together, softest = stiffnesses(W, True), 1 / rho.min()
         for give in (0.0, tolerances.NEAR_GIVE * softest):
             if least > tolerance:
-                forces, residual, made = newton_steps(W, blocks, q, friction, start, tolerance, together, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+                forces, residual, made = newton_steps(
+                    W,
+                    blocks,
+                    q,
+                    friction,
+                    start,
+                    tolerance,
+                    together,
+                    rho,
+                    give,
+                    tolerances.NEWTON_STEPS,
+                    tolerances.NEWTON_STALLED,
+                )
                 iterations += made
                 if residual < least:
                     best, least = forces, residual
@@ -108,7 +136,9 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     for i in range(n):
         taken[i] = n <= tolerances.FEW_POINTS or 2 * pressed > n or forces[i, 2] > 0
     while grown and least > tolerance:
-        made, more = _find_some(W, q, friction, forces, start, marked(taken), tolerance, sweeps, tolerances.FROZEN_TURNS)
+        made, more = _find_some(
+            W, q, friction, forces, start, marked(taken), tolerance, sweeps, tolerances.FROZEN_TURNS
+        )
         iterations += made
         others += more
         relative = slips_and_gaps(W, q, forces)
@@ -116,7 +146,20 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
         if residual < least:
             best, least = forces.copy(), residual
         for i in range(n):
-            if not taken[i] and law_error(0.0, 0.0, 0.0, relative[i, 0], relative[i, 1], relative[i, 2], rho[i], friction[i]) > tolerance:
+            if (
+                not taken[i]
+                and law_error(
+                    0.0,
+                    0.0,
+                    0.0,
+                    relative[i, 0],
+                    relative[i, 1],
+                    relative[i, 2],
+                    rho[i],
+                    friction[i],
+                )
+                > tolerance
+            ):
                 taken[i] = grown = True
     if least > tolerance and n > tolerances.FEW_POINTS:
         forces, residual, made, more = _one_by_one(W, q, friction, rho, tolerance, sweeps)
@@ -129,14 +172,30 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
 
 @njit
 def _one_by_one(W, q, friction, rho, tolerance, sweeps):
-    """As `iterate`, from no forces at all: the point that obeys the laws least is taken in, one after the other; one that then carries nothing is let go, but
-    not again and again. Each problem is near to the last, and its solution a good guess."""
+    """As `iterate`, from no forces at all: the point that obeys the laws least is taken in, one
+    after the other; one that then carries nothing is let go, but not again and again. Each problem
+    is near to the last, and its solution a good guess.
+    """
     n, least, iterations, others = len(q), np.inf, 0, 0
-    forces, best, taken, gone = np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n, np.bool_), np.zeros(n, np.int64)
+    forces, best, taken, gone = (
+        np.zeros((n, 3)),
+        np.zeros((n, 3)),
+        np.zeros(n, np.bool_),
+        np.zeros(n, np.int64),
+    )
     for _ in range(tolerances.ONE_BY_ONE):
         relative, residual, farthest, most = slips_and_gaps(W, q, forces), 0.0, -1, tolerance
         for i in range(n):
-            error = law_error(forces[i, 0], forces[i, 1], forces[i, 2], relative[i, 0], relative[i, 1], relative[i, 2], rho[i], friction[i])
+            error = law_error(
+                forces[i, 0],
+                forces[i, 1],
+                forces[i, 2],
+                relative[i, 0],
+                relative[i, 1],
+                relative[i, 2],
+                rho[i],
+                friction[i],
+            )
             residual = max(residual, error)
             if not taken[i] and error > most:
                 farthest, most = i, error
@@ -157,9 +216,17 @@ def _one_by_one(W, q, friction, rho, tolerance, sweeps):
 
 @njit
 def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps, turns):
-    """Put forces that obey the laws on the listed points (k,), the others open, in place of `forces` (n, 3): iterations of Newton and others."""
+    """Put forces that obey the laws on the listed points (k,), the others open, in place of
+    `forces` (n, 3): iterations of Newton and others.
+    """
     k = len(listed)
-    inner, slack, mu, guess, first = np.empty((3 * k, 3 * k)), np.empty((k, 3)), np.empty(k), np.empty((k, 3)), np.empty((k, 3))
+    inner, slack, mu, guess, first = (
+        np.empty((3 * k, 3 * k)),
+        np.empty((k, 3)),
+        np.empty(k),
+        np.empty((k, 3)),
+        np.empty((k, 3)),
+    )
     for u in range(k):
         i = listed[u]
         mu[u] = friction[i]
@@ -168,7 +235,9 @@ def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps, turns):
             for v in range(k):
                 for b in range(3):
                     inner[3 * u + a, 3 * v + b] = W[3 * i + a, 3 * listed[v] + b]
-    found, _, iterations, others = _by_all_ways(inner, slack, mu, guess, first, tolerance, sweeps, turns)
+    found, _, iterations, others = _by_all_ways(
+        inner, slack, mu, guess, first, tolerance, sweeps, turns
+    )
     forces[:] = 0.0
     for u in range(k):
         for a in range(3):
@@ -178,7 +247,9 @@ def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps, turns):
 
 @njit
 def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
-    """Forces (n, 3) by one way after the other, residual, Newton iterations and others; guess, start: (n, 3) from which Newton is tried; turns: of `_with_frozen_slips`, 0 to leave it."""
+    """Forces (n, 3) by one way after the other, residual, Newton iterations and others; guess,
+    start: (n, 3) from which Newton is tried; turns: of `_with_frozen_slips`, 0 to leave it.
+    """
     n, stiffest, give = len(q), np.inf, 0.0
     if n == 0:
         return guess, 0.0, 0, 0
@@ -187,9 +258,33 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
         rho_t[i] = 1 / np.hypot(W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1])
         stiffest, give = min(stiffest, rho[i]), max(give, tolerances.GIVE / rho[i])
     others = 0
-    best, least, iterations = newton_steps(W, blocks, q, friction, guess, tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED)
+    best, least, iterations = newton_steps(
+        W,
+        blocks,
+        q,
+        friction,
+        guess,
+        tolerance,
+        rho,
+        rho,
+        0.0,
+        tolerances.FAR_STEPS,
+        tolerances.FAR_STALLED,
+    )
     if least > tolerance:
-        forces, residual, made = newton_steps(W, blocks, q, friction, start, tolerance, stiffnesses(W, True), rho, 0.0, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        forces, residual, made = newton_steps(
+            W,
+            blocks,
+            q,
+            friction,
+            start,
+            tolerance,
+            stiffnesses(W, True),
+            rho,
+            0.0,
+            tolerances.NEWTON_STEPS,
+            tolerances.NEWTON_STALLED,
+        )
         iterations += made
         if residual < least:
             best, least = forces, residual
@@ -200,7 +295,19 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
             forces, made = approach(A, Q, friction, R, U, most, np.empty(0))
             inside += made
             # from inside Newton needs a step or two when the active set is right, and costs a tenth
-            forces, residual, newtons = newton_steps(W, blocks, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
+            forces, residual, newtons = newton_steps(
+                W,
+                blocks,
+                q,
+                friction,
+                forces,
+                tolerance,
+                rho,
+                rho,
+                give,
+                tolerances.NEWTON_STALLED,
+                2,
+            )
             iterations += newtons
             if residual < least:
                 best, least = forces, residual
@@ -212,20 +319,47 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
     while least > tolerance and count <= sweeps:
         forces = best.copy()
         others += gauss_seidel(W, q, forces, friction, rho_t, count, tolerance * stiffest)
-        forces, residual, made = newton_steps(W, blocks, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED)
+        forces, residual, made = newton_steps(
+            W,
+            blocks,
+            q,
+            friction,
+            forces,
+            tolerance,
+            rho,
+            rho,
+            give,
+            tolerances.NEWTON_STEPS,
+            tolerances.NEWTON_STALLED,
+        )
         iterations += made
         if residual < least:
             best, least = forces, residual
         count *= 4
     if least > tolerance:
-        # many small steps, each held by a compliance against change: they end where the active sets of all other ways cycle
+        # many small steps, each held by a compliance against change: they end where the active sets
+        # of all other ways cycle
         held = give * tolerances.HELD_GIVE / tolerances.GIVE
-        forces, residual, made = newton_steps(W, blocks, q, friction, best, tolerance, rho, rho, held, tolerances.HELD_STEPS, tolerances.HELD_STALLED)
+        forces, residual, made = newton_steps(
+            W,
+            blocks,
+            q,
+            friction,
+            best,
+            tolerance,
+            rho,
+            rho,
+            held,
+            tolerances.HELD_STEPS,
+            tolerances.HELD_STALLED,
+        )
         iterations += made
         if residual < least:
             best, least = forces, residual
     if least > tolerance and turns > 0 and n <= tolerances.FROZEN_POINTS:
-        forces, residual, made, inside = _with_frozen_slips(W, blocks, q, friction, tolerance, rho, give, turns)
+        forces, residual, made, inside = _with_frozen_slips(
+            W, blocks, q, friction, tolerance, rho, give, turns
+        )
         iterations += made
         others += inside
         if residual < least:
@@ -235,19 +369,25 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
 
 @njit
 def _with_frozen_slips(W, blocks, q, friction, tolerance, rho, give, turns):
-    """Forces by a fixed point on the sizes of the slips (Acary, Cadoux, Lemarechal and Malick 2011, ZAMM 91): best forces, residual, steps of Newton, iterations inside.
+    """Forces by a fixed point on the sizes of the slips (Acary, Cadoux, Lemarechal and Malick 2011,
+    ZAMM 91): best forces, residual, steps of Newton, iterations inside.
 
-    With these sizes frozen the problem is convex, and an interior point solves it to its end; Newton tries from each solution, `turns` times at most.
+    With these sizes frozen the problem is convex, and an interior point solves it to its end;
+    Newton tries from each solution, `turns` times at most.
     """
     n, slips, least, iterations, others = len(q), np.zeros(len(q)), np.inf, 0, 0
     A, Q = in_cones(W, q, friction)
     best = np.zeros((n, 3))
     for _ in range(turns):
-        forces, inside = approach(A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips)
+        forces, inside = approach(
+            A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips
+        )
         relative = slips_and_gaps(W, q, forces)
         for i in range(n):
             slips[i] = np.hypot(relative[i, 0], relative[i, 1])
-        forces, residual, made = newton_steps(W, blocks, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2)
+        forces, residual, made = newton_steps(
+            W, blocks, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2
+        )
         iterations += made
         others += inside
         if residual < least:
@@ -257,20 +397,31 @@ def _with_frozen_slips(W, blocks, q, friction, tolerance, rho, give, turns):
     return best, least, iterations, others
 
 
-def solve_contact(W, q, mu, start, tolerance: float = 1e-12, sweeps: int = tolerances.SWEEPS_MOST) -> ContactSolution:
+def solve_contact(
+    W, q, mu, start, tolerance: float = 1e-12, sweeps: int = tolerances.SWEEPS_MOST
+) -> ContactSolution:
     """Solve the frictional contact problem of n points.
 
-    Args:
-        W: (3 n, 3 n) compliance [m/N], symmetric positive definite; per point x, y (tangential), z (normal).
-        q: (n, 3) [m] slip (x, y) and gap (z) without contact forces; gap > 0 is open.
-        mu: Coulomb friction coefficient, of all points or (n,) of each.
-        start: (n, 3) [N] first guess.
-        tolerance: residual at convergence [m].
+    Parameters
+    ----------
+    W
+        (3 n, 3 n) compliance [m/N], symmetric positive definite; per point x, y (tangential), z
+        (normal).
+    q
+        (n, 3) [m] slip (x, y) and gap (z) without contact forces; gap > 0 is open.
+    mu
+        Coulomb friction coefficient, of all points or (n,) of each.
+    start
+        (n, 3) [N] first guess.
+    tolerance
+        residual at convergence [m].
 
-    Semismooth Newton, stick and slip judged by the stiffness of all points together, again with a little give where W proves singular. Where its active set cycles, the points that press without
-    friction, and those that sink where these carry, are a smaller problem: Newton from there, an interior point and, should they fail, Gauss-Seidel
-    sweeps and slower ways; at last the points are taken in one by one. The residual returned
-    is the true one: the caller decides what to do with a solution that has not converged.
+    Semismooth Newton, stick and slip judged by the stiffness of all points together, again with a
+    little give where W proves singular. Where its active set cycles, the points that press without
+    friction, and those that sink where these carry, are a smaller problem: Newton from there, an
+    interior point and, should they fail, Gauss-Seidel sweeps and slower ways; at last the points
+    are taken in one by one. The residual returned is the true one: the caller decides what to do
+    with a solution that has not converged.
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
     friction = np.ascontiguousarray(np.broadcast_to(np.asarray(mu, float), len(q)))
@@ -280,8 +431,10 @@ def solve_contact(W, q, mu, start, tolerance: float = 1e-12, sweeps: int = toler
 def prepare_solver(say=lambda text: None) -> None:
     """Have the solver compiled, so that the first step costs what all cost.
 
-    Args:
-        say: told why it takes long, if it does.
+    Parameters
+    ----------
+    say
+        told why it takes long, if it does.
     """
     if not compiled(iterate):
         say("compiling the contact solver, once on this machine: half a minute")

@@ -1,7 +1,7 @@
 """Compliance among those nodes of the base that have been below the foot, together in memory.
 
-A foot stands on a few hundred nodes of a base whose compliance takes tens of megabytes: to pick them out of it anew in each step would take
-longer than all that is done with them.
+A foot stands on a few hundred nodes of a base whose compliance takes tens of megabytes: to pick
+them out of it anew in each step would take longer than all that is done with them.
 """
 
 from __future__ import annotations
@@ -15,8 +15,10 @@ from fecolumn.contact.points import BASE
 
 
 class Gathered(NamedTuple):
-    """The gathered nodes. number: (1,) of them; slots: (k,) in the base's compliance; place: (k,) of each slot among them, -1 of one that is not; matrix: (3 k, 3 k)
-    compliance [m/N], its first 3 number rows and columns filled; k: slots of the base."""
+    """The gathered nodes. number: (1,) of them; slots: (k,) in the base's compliance; place: (k,)
+    of each slot among them, -1 of one that is not; matrix: (3 k, 3 k) compliance [m/N], its first 3
+    number rows and columns filled; k: slots of the base.
+    """
 
     number: np.ndarray
     slots: np.ndarray
@@ -26,14 +28,21 @@ class Gathered(NamedTuple):
 
 def none_gathered(slots: int) -> Gathered:
     """Of a base of so many slots."""
-    return Gathered(np.zeros(1, np.int64), np.zeros(slots, np.int64), np.full(slots, -1, np.int64), np.empty((3 * slots, 3 * slots)))
+    return Gathered(
+        np.zeros(1, np.int64),
+        np.zeros(slots, np.int64),
+        np.full(slots, -1, np.int64),
+        np.empty((3 * slots, 3 * slots)),
+    )
 
 
 def gathered_nodes(base) -> np.ndarray:
-    """Top nodes (k,) of a base whose compliance is gathered, in their order: for a checkpoint, since sums are taken in this order."""
+    """Top nodes (k,) of a base whose compliance is gathered, in their order: for a checkpoint,
+    since sums are taken in this order.
+    """
     nodes = np.empty(len(base.gathered.slots), np.int64)
     nodes[base.slot[base.slot >= 0]] = np.flatnonzero(base.slot >= 0)
-    return nodes[base.gathered.slots[:base.gathered.number[0]]]
+    return nodes[base.gathered.slots[: base.gathered.number[0]]]
 
 
 def gather_again(base, nodes: np.ndarray) -> None:
@@ -41,12 +50,14 @@ def gather_again(base, nodes: np.ndarray) -> None:
     gathered, slots, k = base.gathered, base.slot[nodes], len(nodes)
     rows = (3 * slots[:, None] + np.arange(3)).ravel()
     gathered.number[0], gathered.slots[:k], gathered.place[slots] = k, slots, np.arange(k)
-    gathered.matrix[:3 * k, :3 * k] = base.compliance[np.ix_(rows, rows)]
+    gathered.matrix[: 3 * k, : 3 * k] = base.compliance[np.ix_(rows, rows)]
 
 
 @njit
 def gather(base, points, listed):
-    """Gather the nodes below the listed points (k,); where far more are gathered than all points can have, as a foot goes on its way, from the beginning."""
+    """Gather the nodes below the listed points (k,); where far more are gathered than all points
+    can have, as a foot goes on its way, from the beginning.
+    """
     gathered, compliance = base.gathered, base.compliance
     if gathered.number[0] > 8 * len(points):
         gathered.place[:] = -1
@@ -64,5 +75,9 @@ def gather(base, points, listed):
                 row, column = 3 * slot, 3 * gathered.slots[other]
                 for a in range(3):
                     for b in range(3):
-                        gathered.matrix[3 * new + a, 3 * other + b] = compliance[row + a, column + b]
-                        gathered.matrix[3 * other + b, 3 * new + a] = compliance[column + b, row + a]
+                        gathered.matrix[3 * new + a, 3 * other + b] = compliance[
+                            row + a, column + b
+                        ]
+                        gathered.matrix[3 * other + b, 3 * new + a] = compliance[
+                            column + b, row + a
+                        ]

@@ -1,8 +1,10 @@
-"""Velocities at the end of a step in which a point lands or slip ends: plastic impact with friction, and restitution.
+"""Velocities at the end of a step in which a point lands or slip ends: plastic impact with
+friction, and restitution.
 
-The trapezoidal rule would turn the velocity of a point that lands, or that begins to stick, round for ever. So the impulses of the step are replaced, at its
-end, by those of a plastic impact (Moreau 1988): the state of least kinetic energy that non-adhesive impulses with friction reach. In the rigid
-limit it is Housner's (1963) impact.
+The trapezoidal rule would turn the velocity of a point that lands, or that begins to stick, round
+for ever. So the impulses of the step are replaced, at its end, by those of a plastic impact (Moreau
+1988): the state of least kinetic energy that non-adhesive impulses with friction reach. In the
+rigid limit it is Housner's (1963) impact.
 """
 
 from __future__ import annotations
@@ -15,7 +17,17 @@ from fecolumn.contact.compliance import assemble
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.problem import IMPACT_FAILED, N_CONTACT, OK
 from fecolumn.contact.restitution import returned_share
-from fecolumn.contact.tolerances import FULL_FRICTION, IMPACT_GIVES, IMPACT_LEAST, IMPACT_LEFT, IMPACT_SOLVED, OPEN, SHARP, SLIDE, SWEEPS_MOST
+from fecolumn.contact.tolerances import (
+    FULL_FRICTION,
+    IMPACT_GIVES,
+    IMPACT_LEAST,
+    IMPACT_LEFT,
+    IMPACT_SOLVED,
+    OPEN,
+    SHARP,
+    SLIDE,
+    SWEEPS_MOST,
+)
 
 # Answers of `what_happens`
 NOTHING, LANDS, TURNS = range(3)
@@ -23,25 +35,36 @@ NOTHING, LANDS, TURNS = range(3)
 
 @njit
 def mark_landing(interfaces, points, listed, before, after, landing):
-    """Mark in `landing` (n,) those of the listed points (k,) that touch at the end of the step and were open at its start: how many."""
+    """Mark in `landing` (n,) those of the listed points (k,) that touch at the end of the step and
+    were open at its start: how many.
+    """
     count = 0
     for i in listed:
         height = OPEN * interfaces[points[i].interface].width
-        landing[i] = not points[i].rolls and before[i].force[2] <= 0 and before[i].relative[2] > height and after[i].force[2] > 0
+        landing[i] = (
+            not points[i].rolls
+            and before[i].force[2] <= 0
+            and before[i].relative[2] > height
+            and after[i].force[2] > 0
+        )
         count += landing[i]
     return count
 
 
 @njit
 def mark_turning(points, listed, before, after, turning):
-    """Mark in `turning` (n,) those of the listed points (k,) whose slip may end within the step, in stick or in slip the other way: how many."""
+    """Mark in `turning` (n,) those of the listed points (k,) whose slip may end within the step, in
+    stick or in slip the other way: how many.
+    """
     count = 0
     for i in listed:
         turning[i] = False
         touching = after[i].force[2] > 0
         if not touching:
             continue
-        slips = after[i].anchor[0] != before[i].anchor[0] or after[i].anchor[1] != before[i].anchor[1]
+        slips = (
+            after[i].anchor[0] != before[i].anchor[0] or after[i].anchor[1] != before[i].anchor[1]
+        )
         turning[i] = slips and before[i].force[2] > 0 or not slips and _slid(points, before, i)
         count += turning[i]
     return count
@@ -56,11 +79,18 @@ def _slid(points, before, i):
 
 @njit
 def what_happens(interfaces, points, listed, before, after, dt, early, late, landing, turning):
-    """Whether the velocities at the end of a step must be taken anew: NOTHING, a point LANDS, or slip TURNS for most of the foot.
+    """Whether the velocities at the end of a step must be taken anew: NOTHING, a point LANDS, or
+    slip TURNS for most of the foot.
 
-    Args:
-        early, late: (n, 3) velocities [m/s] of the marked points at the start and at the end of the step.
-        listed: (k,) the points that may carry. landing, turning: (n,) marked by the functions above; of `turning` those stay that do turn, of those of all interfaces where any turns for most of its foot.
+    Parameters
+    ----------
+    early, late
+        (n, 3) velocities [m/s] of the marked points at the start and at the end of the step.
+    listed
+        (k,) the points that may carry.
+    landing, turning
+        (n,) marked by the functions above; of `turning` those stay that do turn, of those of all
+        interfaces where any turns for most of its foot.
     """
     lands, turned, total = False, np.zeros(len(interfaces)), np.zeros(len(interfaces))
     for i in listed:
@@ -100,22 +130,55 @@ def touched(listed, before, after):
 
 
 @njit
-def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, before, after, early, late, landing, turning, lands, dt, contact_work, counts):
-    """Impulses (n, 3) [N s] that come in place of those of the step: a way to end, whether there are any, the impulses.
+def find_impact(
+    bodies,
+    base,
+    points,
+    interfaces,
+    springs,
+    listed,
+    arms,
+    poses,
+    before,
+    after,
+    early,
+    late,
+    landing,
+    turning,
+    lands,
+    dt,
+    contact_work,
+    counts,
+):
+    """Impulses (n, 3) [N s] that come in place of those of the step: a way to end, whether there
+    are any, the impulses.
 
-    The points that held the foot before carry it until the moment of impact, all together from then on: two projections, without
-    which the weight's impulse of the whole step would act at the new contact. Where a long step would gain energy by them, because its positions know
-    the new contact only, a single projection is made; where that gains, too, they change by the share that gains nothing. Where the end of slip would gain, none.
+    The points that held the foot before carry it until the moment of impact, all together from then
+    on: two projections, without which the weight's impulse of the whole step would act at the new
+    contact. Where a long step would gain energy by them, because its positions know the new contact
+    only, a single projection is made; where that gains, too, they change by the share that gains
+    nothing. Where the end of slip would gain, none.
 
-    Args:
-        listed: (k,) points that may carry. arms: (n, 3) of the points on their slaves at the end of the step [m]. early, late: (n, 3) velocities [m/s], relative to the master, at least of
-            the points that carry. lands: whether a point lands, else slip ends. contact_work: energy that contact added in the step [J].
+    Parameters
+    ----------
+    listed
+        (k,) points that may carry.
+    arms
+        (n, 3) of the points on their slaves at the end of the step [m].
+    early, late
+        (n, 3) velocities [m/s], relative to the master, at least of the points that carry.
+    lands
+        whether a point lands, else slip ends.
+    contact_work
+        energy that contact added in the step [J].
     """
     impulses = np.zeros((len(after), 3))
     union = touched(listed, before, after)
     k = len(union)
     mobility = np.empty((3 * k, 3 * k))
-    assemble(bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, mobility)
+    assemble(
+        bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, mobility
+    )
     held, m = np.empty(k, np.int64), 0
     given, start, end, friction = np.empty(3 * k), np.empty(3 * k), np.empty(3 * k), np.empty(k)
     for j in range(k):
@@ -125,22 +188,36 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
             held[m] = j
             m += 1
         for a in range(3):
-            given[3 * j + a], start[3 * j + a], end[3 * j + a] = dt * after[i].force[a], early[i, a], late[i, a]
+            given[3 * j + a], start[3 * j + a], end[3 * j + a] = (
+                dt * after[i].force[a],
+                early[i, a],
+                late[i, a],
+            )
     pushed = mobility @ given
     free = np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
-    moment = landing_moment(union, before, after, early, landing, dt) if lands \
+    moment = (
+        landing_moment(union, before, after, early, landing, dt)
+        if lands
         else _turning_moment(points, before, after, start, free, pushed, union, turning)
+    )
     second, velocity, taken = np.zeros(3 * k), np.empty(3 * k), 0.0
-    carried, carried_before, guess_of_all, changed = np.zeros(3 * k), np.empty(3 * k), np.empty(3 * k), np.empty(3 * k)
+    carried, carried_before, guess_of_all, changed = (
+        np.zeros(3 * k),
+        np.empty(3 * k),
+        np.empty(3 * k),
+        np.empty(3 * k),
+    )
     for attempt in range(2 if lands and moment > 0 else 1):
         share = moment if attempt == 0 else 0.0
         _between(start, free, share, velocity)
         for j in range(k):
             for a in range(3):
                 carried_before[3 * j + a] = share * dt * before[union[j]].force[a]
-        carried, solved = _held_impulses(mobility, velocity, friction, held[:m], carried_before, counts)
+        carried, solved = _held_impulses(
+            mobility, velocity, friction, held[:m], carried_before, counts
+        )
         if not solved:
             return IMPACT_FAILED, False, impulses
         jump = mobility @ carried
@@ -149,7 +226,8 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
         second, solved = _flat_impulses(mobility, velocity, friction, guess_of_all, counts)
         if not solved:
             return IMPACT_FAILED, False, impulses
-        # judged by velocities relative to the master: whether contact takes energy must not depend on the frame
+        # judged by velocities relative to the master: whether contact takes energy must not depend
+        # on the frame
         for j in range(3 * k):
             changed[j] = second[j] + carried[j] - given[j]
         taken = contact_work + _work(changed, end, mobility @ changed)
@@ -158,7 +236,11 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
     if taken > 0:
         if not lands:
             return OK, False, impulses
-        kept = _harmless(_work(changed, end, np.zeros(3 * k)), _work(changed, np.zeros(3 * k), mobility @ changed), contact_work)
+        kept = _harmless(
+            _work(changed, end, np.zeros(3 * k)),
+            _work(changed, np.zeros(3 * k), mobility @ changed),
+            contact_work,
+        )
         if kept == 0.0:
             return OK, False, impulses
         for j in range(3 * k):
@@ -188,16 +270,20 @@ def find_impact(bodies, base, points, interfaces, springs, listed, arms, poses, 
 
 @njit
 def plastic_impact(mobility, friction, holds, start, end, given, moment, counts):
-    """Kinetic energy [J] that a plastic impact of points (k,) takes at a moment in a step, and the fastest approach before it [m/s]; both 0 where none is found.
+    """Kinetic energy [J] that a plastic impact of points (k,) takes at a moment in a step, and the
+    fastest approach before it [m/s]; both 0 where none is found.
 
-    holds: (k,) mask of those that carry until then. start, end: (3 k,) velocities at the ends of the step [m/s], end with the impulses `given` (3 k,) [N s]. moment: fraction of the step.
+    holds: (k,) mask of those that carry until then. start, end: (3 k,) velocities at the ends of
+    the step [m/s], end with the impulses `given` (3 k,) [N s]. moment: fraction of the step.
     """
     k = len(friction)
     pushed, free, velocity = mobility @ given, np.empty(3 * k), np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
     _between(start, free, moment, velocity)
-    carried, solved = _held_impulses(mobility, velocity, friction, marked(holds), np.zeros(3 * k), counts)
+    carried, solved = _held_impulses(
+        mobility, velocity, friction, marked(holds), np.zeros(3 * k), counts
+    )
     if not solved:
         return 0.0, 0.0
     jump, approach = mobility @ carried, 0.0
@@ -213,7 +299,12 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, counts)
 def _held_impulses(mobility, velocity, friction, held, guess, counts):
     """Impulses (3 k,) of the points `held` (m,) alone, as `_impulses`; guess: (3 k,)."""
     m, impulses = len(held), np.zeros(len(velocity))
-    inner, approach, start, mu = np.empty((3 * m, 3 * m)), np.empty((m, 3)), np.empty((m, 3)), np.empty(m)
+    inner, approach, start, mu = (
+        np.empty((3 * m, 3 * m)),
+        np.empty((m, 3)),
+        np.empty((m, 3)),
+        np.empty(m),
+    )
     for i in range(m):
         mu[i] = friction[held[i]]
         for a in range(3):
@@ -230,7 +321,9 @@ def _held_impulses(mobility, velocity, friction, held, guess, counts):
 
 @njit
 def _restitution(interfaces, points, union, landing):
-    """That of the points (mask) which land, the least where they differ: the impulses of all bodies are given back by the same share."""
+    """That of the points (mask) which land, the least where they differ: the impulses of all bodies
+    are given back by the same share.
+    """
     least = np.inf
     for i in union:
         if landing[i]:
@@ -240,7 +333,7 @@ def _restitution(interfaces, points, union, landing):
 
 @njit
 def _between(first, last, share, target):
-    """target (m,): so far on the way from the first to the last."""
+    """Target (m,): so far on the way from the first to the last."""
     for j in range(len(target)):
         target[j] = first[j] + share * (last[j] - first[j])
 
@@ -256,8 +349,10 @@ def _work(impulses, velocity, jump):
 
 @njit
 def _harmless(first, second, contact_work):
-    """Largest share s, at most 1, of impulses that bring the energy first s + second s^2 [J] by which they and contact, `contact_work` [J], bring none in all; of contact that
-    brings some itself, the share that takes most."""
+    """Largest share s, at most 1, of impulses that bring the energy first s + second s^2 [J] by
+    which they and contact, `contact_work` [J], bring none in all; of contact that brings some
+    itself, the share that takes most.
+    """
     if contact_work > 0.0:
         return min(max(-first / (2 * second), 0.0), 1.0) if second > 0.0 else 0.0
     # the larger root, written so that it loses no digits
@@ -280,20 +375,38 @@ def _flat_impulses(mobility, velocity, friction, guess, counts):
 
 @njit
 def _impulses(mobility, velocity, friction, guess, counts):
-    """Impulses (k, 3) of points with velocities (k, 3) [m/s] without them, and whether they obey the laws, up to IMPACT_LEFT of the largest velocity.
+    """Impulses (k, 3) of points with velocities (k, 3) [m/s] without them, and whether they obey
+    the laws, up to IMPACT_LEFT of the largest velocity.
 
-    Each point gives a little against its impulse, a share of its own mobility, without which many impulses on a stiff foot are not unique. The velocity that
-    this leaves is taken off in the next solution, which is close to the last one (proximal point, Rockafellar 1976).
+    Each point gives a little against its impulse, a share of its own mobility, without which many
+    impulses on a stiff foot are not unique. The velocity that this leaves is taken off in the next
+    solution, which is close to the last one (proximal point, Rockafellar 1976).
     """
     k, speed, turns = len(velocity), max(largest(velocity), IMPACT_LEAST), 0
-    softened, asked, impulses, last, give = mobility.copy(), velocity.copy(), guess, np.zeros((k, 3)), np.empty(k)
+    softened, asked, impulses, last, give = (
+        mobility.copy(),
+        velocity.copy(),
+        guess,
+        np.zeros((k, 3)),
+        np.empty(k),
+    )
     for share in IMPACT_GIVES:
         for i in range(k):
-            give[i] = share * (mobility[3 * i, 3 * i] + mobility[3 * i + 1, 3 * i + 1] + mobility[3 * i + 2, 3 * i + 2]) / 3
+            give[i] = (
+                share
+                * (
+                    mobility[3 * i, 3 * i]
+                    + mobility[3 * i + 1, 3 * i + 1]
+                    + mobility[3 * i + 2, 3 * i + 2]
+                )
+                / 3
+            )
             for a in range(3):
                 softened[3 * i + a, 3 * i + a] = mobility[3 * i + a, 3 * i + a] + give[i]
                 asked[i, a] = velocity[i, a] - give[i] * last[i, a]
-        impulses, solved = _softened_impulses(softened, asked, friction, impulses, IMPACT_SOLVED * speed, counts)
+        impulses, solved = _softened_impulses(
+            softened, asked, friction, impulses, IMPACT_SOLVED * speed, counts
+        )
         if not solved:
             return last, turns > 0
         turns, left = turns + 1, 0.0
@@ -308,12 +421,16 @@ def _impulses(mobility, velocity, friction, guess, counts):
 
 @njit
 def _softened_impulses(compliance, velocity, friction, guess, allowed, counts):
-    """Impulses (k, 3) that obey the laws up to a velocity [m/s], and whether they do: where there are several, those that Newton finds from the guess."""
+    """Impulses (k, 3) that obey the laws up to a velocity [m/s], and whether they do: where there
+    are several, those that Newton finds from the guess.
+    """
     impulses = guess
     for attempt in range(2):
         # a guess far off can trap the iteration: zero is the second
         start = guess if attempt == 0 else np.zeros((len(guess), 3))
-        impulses, residual, newtons, others = iterate(compliance, velocity, friction, start, SHARP * allowed, True, SWEEPS_MOST)
+        impulses, residual, newtons, others = iterate(
+            compliance, velocity, friction, start, SHARP * allowed, True, SWEEPS_MOST
+        )
         counts[N_CONTACT] += newtons + others
         if residual <= allowed:
             return impulses, True
@@ -334,9 +451,11 @@ def landing_moment(union, before, after, early, landing, dt):
 
 @njit
 def _turning_moment(points, before, after, start, free, pushed, union, turning):
-    """Fraction of the step at which full friction ends the slip of the turning points (mask), mean by their forces.
+    """Fraction of the step at which full friction ends the slip of the turning points (mask), mean
+    by their forces.
 
-    start, free: (3 k,) velocities at the ends of the step without its contact impulses; pushed: (3 k,) what these gave [m/s].
+    start, free: (3 k,) velocities at the ends of the step without its contact impulses; pushed: (3
+    k,) what these gave [m/s].
     """
     total = weights = 0.0
     for j in range(len(union)):
@@ -348,7 +467,9 @@ def _turning_moment(points, before, after, start, free, pushed, union, turning):
             s0, s1 = start[3 * j], start[3 * j + 1]
         normal = after[i].force[2]
         # a point found to stick had less than full friction, possibly forwards
-        share = np.hypot(after[i].force[0], after[i].force[1]) / max(points[i].friction * normal, 2.3e-308)
+        share = np.hypot(after[i].force[0], after[i].force[1]) / max(
+            points[i].friction * normal, 2.3e-308
+        )
         way = start[3 * j] * s0 + start[3 * j + 1] * s1
         braking = abs(pushed[3 * j] * s0 + pushed[3 * j + 1] * s1)
         stop = free[3 * j] * s0 + free[3 * j + 1] * s1 - braking / max(share, 2.2e-16)

@@ -1,9 +1,12 @@
-"""Frictional contact of many points by an interior point: slow but hardly ever lost, where the active set of Newton cycles.
+"""Frictional contact of many points by an interior point: slow but hardly ever lost, where the
+active set of Newton cycles.
 
-With R = (r_t, mu r_n) and U = (s_t, s_n / mu + |s_t|), s = W r + q, the laws of Coulomb and Signorini are a complementarity in the
-cone of Lorentz, K = {|x_t| <= x_n}: R in K, U in K, R.U = 0 (De Saxce and Feng 1998). A primal-dual method in the scaling of Nesterov
-and Todd follows R o U = sigma e by Newton steps, in which |s_t| counts as what it is, a function of U; with |s_t| of the last iterate (Acary,
-Armand, Nguyen and Shpakovych 2023) it would creep. With |s_t| frozen the problem is convex (Acary, Cadoux, Lemarechal and Malick 2011).
+With R = (r_t, mu r_n) and U = (s_t, s_n / mu + |s_t|), s = W r + q, the laws of Coulomb and
+Signorini are a complementarity in the cone of Lorentz, K = {|x_t| <= x_n}: R in K, U in K, R.U = 0
+(De Saxce and Feng 1998). A primal-dual method in the scaling of Nesterov and Todd follows R o U =
+sigma e by Newton steps, in which |s_t| counts as what it is, a function of U; with |s_t| of the
+last iterate (Acary, Armand, Nguyen and Shpakovych 2023) it would creep. With |s_t| frozen the
+problem is convex (Acary, Cadoux, Lemarechal and Malick 2011).
 """
 
 from __future__ import annotations
@@ -12,12 +15,19 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import flat, largest, put_matrix, put_points
-from fecolumn.contact.tolerances import INSIDE_CENTRED, INSIDE_END, INSIDE_JAMMED, INSIDE_SMOOTH, INSIDE_WAY
+from fecolumn.contact.tolerances import (
+    INSIDE_CENTRED,
+    INSIDE_END,
+    INSIDE_JAMMED,
+    INSIDE_SMOOTH,
+    INSIDE_WAY,
+)
 
 
 @njit
 def in_cones(W, q, friction):
-    """Compliance (3 n, 3 n) and slip (n, 3) without forces in the units of R and U; arguments as of `friction.solve_contact`, friction (n,).
+    """Compliance (3 n, 3 n) and slip (n, 3) without forces in the units of R and U; arguments as of
+    `friction.solve_contact`, friction (n,).
 
     A point without friction keeps its normal alone: with R_t = U_t = 0 its cone is the half-line.
     """
@@ -42,10 +52,12 @@ def in_cones(W, q, friction):
 
 @njit
 def approach(A, Q, friction, R, U, most, slips):
-    """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the middle where they are zero; both change.
+    """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the
+    middle where they are zero; both change.
 
-    A, Q: of `in_cones`. slips: (n,) |s_t| [m] where they are frozen; (0,) where they are to be those of U.
-    Returns: forces (n, 3), iterations made: fewer where it is at its end, or gets no farther.
+    A, Q: of `in_cones`. slips: (n,) |s_t| [m] where they are frozen; (0,) where they are to be
+    those of U. Returns: forces (n, 3), iterations made: fewer where it is at its end, or gets no
+    farther.
     """
     n, frozen = len(Q), len(slips) > 0
     length, total = max(largest(Q), 1e-300), 0.0
@@ -57,7 +69,12 @@ def approach(A, Q, friction, R, U, most, slips):
         for i in range(n):
             R[i, 2], U[i, 2] = force, length
     matrix, right, block = np.empty((3 * n, 3 * n)), np.empty((3 * n, 2)), np.empty((3, 3))
-    infeasible, slope, ways, changes = np.empty((n, 3)), np.zeros((n, 2)), np.empty((2, n, 3)), np.empty((2, n, 3))
+    infeasible, slope, ways, changes = (
+        np.empty((n, 3)),
+        np.zeros((n, 2)),
+        np.empty((2, n, 3)),
+        np.empty((2, n, 3)),
+    )
     for iteration in range(most):
         gap = _product(R, R, U, U, 0.0) / n
         smoothing = INSIDE_SMOOTH * gap / force
@@ -76,7 +93,8 @@ def approach(A, Q, friction, R, U, most, slips):
         put_matrix(A, matrix)
         finite = 0.0
         for i in range(n):
-            # dU = G (A dR + infeasible) and P^2 dR + dU = wanted, G = 1 + e_n slope^T; its inverse takes `slope` times two rows from the third
+            # dU = G (A dR + infeasible) and P^2 dR + dU = wanted, G = 1 + e_n slope^T; its inverse
+            # takes `slope` times two rows from the third
             _scaling(R[i], U[i], block)
             square, x, y = R[i, 2] ** 2 - R[i, 0] ** 2 - R[i, 1] ** 2, slope[i, 0], slope[i, 1]
             for b in range(3):
@@ -129,7 +147,10 @@ def _scaling(r, u, square):
     size_r = np.sqrt(max((r[2] - tangential) * (r[2] + tangential), 1e-300))
     size_u = np.sqrt(max((u[2] - across) * (u[2] + across), 1e-300))
     half = np.sqrt((1 + (r[0] * u[0] + r[1] * u[1] + r[2] * u[2]) / (size_r * size_u)) / 2)
-    w0, w1 = (u[0] / size_u - r[0] / size_r) / (2 * half), (u[1] / size_u - r[1] / size_r) / (2 * half)
+    w0, w1 = (
+        (u[0] / size_u - r[0] / size_r) / (2 * half),
+        (u[1] / size_u - r[1] / size_r) / (2 * half),
+    )
     w2, share = (u[2] / size_u + r[2] / size_r) / (2 * half), size_u / size_r
     square[0, 0], square[1, 1] = share * (1 + 2 * w0 * w0), share * (1 + 2 * w1 * w1)
     square[0, 1] = square[1, 0] = share * 2 * w0 * w1
@@ -162,7 +183,11 @@ def _unscaled(R, friction):
     """Forces (n, 3) from R."""
     forces = np.empty((len(R), 3))
     for i in range(len(R)):
-        forces[i, 0], forces[i, 1], forces[i, 2] = R[i, 0], R[i, 1], R[i, 2] / (friction[i] if friction[i] > 0.0 else 1.0)
+        forces[i, 0], forces[i, 1], forces[i, 2] = (
+            R[i, 0],
+            R[i, 1],
+            R[i, 2] / (friction[i] if friction[i] > 0.0 else 1.0),
+        )
     return forces
 
 

@@ -1,4 +1,6 @@
-"""Where bodies meet: points, interfaces, rims and facets, from the plain numbers of a `structures.model.StructureModel` or of one foot on the base."""
+"""Where bodies meet: points, interfaces, rims and facets, from the plain numbers of a
+`structures.model.StructureModel` or of one foot on the base.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +18,10 @@ from fecolumn.contact.tolerances import SAME_PLACE
 
 
 class Joints(NamedTuple):
-    """points: (P,) of POINT; interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; facets: of FACET; names: of the interfaces, none of a single foot;
-    overlaps: the joints of two sides."""
+    """points: (P,) of POINT; interfaces: (ni,) of INTERFACE; rim: points on the circles of all of
+    them; facets: of FACET; names: of the interfaces, none of a single foot; overlaps: the joints of
+    two sides.
+    """
 
     points: np.ndarray
     interfaces: np.ndarray
@@ -28,33 +32,61 @@ class Joints(NamedTuple):
 
 
 def left_faces(names, points: np.ndarray) -> str:
-    """Of which interfaces, with `names`, some of the points (P,) of POINT have left the face that is prepared for them, and what helps."""
+    """Of which interfaces, with `names`, some of the points (P,) of POINT have left the face that
+    is prepared for them, and what helps.
+    """
     found = sorted({names[k] for k in points["interface"][points["beyond"] == UNPREPARED]})
     # "joint, edge: lower on upper" has the keys of interfaces.joint
     key = found[0].partition(":")[0].removesuffix(", edge")
     return f"{', '.join(found)}; a larger interfaces.{key}.allowance_m prepares more of it"
 
 
-def joint_on_base(arms: np.ndarray, friction: float, law: np.ndarray, rim: Rim | None = None, restitution: float = 0.0, rolling: float = 0.0, pad=None) -> Joints:
+def joint_on_base(
+    arms: np.ndarray,
+    friction: float,
+    law: np.ndarray,
+    rim: Rim | None = None,
+    restitution: float = 0.0,
+    rolling: float = 0.0,
+    pad=None,
+) -> Joints:
     """The only foot, with nodes at arms (n, 3) [m], on the base.
 
-    Args:
-        law: (n, 3) compliance of the contact law [m/N]. rim: of a round foot. restitution, rolling, pad: see `contact.interface`.
+    Parameters
+    ----------
+    law
+        (n, 3) compliance of the contact law [m/N].
+    rim
+        of a round foot.
+    restitution, rolling, pad
+        see `contact.interface`.
     """
-    return Joints(node_points(arms, friction, law, pad.stiffness if pad else None), interface_of(arms, rim, restitution, rolling, pad),
-                  np.asarray(rim.nodes if rim else [], np.int64), np.zeros(0, FACET))
+    return Joints(
+        node_points(arms, friction, law, pad.stiffness if pad else None),
+        interface_of(arms, rim, restitution, rolling, pad),
+        np.asarray(rim.nodes if rim else [], np.int64),
+        np.zeros(0, FACET),
+    )
 
 
 def joints_of(parts, joints) -> Joints:
-    """Points and interfaces of the joints (`structures.model.Joint`) of parts (`structures.model.Part`), whose nodes come one after another."""
-    first, facets, found = np.cumsum([0] + [len(part.model.arms) for part in parts]), np.zeros(0, FACET), {}
+    """Points and interfaces of the joints (`structures.model.Joint`) of parts
+    (`structures.model.Part`), whose nodes come one after another.
+    """
+    first, facets, found = (
+        np.cumsum([0] + [len(part.model.arms) for part in parts]),
+        np.zeros(0, FACET),
+        {},
+    )
     points, interfaces, rims, overlaps = [], [], [], OverlapBuilder()
     for k, joint in enumerate(joints):
         slave = parts[joint.slave].model
         touching = slave.surfaces[joint.slave_surface]
         arms = slave.arms[touching.nodes]
         rim = Rim.find(arms) if joint.round else None
-        interface = interface_of(arms, rim, joint.restitution, slave=joint.slave, master=joint.master)
+        interface = interface_of(
+            arms, rim, joint.restitution, slave=joint.slave, master=joint.master
+        )
         interface["width"] = np.ptp(arms @ touching.axes[:, :2], axis=0).max()
         if joint.ball is not None:
             outward = touching.axes[:, 2]
@@ -68,14 +100,23 @@ def joints_of(parts, joints) -> Joints:
             key = joint.master, joint.master_surface
             if key not in found:
                 found[key] = len(facets)
-                facets = np.concatenate([facets, facets_of(surface, parts[joint.master].model.arms, first[joint.master])])
+                facets = np.concatenate(
+                    [
+                        facets,
+                        facets_of(surface, parts[joint.master].model.arms, first[joint.master]),
+                    ]
+                )
             interface["facet_first"], interface["facet_count"] = found[key], len(surface.triangles)
-            interface["convex"] = is_convex(facets[found[key]:found[key] + len(surface.triangles)])
+            interface["convex"] = is_convex(
+                facets[found[key] : found[key] + len(surface.triangles)]
+            )
             interface["origin"], interface["axes"] = surface.origin, surface.axes
             around = Rim.find(surface.plane(parts[joint.master].model.arms[surface.nodes]))
             # a rim that rolls on it stands on the circle, too
             interface["bulge"] = around.radius * (1 - np.cos(around.sector / 2)) if around else 0.0
-        own = node_points(arms, joint.friction, joint.law, slave=joint.slave, master=joint.master, interface=k)
+        own = node_points(
+            arms, joint.friction, joint.law, slave=joint.slave, master=joint.master, interface=k
+        )
         own["node"] = first[joint.slave] + touching.nodes
         own["carriers"] = own["node"][:, None]
         if joint.ball is not None:
@@ -84,15 +125,26 @@ def joints_of(parts, joints) -> Joints:
         interfaces.append(interface)
     for k, joint in enumerate(joints):
         if joint.pair >= 0:
-            points[joint.pair], points[k] = overlaps.add(_side_of(parts, joints, joint.pair, joint.corners[1], interfaces, points),
-                                                         _side_of(parts, joints, k, joint.corners[0], interfaces, points))
+            points[joint.pair], points[k] = overlaps.add(
+                _side_of(parts, joints, joint.pair, joint.corners[1], interfaces, points),
+                _side_of(parts, joints, k, joint.corners[0], interfaces, points),
+            )
     firsts = np.cumsum([0] + [len(own) for own in points])
     rim = np.concatenate([own + start for own, start in zip(rims, firsts)])
-    return Joints(np.concatenate(points), np.concatenate(interfaces), rim, facets, tuple(joint.name for joint in joints), overlaps.finish(firsts))
+    return Joints(
+        np.concatenate(points),
+        np.concatenate(interfaces),
+        rim,
+        facets,
+        tuple(joint.name for joint in joints),
+        overlaps.finish(firsts),
+    )
 
 
 def _side_of(parts, joints, k: int, corners: np.ndarray, interfaces, points) -> tuple:
-    """Interface k as `OverlapBuilder.add` takes it; corners: (n, 3) [m] of its slave's face from the centre of mass."""
+    """Interface k as `OverlapBuilder.add` takes it; corners: (n, 3) [m] of its slave's face from
+    the centre of mass.
+    """
     body = parts[joints[k].slave].model
     surface = body.surfaces[joints[k].slave_surface]
     places = surface.plane(body.arms[surface.nodes])[:, :2]
@@ -105,10 +157,14 @@ def _side_of(parts, joints, k: int, corners: np.ndarray, interfaces, points) -> 
 
 
 def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
-    """Triangles (t,) of FACET of a Surface of a body with nodes at `arms` (n, 3), in rows from `first` on."""
+    """Triangles (t,) of FACET of a Surface of a body with nodes at `arms` (n, 3), in rows from
+    `first` on.
+    """
     facets, sides = np.zeros(len(surface.triangles), FACET), {}
     facets["nodes"] = first + surface.nodes[surface.triangles]
-    facets["corners"] = ((arms[surface.nodes] - surface.origin) @ surface.axes[:, :2])[surface.triangles]
+    facets["corners"] = ((arms[surface.nodes] - surface.origin) @ surface.axes[:, :2])[
+        surface.triangles
+    ]
     facets["neighbours"] = -1
     for number, triangle in enumerate(surface.triangles):
         for q in range(3):
@@ -125,7 +181,9 @@ def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
 
 
 def is_convex(facets: np.ndarray) -> bool:
-    """Whether all of the outline of triangles (t,) of FACET is known and convex: what is beyond one side of it is beyond the surface. Inside it nodes may lack."""
+    """Whether all of the outline of triangles (t,) of FACET is known and convex: what is beyond one
+    side of it is beyond the surface. Inside it nodes may lack.
+    """
     corners = facets["corners"]
     number, q = np.nonzero(facets["neighbours"] == -1)
     ends = np.stack([facets["nodes"][number, (q + 1) % 3], facets["nodes"][number, (q + 2) % 3]])
@@ -138,4 +196,11 @@ def is_convex(facets: np.ndarray) -> bool:
     # towards the triangle
     normal *= np.sign(np.einsum("ia,ia->i", normal, own - start))[:, None]
     inside = np.einsum("ia,ika->ik", normal, corners.reshape(1, -1, 2) - start[:, None])
-    return bool((inside >= -SAME_PLACE * np.ptp(corners.reshape(-1, 2), axis=0).max() * np.linalg.norm(side, axis=1)[:, None]).all())
+    return bool(
+        (
+            inside
+            >= -SAME_PLACE
+            * np.ptp(corners.reshape(-1, 2), axis=0).max()
+            * np.linalg.norm(side, axis=1)[:, None]
+        ).all()
+    )

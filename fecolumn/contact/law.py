@@ -5,17 +5,25 @@ from __future__ import annotations
 import numpy as np
 
 
-def interface_compliance(contact, youngs_modulus: float, size: float, areas: np.ndarray) -> np.ndarray:
+def interface_compliance(
+    contact, youngs_modulus: float, size: float, areas: np.ndarray
+) -> np.ndarray:
     """Compliance (n, 3) [m/N] of the interface at each contact point.
 
-    `augmented_lagrange` has none: gap and slip vanish to the tolerance of the contact solver. `penalty` has a
-    normal and tangential stiffness per area of penalty_factor E / h, so that it scales with mesh and material.
+    `augmented_lagrange` has none: gap and slip vanish to the tolerance of the contact solver.
+    `penalty` has a normal and tangential stiffness per area of penalty_factor E / h, so that it
+    scales with mesh and material.
 
-    Args:
-        contact: the [contact] section of a case.
-        youngs_modulus: of the column [Pa].
-        size: brick size h at the foot [m].
-        areas: (n,) tributary area of each point [m2].
+    Parameters
+    ----------
+    contact
+        the [contact] section of a case.
+    youngs_modulus
+        of the column [Pa].
+    size
+        brick size h at the foot [m].
+    areas
+        (n,) tributary area of each point [m2].
     """
     if contact.law == "augmented_lagrange":
         return np.zeros((len(areas), 3))

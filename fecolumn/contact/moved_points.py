@@ -1,4 +1,6 @@
-"""How a point of a joint with two sides is carried by nodes, and what it takes along when it moves or changes bodies."""
+"""How a point of a joint with two sides is carried by nodes, and what it takes along when it moves
+or changes bodies.
+"""
 
 from __future__ import annotations
 
@@ -21,12 +23,14 @@ def on_face(arm, interface):
 
 @njit
 def _place_in_frame(interface, frames, pose, arm, place):
-    """place (3,) [m] of an arm of the slave, which does not give, in the frame of an interface."""
+    """Place (3,) [m] of an arm of the slave, which does not give, in the frame of an interface."""
     center = frames[interface.slave].center
     for a in range(3):
         place[a] = 0.0
         for c in range(3):
-            place[a] += pose.turned[0, a, c] * arm[c] + pose.frame[c, a] * (center[c] - pose.origin[c])
+            place[a] += pose.turned[0, a, c] * arm[c] + pose.frame[c, a] * (
+                center[c] - pose.origin[c]
+            )
 
 
 @njit
@@ -41,16 +45,22 @@ def carry_by_node(point, node, arms):
 
 @njit
 def carry_by_outline(overlaps, joint, which, side, place, interface, other, rim, points, i, arms):
-    """Let point i be carried by nodes of the outline OWN or OTHER so that it is at `place` (2,) [m], which a side of it
-    is near, -1 of a circle; other: interface whose master's surface that face is."""
+    """Let point i be carried by nodes of the outline OWN or OTHER so that it is at `place` (2,)
+    [m], which a side of it is near, -1 of a circle; other: interface whose master's surface that
+    face is.
+    """
     point = points[i]
     if side >= 0:
         _carry_on_side(overlaps.sides[side], overlaps.nodes, place, point)
     else:
         x, y = place[0] - joint.center[which, 0], place[1] - joint.center[which, 1]
-        angle = np.arctan2(other.axes[1, 0] * x + other.axes[1, 1] * y, other.axes[0, 0] * x + other.axes[0, 1] * y)
+        angle = np.arctan2(
+            other.axes[1, 0] * x + other.axes[1, 1] * y, other.axes[0, 0] * x + other.axes[0, 1] * y
+        )
         offsets, n = np.empty(4, np.int64), interface.rim_count
-        index = on_circle(angle, interface.rim_angle, interface.sector, n, offsets, point.weights)[0]
+        index = on_circle(angle, interface.rim_angle, interface.sector, n, offsets, point.weights)[
+            0
+        ]
         point.count = 4
         for q in range(4):
             point.carriers[q] = points[rim[interface.rim_first + (index + offsets[q]) % n]].node
@@ -62,7 +72,9 @@ def carry_by_outline(overlaps, joint, which, side, place, interface, other, rim,
 
 @njit
 def _carry_on_side(side, nodes, place, point):
-    """Let a point be carried by the two nodes of a side beside it, and where it is off the side, by the farthest one."""
+    """Let a point be carried by the two nodes of a side beside it, and where it is off the side, by
+    the farthest one.
+    """
     x, y = place[0] - side.start[0], place[1] - side.start[1]
     along, inwards = x * side.along[0] + y * side.along[1], -x * side.normal[0] - y * side.normal[1]
     far = inwards / side.far_place[1]
@@ -75,15 +87,25 @@ def _carry_on_side(side, nodes, place, point):
     last = min(q + 1, side.first + side.count - 1)
     share = (along - nodes[q].at) / (nodes[last].at - nodes[q].at) if last > q else 0.0
     point.count = 2 if far == 0.0 else 3
-    point.carriers[0], point.carriers[1], point.carriers[2] = nodes[q].node, nodes[last].node, side.far
+    point.carriers[0], point.carriers[1], point.carriers[2] = (
+        nodes[q].node,
+        nodes[last].node,
+        side.far,
+    )
     point.carriers[3] = nodes[q].node
-    point.weights[0], point.weights[1], point.weights[2] = (1 - far) * (1 - share), (1 - far) * share, far
+    point.weights[0], point.weights[1], point.weights[2] = (
+        (1 - far) * (1 - share),
+        (1 - far) * share,
+        far,
+    )
     point.weights[3] = 0.0
 
 
 @njit
 def move_inwards(interface, rim, q, points, point, share, arms, way):
-    """Move a point of a rim towards the middle by a share of the diameter: way (3,) [m] by which it goes."""
+    """Move a point of a rim towards the middle by a share of the diameter: way (3,) [m] by which it
+    goes.
+    """
     n = interface.rim_count
     far = points[rim[interface.rim_first + (q + n // 2) % n]].node
     if point.count == 1:
@@ -117,9 +139,11 @@ def leave_out(i, points, before):
 
 @njit
 def bring(i, gone, interfaces, frames, poses, contact, points, before, size, lay):
-    """Bring to point i, which is where it is to be, what it carried in the step before, or what point `gone` did, which was
-    in its place in the interface with the roles exchanged. One that carried nothing there begins afresh, for the edges may
-    cross elsewhere now, where the gap is another. lay: the points are laid for the first time."""
+    """Bring to point i, which is where it is to be, what it carried in the step before, or what
+    point `gone` did, which was in its place in the interface with the roles exchanged. One that
+    carried nothing there begins afresh, for the edges may cross elsewhere now, where the gap is
+    another. lay: the points are laid for the first time.
+    """
     point, now, jump = points[i], before[i], 0.0
     turned = poses[point.interface].turned[0]
     for a in range(3):
@@ -144,15 +168,26 @@ def bring(i, gone, interfaces, frames, poses, contact, points, before, size, lay
 
 @njit
 def _exchange(i, gone, interfaces, frames, poses, contact, points, before):
-    """Let point i take over force, slip and gap of a point `gone` of the interface with the roles exchanged."""
-    new, old, was, now = poses[points[i].interface], poses[points[gone].interface], contact[gone], before[i]
+    """Let point i take over force, slip and gap of a point `gone` of the interface with the roles
+    exchanged.
+    """
+    new, old, was, now = (
+        poses[points[i].interface],
+        poses[points[gone].interface],
+        contact[gone],
+        before[i],
+    )
     place, place_before = np.empty(3), np.empty(3)
     _place_in_frame(interfaces[points[i].interface], frames, new, points[i].arm, place)
     _place_in_frame(interfaces[points[gone].interface], frames, old, was.arm, place_before)
     for a in range(3):
         force = moved = slip = 0.0
         for c in range(3):
-            turn = new.frame[0, a] * old.frame[0, c] + new.frame[1, a] * old.frame[1, c] + new.frame[2, a] * old.frame[2, c]
+            turn = (
+                new.frame[0, a] * old.frame[0, c]
+                + new.frame[1, a] * old.frame[1, c]
+                + new.frame[2, a] * old.frame[2, c]
+            )
             force -= turn * was.force[c]
             # what bodies give, over their rigid motion
             moved -= turn * (was.relative[c] - place_before[c])
@@ -169,7 +204,9 @@ def _exchange(i, gone, interfaces, frames, poses, contact, points, before):
 
 @njit
 def begin_afresh(now):
-    """Let a point, of CONTACT, take part that did not before: it must be above the surface to carry."""
+    """Let a point, of CONTACT, take part that did not before: it must be above the surface to
+    carry.
+    """
     for a in range(3):
         now.force[a] = 0.0
     now.located, now.beyond = False, True

@@ -13,7 +13,9 @@ from fecolumn.contact.tolerances import SINGULAR
 
 @njit
 def newton_steps(W, blocks, q, friction, start, tolerance, rho, rho_alone, give, most, patience):
-    """Newton steps until the tolerance is met, or the residual has not fallen for more than `patience`, or without `give` W proves singular: best forces, residual, steps made."""
+    """Newton steps until the tolerance is met, or the residual has not fallen for more than
+    `patience`, or without `give` W proves singular: best forces, residual, steps made.
+    """
     forces, least, stalled, made = start, np.inf, 0, 0
     best = start
     while True:
@@ -22,7 +24,13 @@ def newton_steps(W, blocks, q, friction, start, tolerance, rho, rho_alone, give,
         stalled += 1
         if residual < least:
             best, least, stalled = forces, residual, 0
-        if residual <= tolerance or stalled > patience or made == most or give == 0.0 and not residual <= SINGULAR * least:
+        if (
+            residual <= tolerance
+            or stalled > patience
+            or made == most
+            or give == 0.0
+            and not residual <= SINGULAR * least
+        ):
             break
         forces, regular = newton_step(W, blocks, q, forces, relative, friction, rho, give)
         if not regular:
@@ -33,22 +41,26 @@ def newton_steps(W, blocks, q, friction, start, tolerance, rho, rho_alone, give,
 
 @njit
 def newton_step(W, blocks, q, forces, relative, friction, rho, give):
-    """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False where it is singular.
+    """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False
+    where it is singular.
 
     blocks: of `blocks.find_blocks`. relative: (n, 3) slips and gaps under the forces.
 
-    give: compliance [m/N] of each point against a change of its force, in this step alone: 0, or little where W leaves open which of many points
-    carry. The laws are not softened by it: where the forces change no more, it plays no part.
+    give: compliance [m/N] of each point against a change of its force, in this step alone: 0, or
+    little where W leaves open which of many points carry. The laws are not softened by it: where
+    the forces change no more, it plays no part.
 
-    With d the direction of the trial force and e across it, a slipping point has r_t = mu r_n d + y e. Linearised in r_t, r_n and the
-    slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c = mu r_n / |trial|: two unknowns, three for a sticking point.
+    With d the direction of the trial force and e across it, a slipping point has r_t = mu r_n d + y
+    e. Linearised in r_t, r_n and the slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c =
+    mu r_n / |trial|: two unknowns, three for a sticking point.
     """
     n, g = len(q), len(blocks.coupled)
     trial, updated = np.empty((n, 3)), np.zeros((n, 3))
     for i in range(n):
         for a in range(3):
             trial[i, a] = forces[i, a] - rho[i] * relative[i, a]
-    # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or gap along test[u]
+    # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or
+    # gap along test[u]
     point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
     stiffening, count = np.zeros(3 * n), 0
     for i in blocks.order:
@@ -100,13 +112,19 @@ def newton_step(W, blocks, q, forces, relative, friction, rho, give):
                 line[j] = x * first[j] + y * second[j] + z * third[j]
             for v in range(begin[k], begin[k + 1]):
                 column = 3 * point[v]
-                matrix[u, v] = basis[v, 0] * line[column] + basis[v, 1] * line[column + 1] + basis[v, 2] * line[column + 2]
+                matrix[u, v] = (
+                    basis[v, 0] * line[column]
+                    + basis[v, 1] * line[column + 1]
+                    + basis[v, 2] * line[column + 2]
+                )
         # the unknowns of a point are beside each other
         for v in range(max(u - 2, 0), min(u + 3, count)):
             if point[v] == point[u]:
                 matrix[u, v] += give * (x * basis[v, 0] + y * basis[v, 1] + z * basis[v, 2])
         matrix[u, u] += stiffening[u]
-    if not (solve_in_place(matrix, right) if g == 1 else eliminate(matrix, right, begin, blocks.coupled)):
+    if not (
+        solve_in_place(matrix, right) if g == 1 else eliminate(matrix, right, begin, blocks.coupled)
+    ):
         return updated, False
     for u in range(count):
         for a in range(3):
@@ -116,7 +134,9 @@ def newton_step(W, blocks, q, forces, relative, friction, rho, give):
 
 @njit
 def solve_in_place(matrix, right):
-    """Solve for right (n,) in its place with row pivoting, by LAPACK where it pays; overwrites both, False where singular."""
+    """Solve for right (n,) in its place with row pivoting, by LAPACK where it pays; overwrites
+    both, False where singular.
+    """
     n = len(right)
     if n > FEW_UNKNOWNS:
         try:
@@ -144,7 +164,9 @@ def stiffnesses(W, together):
 
 @njit(fastmath={"reassoc", "contract"})
 def stiffness_together(W, i):
-    """Stiffness [N/m] of point i when all points move: it is less than alone, with which each would seem to slip to and fro."""
+    """Stiffness [N/m] of point i when all points move: it is less than alone, with which each would
+    seem to slip to and fro.
+    """
     total = 0.0
     for a in range(3):
         row = W[3 * i + a]

@@ -1,6 +1,7 @@
 """Points that come back over an outline of a moving master and are below its surface then.
 
-They are at the side of the master: were they let in, contact would push them up and make energy. They stay open, SUNK, until they are above the surface.
+They are at the side of the master: were they let in, contact would push them up and make energy.
+They stay open, SUNK, until they are above the surface.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ from fecolumn.contact.tolerances import OPEN
 
 @njit
 def was_beyond(contact, rim_before, rim):
-    """Whether a point comes from beyond an outline, open, by CONTACT and RIM at the start of the step and RIM in it.
+    """Whether a point comes from beyond an outline, open, by CONTACT and RIM at the start of the
+    step and RIM in it.
 
     Those of a rim that rolls in this step are brought where the rim is lowest, wherever that is.
     """
@@ -23,10 +25,17 @@ def was_beyond(contact, rim_before, rim):
 
 @njit
 def mark_sunk(bodies, base, points, interfaces, poses, before, listed, loaded, heights, displaced):
-    """Mark as SUNK those of listed[loaded:] that stay below the surface whatever the loaded ones, listed[:loaded], have pressed there.
+    """Mark as SUNK those of listed[loaded:] that stay below the surface whatever the loaded ones,
+    listed[:loaded], have pressed there.
 
-    Args:
-        poses: (ni,) of POSE and before: (n,) of CONTACT at the start of the step. heights: (n, 3) positions [m] there, the third of them. displaced: (n, 3), room.
+    Parameters
+    ----------
+    poses
+        (ni,) of POSE and before: (n,) of CONTACT at the start of the step.
+    heights
+        (n, 3) positions [m] there, the third of them.
+    displaced
+        (n, 3), room.
     """
     static_displacement(bodies, base, points, poses, before, listed, displaced)
     for i in listed[loaded:]:

@@ -1,4 +1,6 @@
-"""Outlines of the two faces of a joint, and the slots of its points, from the plain numbers of `structures.model`."""
+"""Outlines of the two faces of a joint, and the slots of its points, from the plain numbers of
+`structures.model`.
+"""
 
 from __future__ import annotations
 
@@ -19,18 +21,26 @@ class OverlapBuilder:
         self.joints, self.sides, self.nodes, self.slots = [], [], [], []
 
     def add(self, forward: tuple, reverse: tuple) -> tuple[np.ndarray, np.ndarray]:
-        """Add a joint; the points (k,) of POINT of its two interfaces, with those that nodes do not carry.
+        """Add a joint; the points (k,) of POINT of its two interfaces, with those that nodes do not
+        carry.
 
-        Args:
-            forward, reverse: number of the interface, points (n,) of POINT, places (n, 2) [m] of the slave's nodes on
-                their face, corners (m, 2) [m] of its outline counter-clockwise, circle: centre (2,) and radius or None.
+        Parameters
+        ----------
+        forward, reverse
+            number of the interface, points (n,) of POINT, places (n, 2) [m] of the slave's nodes on
+            their face, corners (m, 2) [m] of its outline counter-clockwise, circle: centre (2,) and
+            radius or None.
         """
-        (k, own, places, corners, circle), (r, other, other_places, other_corners, other_circle) = forward, reverse
+        (k, own, places, corners, circle), (r, other, other_places, other_corners, other_circle) = (
+            forward,
+            reverse,
+        )
         joint = np.zeros(1, OVERLAP)
         joint["forward"], joint["reverse"], joint["size"] = k, r, np.ptp(corners, axis=0).max()
         sides = []
-        for which, (points, at, outline, of) in enumerate(((own, places, corners, circle),
-                                                           (other, other_places, other_corners, other_circle))):
+        for which, (points, at, outline, of) in enumerate(
+            ((own, places, corners, circle), (other, other_places, other_corners, other_circle))
+        ):
             joint["first"][0, which] = len(self.sides)
             if of is None:
                 sides.append(self._add_sides(outline, at, points["node"], float(joint["size"][0])))
@@ -39,28 +49,38 @@ class OverlapBuilder:
                 joint["center"][0, which], joint["radius"][0, which] = of
                 sides.append(np.full(len(at), -1))
         joint["slot"] = sum(map(len, self.slots))
-        free = _most_corners(len(corners) if circle is None else 0, len(other_corners) if other_circle is None else 0)
+        free = _most_corners(
+            len(corners) if circle is None else 0, len(other_corners) if other_circle is None else 0
+        )
         twin = circle is None and other_circle is None
         slots = np.zeros(len(own) + free, SLOT)
         slots["forward"], slots["reverse"], slots["side"] = -1, -1, -1
-        slots["side"][:len(own)], slots["place"][:len(own)] = sides[OWN], places
+        slots["side"][: len(own)], slots["place"][: len(own)] = sides[OWN], places
         if circle is None:
-            starts = np.array([side["start"] for side in self.sides[joint["first"][0, OWN]:][:len(corners)]])
+            starts = np.array(
+                [side["start"] for side in self.sides[joint["first"][0, OWN] :][: len(corners)]]
+            )
             apart = np.linalg.norm(places[:, None] - starts, axis=2)
-            slots["corner"][:len(own)] = apart.min(axis=1) < _ON_SIDE * joint["size"][0]
+            slots["corner"][: len(own)] = apart.min(axis=1) < _ON_SIDE * joint["size"][0]
             # of a corner the side that begins there
             at_corner = np.flatnonzero(slots["corner"])
             slots["side"][at_corner] = joint["first"][0, OWN] + apart.argmin(axis=1)[at_corner]
-        slots["free"][len(own):] = True
-        on_rim = np.zeros(len(own), bool) if circle is None else np.abs(
-            np.linalg.norm(places - circle[0], axis=1) - circle[1]) < _ON_SIDE * joint["size"][0]
+        slots["free"][len(own) :] = True
+        on_rim = (
+            np.zeros(len(own), bool)
+            if circle is None
+            else np.abs(np.linalg.norm(places - circle[0], axis=1) - circle[1])
+            < _ON_SIDE * joint["size"][0]
+        )
         forward_points = np.concatenate([own, _more(own, free)])
-        twins = slots["side"][:len(own)] >= 0 if twin else np.zeros(len(own), bool)
+        twins = slots["side"][: len(own)] >= 0 if twin else np.zeros(len(own), bool)
         kept = other if other_circle is not None else other[:0]
         reverse_points = np.concatenate([kept, _more(other, int(twins.sum()) + free)])
         reverse_points["idle"] = True
         slots["forward"] = np.arange(len(slots))
-        slots["reverse"][np.flatnonzero(np.concatenate([twins, np.ones(free, bool)]))] = len(kept) + np.arange(twins.sum() + free)
+        slots["reverse"][np.flatnonzero(np.concatenate([twins, np.ones(free, bool)]))] = len(
+            kept
+        ) + np.arange(twins.sum() + free)
         slots = slots[~np.concatenate([on_rim, np.zeros(free, bool)])]
         joint["slots"] = len(slots)
         self.joints.append(joint)
@@ -72,22 +92,42 @@ class OverlapBuilder:
         for joint, slots in zip(self.joints, self.slots):
             slots["forward"] += first[joint["forward"][0]]
             slots["reverse"][slots["reverse"] >= 0] += first[joint["reverse"][0]]
-        return Overlaps(*(np.concatenate(rows) if rows else np.zeros(0, kind) for rows, kind in (
-            (self.joints, OVERLAP), ([np.array(self.sides, SIDE)], SIDE), (self.nodes, SIDE_NODE), (self.slots, SLOT))))
+        return Overlaps(
+            *(
+                np.concatenate(rows) if rows else np.zeros(0, kind)
+                for rows, kind in (
+                    (self.joints, OVERLAP),
+                    ([np.array(self.sides, SIDE)], SIDE),
+                    (self.nodes, SIDE_NODE),
+                    (self.slots, SLOT),
+                )
+            )
+        )
 
     def _add_sides(self, corners, places, nodes, size: float) -> np.ndarray:
-        """Add the sides of a polygon; the number (n,) of a side on which each of the nodes lies, -1 of those on none."""
+        """Add the sides of a polygon; the number (n,) of a side on which each of the nodes lies, -1
+        of those on none.
+        """
         found, inner = np.full(len(places), -1), _inset(corners, SAME_OUTLINE * size)
         for q, (start, end) in enumerate(zip(corners, np.roll(corners, -1, axis=0))):
             side, length = np.zeros((), SIDE), np.linalg.norm(end - start)
             along = (end - start) / length
             normal = np.array([along[1], -along[0]])
             out, at = (places - start) @ normal, (places - start) @ along
-            on = np.flatnonzero((np.abs(out) < _ON_SIDE * size) & (at > -_ON_SIDE * size) & (at < length + _ON_SIDE * size))
+            on = np.flatnonzero(
+                (np.abs(out) < _ON_SIDE * size)
+                & (at > -_ON_SIDE * size)
+                & (at < length + _ON_SIDE * size)
+            )
             on = on[np.argsort(at[on])]
             found[on] = np.where(found[on] < 0, len(self.sides), found[on])
             far = int(np.argmin(out))
-            side["start"], side["along"], side["normal"], side["length"] = start, along, normal, length
+            side["start"], side["along"], side["normal"], side["length"] = (
+                start,
+                along,
+                normal,
+                length,
+            )
             side["inner"] = inner[q], inner[(q + 1) % len(inner)]
             side["first"], side["count"] = sum(map(len, self.nodes)), len(on)
             side["far"], side["far_place"] = nodes[far], (at[far], -out[far])
@@ -99,7 +139,9 @@ class OverlapBuilder:
 
 
 def _most_corners(own: int, other: int) -> int:
-    """Corners of the region of two outlines of so many sides, 0 of a circle, that are no corners of the first, at most."""
+    """Corners of the region of two outlines of so many sides, 0 of a circle, that are no corners of
+    the first, at most.
+    """
     if own and other:
         return own + other
     return 2 * max(own, other, 1)

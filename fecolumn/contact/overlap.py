@@ -1,9 +1,10 @@
 """The region in which both faces of a joint overlap, and its corners.
 
-A joint of two plane faces carries on the region where they overlap. What a body pivots on is a corner of that
-region: a corner of the slave's face over the master's, a corner of the master's face under the slave's, or a place
-where an edge of one crosses an edge of the other. Outlines are convex polygons or circles. Places on a face are
-coordinates (2,) [m] along the two tangents of its own frame; the slave's face is OWN, the master's OTHER.
+A joint of two plane faces carries on the region where they overlap. What a body pivots on is a
+corner of that region: a corner of the slave's face over the master's, a corner of the master's face
+under the slave's, or a place where an edge of one crosses an edge of the other. Outlines are convex
+polygons or circles. Places on a face are coordinates (2,) [m] along the two tangents of its own
+frame; the slave's face is OWN, the master's OTHER.
 """
 
 from __future__ import annotations
@@ -18,28 +19,57 @@ from fecolumn.contact.tolerances import OUTLINE_BAND, SAME_OUTLINE
 
 OWN, OTHER = range(2)
 
-#: A straight side of an outline, counter-clockwise seen along the outward normal of the face. start: (2,) its first
-#: corner [m]; along, normal: (2,) unit vectors, the normal out of the outline; length [m]. inner: (2, 2) both corners
-#: of the outline that is smaller by SAME_OUTLINE, so that two equal faces in one place have one outline, not two.
-#: first, count: its nodes among those of `Overlaps.nodes`. far: node farthest from it, `far_place` (2,) along it and
-#: inwards [m].
-SIDE = record(("start", "f8", 2), ("along", "f8", 2), ("normal", "f8", 2), ("length", "f8"), ("inner", "f8", (2, 2)),
-              ("first", "i8"), ("count", "i8"), ("far", "i8"), ("far_place", "f8", 2))
+#: A straight side of an outline, counter-clockwise seen along the outward normal of the face.
+#: start: (2,) its first corner [m]; along, normal: (2,) unit vectors, the normal out of the
+#: outline; length [m]. inner: (2, 2) both corners of the outline that is smaller by SAME_OUTLINE,
+#: so that two equal faces in one place have one outline, not two. first, count: its nodes among
+#: those of `Overlaps.nodes`. far: node farthest from it, `far_place` (2,) along it and inwards [m].
+SIDE = record(
+    ("start", "f8", 2),
+    ("along", "f8", 2),
+    ("normal", "f8", 2),
+    ("length", "f8"),
+    ("inner", "f8", (2, 2)),
+    ("first", "i8"),
+    ("count", "i8"),
+    ("far", "i8"),
+    ("far_place", "f8", 2),
+)
 
 #: A node on a side: row among the nodes of all bodies, place `at` along the side [m].
 SIDE_NODE = record(("node", "i8"), ("at", "f8"))
 
-#: A joint of two sides. forward: interface whose slave has the face OWN; reverse: the interface with the roles
-#: exchanged. first, count: (2,) sides of OWN and OTHER, none of a circle; center: (2, 2), radius: (2,) [m] of the circles,
-#: 0 of a polygon. slot, slots: first of its slots and their number. size: larger side of OWN [m]. within: whether the
-#: outline of OWN lies within that of OTHER at the start of the step; plain: whether the points are laid as for such a one.
-OVERLAP = record(("forward", "i8"), ("reverse", "i8"), ("first", "i8", 2), ("count", "i8", 2), ("center", "f8", (2, 2)),
-                 ("radius", "f8", 2), ("slot", "i8"), ("slots", "i8"), ("size", "f8"), ("within", "?"), ("plain", "?"))
+#: A joint of two sides. forward: interface whose slave has the face OWN; reverse: the interface
+#: with the roles exchanged. first, count: (2,) sides of OWN and OTHER, none of a circle; center:
+#: (2, 2), radius: (2,) [m] of the circles, 0 of a polygon. slot, slots: first of its slots and
+#: their number. size: larger side of OWN [m]. within: whether the outline of OWN lies within that
+#: of OTHER at the start of the step; plain: whether the points are laid as for such a one.
+OVERLAP = record(
+    ("forward", "i8"),
+    ("reverse", "i8"),
+    ("first", "i8", 2),
+    ("count", "i8", 2),
+    ("center", "f8", (2, 2)),
+    ("radius", "f8", 2),
+    ("slot", "i8"),
+    ("slots", "i8"),
+    ("size", "f8"),
+    ("within", "?"),
+    ("plain", "?"),
+)
 
-#: A place of contact that may be a point of the slave, `forward`, or a point of the master, `reverse`, -1 where it
-#: cannot be. side: side of OWN on which its node lies, -1 of a node inside and of a corner of the region; corner: whether
-#: the node is the first corner of that side; place: (2,) of the node on OWN [m].
-SLOT = record(("forward", "i8"), ("reverse", "i8"), ("side", "i8"), ("corner", "?"), ("free", "?"), ("place", "f8", 2))
+#: A place of contact that may be a point of the slave, `forward`, or a point of the master,
+#: `reverse`, -1 where it cannot be. side: side of OWN on which its node lies, -1 of a node inside
+#: and of a corner of the region; corner: whether the node is the first corner of that side; place:
+#: (2,) of the node on OWN [m].
+SLOT = record(
+    ("forward", "i8"),
+    ("reverse", "i8"),
+    ("side", "i8"),
+    ("corner", "?"),
+    ("free", "?"),
+    ("place", "f8", 2),
+)
 
 
 class Overlaps(NamedTuple):
@@ -53,13 +83,17 @@ class Overlaps(NamedTuple):
 
 def no_overlaps() -> Overlaps:
     """No joint of two sides, as of a single foot on the base."""
-    return Overlaps(np.zeros(0, OVERLAP), np.zeros(0, SIDE), np.zeros(0, SIDE_NODE), np.zeros(0, SLOT))
+    return Overlaps(
+        np.zeros(0, OVERLAP), np.zeros(0, SIDE), np.zeros(0, SIDE_NODE), np.zeros(0, SLOT)
+    )
 
 
 @njit
 def map_between(interface, other, frames, pose, slope, shift):
-    """Find slope (3, 2) and shift (3,) [m]: a place p of the slave's face is at slope p + shift in the frame of the
-    interface. other: the interface with the roles exchanged, whose master's surface that face is."""
+    """Find slope (3, 2) and shift (3,) [m]: a place p of the slave's face is at slope p + shift in
+    the frame of the interface. other: the interface with the roles exchanged, whose master's
+    surface that face is.
+    """
     axes, origin, center = other.axes, other.origin, frames[interface.slave].center
     turned, Q = pose.turned[0], pose.frame
     for a in range(3):
@@ -67,18 +101,25 @@ def map_between(interface, other, frames, pose, slope, shift):
         for c in range(3):
             shift[a] += turned[a, c] * origin[c] + Q[c, a] * (center[c] - pose.origin[c])
         for t in range(2):
-            slope[a, t] = turned[a, 0] * axes[0, t] + turned[a, 1] * axes[1, t] + turned[a, 2] * axes[2, t]
+            slope[a, t] = (
+                turned[a, 0] * axes[0, t] + turned[a, 1] * axes[1, t] + turned[a, 2] * axes[2, t]
+            )
 
 
 @njit
 def beyond(overlap, sides, which, x, y):
-    """How far [m] a place on a face is beyond the outline OWN or OTHER, below 0 within it, and the side that it is most
-    beyond, -1 of a circle."""
+    """How far [m] a place on a face is beyond the outline OWN or OTHER, below 0 within it, and the
+    side that it is most beyond, -1 of a circle.
+    """
     if overlap.radius[which] > 0.0:
-        return np.hypot(x - overlap.center[which, 0], y - overlap.center[which, 1]) - overlap.radius[which], -1
+        return np.hypot(
+            x - overlap.center[which, 0], y - overlap.center[which, 1]
+        ) - overlap.radius[which], -1
     most, side = -np.inf, -1
     for q in range(overlap.first[which], overlap.first[which] + overlap.count[which]):
-        out = sides[q].normal[0] * (x - sides[q].start[0]) + sides[q].normal[1] * (y - sides[q].start[1])
+        out = sides[q].normal[0] * (x - sides[q].start[0]) + sides[q].normal[1] * (
+            y - sides[q].start[1]
+        )
         if out > most:
             most, side = out, q
     return most, side
@@ -86,10 +127,15 @@ def beyond(overlap, sides, which, x, y):
 
 @njit
 def lies_within(overlap, sides, slope, shift):
-    """Whether the outline of OWN lies within that of OTHER, but for SAME_OUTLINE; slope, shift: of `map_between`."""
+    """Whether the outline of OWN lies within that of OTHER, but for SAME_OUTLINE; slope, shift: of
+    `map_between`.
+    """
     if overlap.radius[OWN] > 0.0:
         x, y = _mapped(slope, shift, overlap.center[OWN, 0], overlap.center[OWN, 1])
-        return beyond(overlap, sides, OTHER, x, y)[0] + overlap.radius[OWN] <= SAME_OUTLINE * overlap.size
+        return (
+            beyond(overlap, sides, OTHER, x, y)[0] + overlap.radius[OWN]
+            <= SAME_OUTLINE * overlap.size
+        )
     for q in range(overlap.first[OWN], overlap.first[OWN] + overlap.count[OWN]):
         x, y = _mapped(slope, shift, sides[q].inner[0, 0], sides[q].inner[0, 1])
         if beyond(overlap, sides, OTHER, x, y)[0] > 0.0:
@@ -101,10 +147,16 @@ def lies_within(overlap, sides, slope, shift):
 def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on):
     """Find the corners of the region that are no corners of OWN: their number.
 
-    Args:
-        slope, shift: from OWN to OTHER; back, back_shift: from OTHER to OWN, of `map_between`.
-        own, other: (n, 2) get the corner's place on either face [m]. on: (n, 2) gets the sides of OWN and OTHER on which
-            it lies, -1 of a circle or of none.
+    Parameters
+    ----------
+    slope, shift
+        from OWN to OTHER
+    back, back_shift
+        from OTHER to OWN, of `map_between`.
+    own, other
+        (n, 2) get the corner's place on either face [m].
+    on
+        (n, 2) gets the sides of OWN and OTHER on which it lies, -1 of a circle or of none.
     """
     count, center, radius = 0, overlap.center, overlap.radius
     first, last = overlap.first, overlap.first + overlap.count
@@ -127,18 +179,31 @@ def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on)
     if radius[OWN] > 0.0:
         x, y = _mapped(slope, shift, center[OWN, 0], center[OWN, 1])
         for q in range(first[OTHER], last[OTHER]):
-            low, high = _cut(sides[q].start[0], sides[q].start[1], sides[q].along[0], sides[q].along[1], x, y, inner_radius)
+            low, high = _cut(
+                sides[q].start[0],
+                sides[q].start[1],
+                sides[q].along[0],
+                sides[q].along[1],
+                x,
+                y,
+                inner_radius,
+            )
             for end in range(2):
                 at = high if end else low
                 if 0.0 <= at <= sides[q].length:
-                    px, py = sides[q].start[0] + at * sides[q].along[0], sides[q].start[1] + at * sides[q].along[1]
+                    px, py = (
+                        sides[q].start[0] + at * sides[q].along[0],
+                        sides[q].start[1] + at * sides[q].along[1],
+                    )
                     count = _add(back, back_shift, px, py, -1, q, own, other, on, count)
         return count
     for q in range(first[OWN], last[OWN]):
         x0, y0 = _mapped(slope, shift, sides[q].inner[0, 0], sides[q].inner[0, 1])
         x1, y1 = _mapped(slope, shift, sides[q].inner[1, 0], sides[q].inner[1, 1])
         if radius[OTHER] > 0.0:
-            low, high = _cut(x0, y0, x1 - x0, y1 - y0, center[OTHER, 0], center[OTHER, 1], radius[OTHER])
+            low, high = _cut(
+                x0, y0, x1 - x0, y1 - y0, center[OTHER, 0], center[OTHER, 1], radius[OTHER]
+            )
             begins, ends = (-1, -1) if low < high else (-2, -2)
             begins, ends = (-2 if low <= 0.0 else begins), (-2 if high >= 1.0 else ends)
         else:
@@ -148,14 +213,18 @@ def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on)
         for end in range(2):
             at, met = (high, ends) if end else (low, begins)
             if met != -2:
-                count = _add_crossing(overlap, sides, slope, shift, q, at, met, own, other, on, count)
+                count = _add_crossing(
+                    overlap, sides, slope, shift, q, at, met, own, other, on, count
+                )
     if radius[OTHER] > 0.0:
         return count
     for q in range(first[OTHER], last[OTHER]):
         x, y = _mapped(back, back_shift, sides[q].start[0], sides[q].start[1])
         inside, most, nearest = True, -np.inf, -1
         for e in range(first[OWN], last[OWN]):
-            out = sides[e].normal[0] * (x - sides[e].inner[0, 0]) + sides[e].normal[1] * (y - sides[e].inner[0, 1])
+            out = sides[e].normal[0] * (x - sides[e].inner[0, 0]) + sides[e].normal[1] * (
+                y - sides[e].inner[0, 1]
+            )
             inside &= out < 0.0
             if out > most:
                 most, nearest = out, e
@@ -170,12 +239,16 @@ def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on)
 @njit
 def _mapped(slope, shift, x, y):
     """First two coordinates of a place in the other frame."""
-    return slope[0, 0] * x + slope[0, 1] * y + shift[0], slope[1, 0] * x + slope[1, 1] * y + shift[1]
+    return slope[0, 0] * x + slope[0, 1] * y + shift[0], slope[1, 0] * x + slope[1, 1] * y + shift[
+        1
+    ]
 
 
 @njit
 def _cut(x, y, u, v, cx, cy, radius):
-    """Where the line (x, y) + s (u, v) enters and leaves a circle, in s; an empty way where it misses it."""
+    """Where the line (x, y) + s (u, v) enters and leaves a circle, in s; an empty way where it
+    misses it.
+    """
     square, half = u * u + v * v, (x - cx) * u + (y - cy) * v
     root = half * half - square * ((x - cx) ** 2 + (y - cy) ** 2 - radius**2)
     if root <= 0.0:
@@ -185,12 +258,18 @@ def _cut(x, y, u, v, cx, cy, radius):
 
 @njit
 def _clip(sides, first, last, x0, y0, x1, y1):
-    """Part low to high, from 0 to 1, of the way from one place to another that lies within a polygon of sides, and the
-    sides at which it begins and ends, -2 where it does so at its own end (Cyrus and Beck 1978)."""
+    """Part low to high, from 0 to 1, of the way from one place to another that lies within a
+    polygon of sides, and the sides at which it begins and ends, -2 where it does so at its own end
+    (Cyrus and Beck 1978).
+    """
     low, high, begins, ends = 0.0, 1.0, -2, -2
     for q in range(first, last):
-        d0 = sides[q].normal[0] * (x0 - sides[q].start[0]) + sides[q].normal[1] * (y0 - sides[q].start[1])
-        d1 = sides[q].normal[0] * (x1 - sides[q].start[0]) + sides[q].normal[1] * (y1 - sides[q].start[1])
+        d0 = sides[q].normal[0] * (x0 - sides[q].start[0]) + sides[q].normal[1] * (
+            y0 - sides[q].start[1]
+        )
+        d1 = sides[q].normal[0] * (x1 - sides[q].start[0]) + sides[q].normal[1] * (
+            y1 - sides[q].start[1]
+        )
         if d0 > 0.0 and d1 > 0.0:
             return 1.0, 0.0, -2, -2
         if d0 > 0.0 and d0 / (d0 - d1) > low:
@@ -211,7 +290,9 @@ def _add(back, back_shift, x, y, own_side, other_side, own, other, on, count):
 
 @njit
 def _add_crossing(overlap, sides, slope, shift, q, at, met, own, other, on, count):
-    """Add the corner where side q of OWN, at the share `at` of it, crosses the side `met` of OTHER, -1 the circle."""
+    """Add the corner where side q of OWN, at the share `at` of it, crosses the side `met` of OTHER,
+    -1 the circle.
+    """
     side, size = sides[q], overlap.size
     own[count, 0] = side.start[0] + at * side.length * side.along[0]
     own[count, 1] = side.start[1] + at * side.length * side.along[1]
@@ -230,6 +311,9 @@ def _add_crossing(overlap, sides, slope, shift, q, at, met, own, other, on, coun
 def _is_new(other, count, size):
     """1 where the corner `count` is in the place of none before it, else 0."""
     for k in range(count):
-        if np.hypot(other[k, 0] - other[count, 0], other[k, 1] - other[count, 1]) <= 100 * SAME_OUTLINE * size:
+        if (
+            np.hypot(other[k, 0] - other[count, 0], other[k, 1] - other[count, 1])
+            <= 100 * SAME_OUTLINE * size
+        ):
             return 0
     return 1

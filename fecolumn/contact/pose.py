@@ -9,9 +9,13 @@ from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.points import BASE
 from fecolumn.contact.record import record
 
-#: The frame of an interface, of its master's surface: frame: (3, 3) its axes in the table frame, two tangents and the normal; origin: (3,) in the table
-#: frame [m]; turned: (2, 3, 3) of slave and master to this frame; foot: (3,) middle of the slave's foot in it [m]. That of the base is the table frame.
-POSE = record(("frame", "f8", (3, 3)), ("origin", "f8", 3), ("turned", "f8", (2, 3, 3)), ("foot", "f8", 3))
+#: The frame of an interface, of its master's surface: frame: (3, 3) its axes in the table frame,
+#: two tangents and the normal; origin: (3,) in the table frame [m]; turned: (2, 3, 3) of slave and
+#: master to this frame; foot: (3,) middle of the slave's foot in it [m]. That of the base is the
+#: table frame.
+POSE = record(
+    ("frame", "f8", (3, 3)), ("origin", "f8", 3), ("turned", "f8", (2, 3, 3)), ("foot", "f8", 3)
+)
 
 #: Of a body's frame no more than its centre of mass [m].
 PLACE = record(("center", "f8", 3))
@@ -23,19 +27,35 @@ SLAVE, MASTER = range(2)
 def poses_on_base(rotations: np.ndarray) -> np.ndarray:
     """(n,) of POSE of interfaces on the base, whose slaves are turned by (n, 3, 3)."""
     poses = np.zeros(len(rotations), POSE)
-    poses["frame"], poses["turned"][:, SLAVE], poses["turned"][:, MASTER] = np.eye(3), rotations, np.eye(3)
+    poses["frame"], poses["turned"][:, SLAVE], poses["turned"][:, MASTER] = (
+        np.eye(3),
+        rotations,
+        np.eye(3),
+    )
     return poses
 
 
 @njit
 def find_poses(interfaces, frames, rotation, poses):
-    """Find poses (ni,) of POSE where the bodies have `frames` (nb,), of PLACE or with more fields, and are turned by `rotation` (nb, 3, 3)."""
+    """Find poses (ni,) of POSE where the bodies have `frames` (nb,), of PLACE or with more fields,
+    and are turned by `rotation` (nb, 3, 3).
+    """
     place = np.empty(3)
     for k in range(len(interfaces)):
-        interface, pose, slave, b = interfaces[k], poses[k], interfaces[k].slave, interfaces[k].master
+        interface, pose, slave, b = (
+            interfaces[k],
+            poses[k],
+            interfaces[k].slave,
+            interfaces[k].master,
+        )
         frame, turned, axes, R = pose.frame, pose.turned, interface.axes, rotation[slave]
         for a in range(3):
-            place[a] = frames[slave].center[a] + R[a, 0] * interface.foot[0] + R[a, 1] * interface.foot[1] + R[a, 2] * interface.foot[2]
+            place[a] = (
+                frames[slave].center[a]
+                + R[a, 0] * interface.foot[0]
+                + R[a, 1] * interface.foot[1]
+                + R[a, 2] * interface.foot[2]
+            )
         if b == BASE:
             put_matrix(R, turned[SLAVE])
             for a in range(3):
@@ -45,14 +65,18 @@ def find_poses(interfaces, frames, rotation, poses):
             continue
         M, start = rotation[b], interface.origin
         for a in range(3):
-            pose.origin[a] = frames[b].center[a] + M[a, 0] * start[0] + M[a, 1] * start[1] + M[a, 2] * start[2]
+            pose.origin[a] = (
+                frames[b].center[a] + M[a, 0] * start[0] + M[a, 1] * start[1] + M[a, 2] * start[2]
+            )
             for c in range(3):
                 frame[a, c] = M[a, 0] * axes[0, c] + M[a, 1] * axes[1, c] + M[a, 2] * axes[2, c]
                 turned[MASTER, a, c] = axes[c, a]
         for a in range(3):
             pose.foot[a] = 0.0
             for c in range(3):
-                turned[SLAVE, a, c] = frame[0, a] * R[0, c] + frame[1, a] * R[1, c] + frame[2, a] * R[2, c]
+                turned[SLAVE, a, c] = (
+                    frame[0, a] * R[0, c] + frame[1, a] * R[1, c] + frame[2, a] * R[2, c]
+                )
                 pose.foot[a] += frame[c, a] * (place[c] - pose.origin[c])
 
 
@@ -73,14 +97,21 @@ def poses_of(interfaces: np.ndarray, centers: np.ndarray, rotations: np.ndarray)
 @njit(inline="always")
 def into_frame(pose, place):
     """A position (3,) in the table frame as one in that of an interface, in place."""
-    x, y, z, Q = place[0] - pose.origin[0], place[1] - pose.origin[1], place[2] - pose.origin[2], pose.frame
+    x, y, z, Q = (
+        place[0] - pose.origin[0],
+        place[1] - pose.origin[1],
+        place[2] - pose.origin[2],
+        pose.frame,
+    )
     for a in range(3):
         place[a] = Q[0, a] * x + Q[1, a] * y + Q[2, a] * z
 
 
 @njit
 def turns(poses):
-    """(ni, 2, 3, 3): what of poses (ni,) loops over points need; from a record each of them would take as long as what is done with it."""
+    """(ni, 2, 3, 3): what of poses (ni,) loops over points need; from a record each of them would
+    take as long as what is done with it.
+    """
     result = np.empty((len(poses), 2, 3, 3))
     for k in range(len(poses)):
         for side in range(2):

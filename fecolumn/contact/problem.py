@@ -1,8 +1,10 @@
-"""The contact problem of a step: which points take part, how well their forces obey the laws, and the forces that do.
+"""The contact problem of a step: which points take part, how well their forces obey the laws, and
+the forces that do.
 
-The motion of the bodies under given forces is found elsewhere; here the points' positions under the present forces are known. Newton about these
-forces: with s the slips and gaps that they leave and W the compliance of the points in this place, new forces r' solve the laws for
-s + W (r' - r). It is done when the laws hold for the positions that the motion finds.
+The motion of the bodies under given forces is found elsewhere; here the points' positions under the
+present forces are known. Newton about these forces: with s the slips and gaps that they leave and W
+the compliance of the points in this place, new forces r' solve the laws for s + W (r' - r). It is
+done when the laws hold for the positions that the motion finds.
 """
 
 from __future__ import annotations
@@ -12,21 +14,42 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.projection import ON, UNKNOWN, project
 from fecolumn.contact.compliance import assemble, even_out
-from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.coulomb import law_error, slips_and_gaps
+from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.factor import multiply
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.newton import stiffness_alone
 from fecolumn.contact.pad import indent
 from fecolumn.contact.points import OVER
+from fecolumn.contact.projection import ON, UNKNOWN, project
 from fecolumn.contact.stick import find_stick, operator_of, solve_sticking
-from fecolumn.contact.tolerances import CLOSE, EXACT, NEAR, PENETRATION, SHARE, SHARP, SOLVED, SWEEPS_MOST, USABLE
+from fecolumn.contact.tolerances import (
+    CLOSE,
+    EXACT,
+    NEAR,
+    PENETRATION,
+    SHARE,
+    SHARP,
+    SOLVED,
+    SWEEPS_MOST,
+    USABLE,
+)
 
-# Ways a step can end; FAR_BASE asks for more of the base's compliance, ROLLS_FAST for shorter steps, ENDED ends the analysis; OFF_PATCH: a point stands on a part of
-# a moving master that has no nodes in the contact
-OK, FAR_BASE, OFF_BASE, CONTACT_FAILED, ITERATIONS_SPENT, IMPACT_FAILED, ENDED, ROLLS_FAST, OFF_PATCH = range(9)
+# Ways a step can end; FAR_BASE asks for more of the base's compliance, ROLLS_FAST for shorter
+# steps, ENDED ends the analysis; OFF_PATCH: a point stands on a part of a moving master that has no
+# nodes in the contact
+(
+    OK,
+    FAR_BASE,
+    OFF_BASE,
+    CONTACT_FAILED,
+    ITERATIONS_SPENT,
+    IMPACT_FAILED,
+    ENDED,
+    ROLLS_FAST,
+    OFF_PATCH,
+) = range(9)
 # Places in a record of counts
 N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_PARTS, N_ASSEMBLED = range(6)
 N_COUNTS = 6
@@ -35,12 +58,14 @@ N_COUNTS = 6
 class Problem(NamedTuple):
     """Room and memory of the contact problem of n points within a step.
 
-    near: (n,) points that are low or carry force, as many as the first of `count` (3,) says: those of which more than the place matters;
-    active: (n,) those that take part, `count[1]` of them; evened: (n,) those whose `uneven` is found. present: (n,) points that are not idle, `count[2]` of them.
-    displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,) stiffness by which the laws are measured [N/m], allowed: (n,) by how
-    much they may be violated [m].
-    W: (9 n^2,) room for the compliance of the active points. flags: (3,) whether W is assembled, the foot stays where its stick operator
-    holds, and it stays long enough for finding one.
+    near: (n,) points that are low or carry force, as many as the first of `count` (3,) says: those
+    of which more than the place matters; active: (n,) those that take part, `count[1]` of them;
+    evened: (n,) those whose `uneven` is found. present: (n,) points that are not idle, `count[2]`
+    of them. displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,)
+    stiffness by which the laws are measured [N/m], allowed: (n,) by how much they may be violated
+    [m]. W: (9 n^2,) room for the compliance of the active points. flags: (3,) whether W is
+    assembled, the foot stays where its stick operator holds, and it stays long enough for finding
+    one.
     """
 
     near: np.ndarray
@@ -63,8 +88,19 @@ def room(points: np.ndarray) -> Problem:
     """For points (n,) of POINT."""
     n, present = len(points), np.zeros(len(points), np.int64)
     taking = np.flatnonzero(~points["idle"])
-    present[:len(taking)] = taking
-    return Problem(np.zeros(n, np.int64), present, np.array([0, 0, len(taking)]), *(np.zeros(n, bool) for _ in range(2)), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n), np.zeros(9 * n * n), np.zeros(3, bool))
+    present[: len(taking)] = taking
+    return Problem(
+        np.zeros(n, np.int64),
+        present,
+        np.array([0, 0, len(taking)]),
+        *(np.zeros(n, bool) for _ in range(2)),
+        np.zeros((n, 3)),
+        np.zeros((n, 3)),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(9 * n * n),
+        np.zeros(3, bool),
+    )
 
 
 @njit
@@ -72,7 +108,11 @@ def begin_problem(problem, holds_still, worth):
     """A new step: whether the stick operator holds where the foot is, and whether finding one pays."""
     for i in range(len(problem.active)):
         problem.active[i] = problem.evened[i] = False
-    problem.flags[ASSEMBLED], problem.flags[STICKS_STILL], problem.flags[WORTH_STICK] = False, holds_still, worth
+    problem.flags[ASSEMBLED], problem.flags[STICKS_STILL], problem.flags[WORTH_STICK] = (
+        False,
+        holds_still,
+        worth,
+    )
 
 
 @njit
@@ -89,7 +129,7 @@ def list_present(problem, points):
 @njit
 def present_points(problem):
     """The points (k,) that are not idle."""
-    return problem.present[:problem.count[2]]
+    return problem.present[: problem.count[2]]
 
 
 @njit
@@ -98,8 +138,11 @@ def mark_close(problem, points, interfaces, positions, before, after):
     count, everyone = 0, problem.flags[STICKS_STILL]
     for i in present_points(problem):
         height = CLOSE * interfaces[points[i].interface].width
-        close = everyone or positions[i, 2] < height or after[i].force[2] > 0 or before[i].force[2] > 0
-        # one beyond an outline is high above the surface, which is not where it will be when it is over that again
+        close = (
+            everyone or positions[i, 2] < height or after[i].force[2] > 0 or before[i].force[2] > 0
+        )
+        # one beyond an outline is high above the surface, which is not where it will be when it is
+        # over that again
         after[i].located = close and points[i].beyond == OVER
         if close:
             problem.near[count] = i
@@ -112,20 +155,49 @@ def mark_close(problem, points, interfaces, positions, before, after):
 @njit
 def near_points(problem):
     """The listed points (k,)."""
-    return problem.near[:problem.count[0]]
+    return problem.near[: problem.count[0]]
 
 
 @njit
-def find_residual(problem, bodies, base, points, interfaces, springs, dynamic, rigid, stick, rims, poses, positions, first, before, after, counts):
-    """Relative positions in `after`, and how well its forces obey the laws: a way to end, largest violation over what is allowed, solved where it is 1 at most.
+def find_residual(
+    problem,
+    bodies,
+    base,
+    points,
+    interfaces,
+    springs,
+    dynamic,
+    rigid,
+    stick,
+    rims,
+    poses,
+    positions,
+    first,
+    before,
+    after,
+    counts,
+):
+    """Relative positions in `after`, and how well its forces obey the laws: a way to end, largest
+    violation over what is allowed, solved where it is 1 at most.
 
-    Allowed is a length that is short for the foot, and what a small share of the strongest force indents: a stiff contact would meet the length under
-    forces that are no answer. A point above the base that carries anything is not solved at all.
+    Allowed is a length that is short for the foot, and what a small share of the strongest force
+    indents: a stiff contact would meet the length under forces that are no answer. A point above
+    the base that carries anything is not solved at all.
 
-    Args:
-        dynamic, rigid: compliance of the bodies within a step, as of `compliance.assemble`. rims: (ni,) of RIM. poses: (ni,) of POSE.
-        positions: (n, 3) of the points under the forces of `after`, without static displacement [m]. first: whether in this step for the first time.
-        before: (n,) of CONTACT at the start of the step.
+    Parameters
+    ----------
+    dynamic, rigid
+        compliance of the bodies within a step, as of `compliance.assemble`.
+    rims
+        (ni,) of RIM.
+    poses
+        (ni,) of POSE.
+    positions
+        (n, 3) of the points under the forces of `after`, without static displacement [m].
+    first
+        whether in this step for the first time.
+    before
+        (n,) of CONTACT at the start of the step.
     """
     sticks, listed = problem.flags[STICKS_STILL], near_points(problem)
     if first or not sticks:
@@ -144,7 +216,9 @@ def find_residual(problem, bodies, base, points, interfaces, springs, dynamic, r
             if len(listed) == problem.count[2]:
                 for i in listed:
                     even_out(bodies, base, points, i, poses)
-                find_stick(stick, bodies, base, points, listed, springs, dynamic, rigid, rims, poses)
+                find_stick(
+                    stick, bodies, base, points, listed, springs, dynamic, rigid, rims, poses
+                )
                 counts[N_ASSEMBLED] += 1
                 problem.flags[STICKS_STILL] = sticks = True
     if sticks:
@@ -156,7 +230,11 @@ def find_residual(problem, bodies, base, points, interfaces, springs, dynamic, r
         for a in range(3):
             after[i].relative[a] = positions[i, a] + problem.displaced[i, a]
         width = interfaces[points[i].interface].width
-        new = positions[i, 2] < NEAR * width or after[i].force[2] > 0 or after[i].relative[2] < -PENETRATION * width
+        new = (
+            positions[i, 2] < NEAR * width
+            or after[i].force[2] > 0
+            or after[i].relative[2] < -PENETRATION * width
+        )
         changed |= new != problem.active[i]
         problem.active[i] = new
         active += new
@@ -176,14 +254,28 @@ def find_residual(problem, bodies, base, points, interfaces, springs, dynamic, r
     for i in listed:
         most, width = strongest[points[i].interface], interfaces[points[i].interface].width
         for a in range(3):
-            slack = after[i].relative[a] + springs.own[i, a] * after[i].force[a] + springs.kept * before[i].indentation[a]
+            slack = (
+                after[i].relative[a]
+                + springs.own[i, a] * after[i].force[a]
+                + springs.kept * before[i].indentation[a]
+            )
             problem.slack[i, a] = slack - before[i].anchor[a] if a < 2 else slack
         if problem.active[i]:
             problem.allowed[i] = SOLVED * width
             if most > 0.0:
-                problem.allowed[i] = min(problem.allowed[i], max(SHARE * most / problem.rho[i], EXACT * width))
-            error = law_error(after[i].force[0], after[i].force[1], after[i].force[2], problem.slack[i, 0], problem.slack[i, 1],
-                              problem.slack[i, 2], problem.rho[i], points[i].friction)
+                problem.allowed[i] = min(
+                    problem.allowed[i], max(SHARE * most / problem.rho[i], EXACT * width)
+                )
+            error = law_error(
+                after[i].force[0],
+                after[i].force[1],
+                after[i].force[2],
+                problem.slack[i, 0],
+                problem.slack[i, 1],
+                problem.slack[i, 2],
+                problem.rho[i],
+                points[i].friction,
+            )
             worst = max(worst, np.inf if _hangs(problem, after, i) else error / problem.allowed[i])
     return OK, worst
 
@@ -191,7 +283,10 @@ def find_residual(problem, bodies, base, points, interfaces, springs, dynamic, r
 @njit
 def _hangs(problem, after, i):
     """Whether point i carries, above the base, a force that its place does not call for."""
-    return problem.slack[i, 2] > problem.allowed[i] and 0 < after[i].force[2] <= problem.rho[i] * problem.slack[i, 2]
+    return (
+        problem.slack[i, 2] > problem.allowed[i]
+        and 0 < after[i].force[2] <= problem.rho[i] * problem.slack[i, 2]
+    )
 
 
 @njit
@@ -207,7 +302,7 @@ def _active(problem):
 
 @njit
 def _displace_all(stick, listed, after, target):
-    """target (n, 3): static displacement of the points of the stick operator, the listed ones (k,)."""
+    """Target (n, 3): static displacement of the points of the stick operator, the listed ones (k,)."""
     k = len(listed)
     forces, moved = np.empty(3 * k), np.empty(3 * k)
     for j in range(k):
@@ -232,7 +327,7 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, pos
             problem.evened[i] = True
         for a in range(3):
             arms[i, a] = points[i].arm[a]
-    W = problem.W[:9 * count * count].reshape(3 * count, 3 * count)
+    W = problem.W[: 9 * count * count].reshape(3 * count, 3 * count)
     assemble(bodies, base, points, arms, listed, poses, rigid, dynamic, 1.0, springs.own, W)
     for j in range(count):
         problem.rho[listed[j]] = stiffness_alone(W, j)
@@ -244,15 +339,20 @@ def find_forces(problem, points, interfaces, stick, after, counts):
     """Forces in `after` that obey the laws as far as the compliance tells: a way to end."""
     usable, tight, listed, sticks = np.inf, np.inf, _active(problem), problem.flags[STICKS_STILL]
     for i in listed:
-        usable, tight = min(usable, USABLE * interfaces[points[i].interface].width), min(tight, problem.allowed[i])
+        usable, tight = (
+            min(usable, USABLE * interfaces[points[i].interface].width),
+            min(tight, problem.allowed[i]),
+        )
     tight *= SHARP
     if sticks:
-        residual, newtons = solve_sticking(stick, points, near_points(problem), problem.slack, problem.active, after, tight, usable)
+        residual, newtons = solve_sticking(
+            stick, points, near_points(problem), problem.slack, problem.active, after, tight, usable
+        )
         counts[N_CONTACT] += newtons
         if residual <= usable:
             return OK
     count = len(listed)
-    W = problem.W[:9 * count * count].reshape(3 * count, 3 * count)
+    W = problem.W[: 9 * count * count].reshape(3 * count, 3 * count)
     if sticks:
         near = near_points(problem)
         whole, place = operator_of(stick, len(near)), np.empty(count, np.int64)
@@ -292,14 +392,18 @@ def find_forces(problem, points, interfaces, stick, after, counts):
 
 @njit
 def stored_energy(problem, points, interfaces, springs, before, after):
-    """Strain energy [J] of base, static rest of the bodies, contact law and pad, whose indentation is found."""
+    """Strain energy [J] of base, static rest of the bodies, contact law and pad, whose indentation
+    is found.
+    """
     energy = 0.0
     on_pad = interfaces[0].on_pad
     if on_pad:
         indent(springs, before, after)
     for i in near_points(problem):
         for a in range(3):
-            energy += after[i].force[a] * (problem.displaced[i, a] + points[i].law[a] * after[i].force[a])
+            energy += after[i].force[a] * (
+                problem.displaced[i, a] + points[i].law[a] * after[i].force[a]
+            )
     if on_pad:
         for i in range(len(after)):
             for a in range(3):
@@ -308,13 +412,36 @@ def stored_energy(problem, points, interfaces, springs, before, after):
 
 
 @njit
-def solve_linear(problem, bodies, base, points, interfaces, springs, dynamic, elastic, stick, rims, poses, positions, most, before, after, counts):
-    """Forces of bodies that answer a change of forces linearly: a way to end, largest violation of the laws as of `find_residual`.
+def solve_linear(
+    problem,
+    bodies,
+    base,
+    points,
+    interfaces,
+    springs,
+    dynamic,
+    elastic,
+    stick,
+    rims,
+    poses,
+    positions,
+    most,
+    before,
+    after,
+    counts,
+):
+    """Forces of bodies that answer a change of forces linearly: a way to end, largest violation of
+    the laws as of `find_residual`.
 
-    Args:
-        elastic: (3 N, 3 n) of the bodies, `dynamic` without the static part.
-        positions: (n, 3) [m] of the points under the forces of `after` at first; those of close points change along with them.
-        most: times that forces are found; 0 only looks how well they obey the laws.
+    Parameters
+    ----------
+    elastic
+        (3 N, 3 n) of the bodies, `dynamic` without the static part.
+    positions
+        (n, 3) [m] of the points under the forces of `after` at first; those of close points change
+        along with them.
+    most
+        times that forces are found; 0 only looks how well they obey the laws.
     """
     mark_close(problem, points, interfaces, positions, before, after)
     listed = near_points(problem)
@@ -322,10 +449,28 @@ def solve_linear(problem, bodies, base, points, interfaces, springs, dynamic, el
     # feet that stick still have it in their operator
     response, sticks = np.empty((3 * k, 3 * k)), problem.flags[STICKS_STILL]
     if most > 0 and not sticks:
-        assemble(bodies, base, points, arms, listed, poses, 0.0, elastic, 0.0, springs.own, response)
+        assemble(
+            bodies, base, points, arms, listed, poses, 0.0, elastic, 0.0, springs.own, response
+        )
     for attempt in range(most + 1):
-        answer, residual = find_residual(problem, bodies, base, points, interfaces, springs, dynamic, 0.0, stick, rims, poses, positions, attempt == 0,
-                                         before, after, counts)
+        answer, residual = find_residual(
+            problem,
+            bodies,
+            base,
+            points,
+            interfaces,
+            springs,
+            dynamic,
+            0.0,
+            stick,
+            rims,
+            poses,
+            positions,
+            attempt == 0,
+            before,
+            after,
+            counts,
+        )
         if answer != OK or residual <= 1.0 or attempt == most:
             return answer, residual
         for j in range(k):
@@ -346,5 +491,7 @@ def solve_linear(problem, bodies, base, points, interfaces, springs, dynamic, el
             moved = response @ old
         for j in range(k):
             for a in range(3):
-                positions[listed[j], a] += moved[3 * j + a] - (springs.own[listed[j], a] * old[3 * j + a] if sticks else 0.0)
+                positions[listed[j], a] += moved[3 * j + a] - (
+                    springs.own[listed[j], a] * old[3 * j + a] if sticks else 0.0
+                )
     return ITERATIONS_SPENT, np.inf

@@ -18,8 +18,11 @@ ON, OFF, UNKNOWN = range(3)
 
 
 class Base(NamedTuple):
-    """Top of the base for compiled code: grid lines x, y [m]; number: (n_x, n_y) of its nodes; slot: (n_top,) of a node in `compliance`, -1 where it
-    is not known yet; compliance: (3 k, 3 k) [m/N]. square: side of the squares [m] by which an unbounded base follows the foot, 0 for a plate that stays. gathered: of it."""
+    """Top of the base for compiled code: grid lines x, y [m]; number: (n_x, n_y) of its nodes;
+    slot: (n_top,) of a node in `compliance`, -1 where it is not known yet; compliance: (3 k, 3 k)
+    [m/N]. square: side of the squares [m] by which an unbounded base follows the foot, 0 for a
+    plate that stays. gathered: of it.
+    """
 
     x: np.ndarray
     y: np.ndarray
@@ -36,17 +39,28 @@ def base_of(x, y, number, slot, compliance, square: float = 0.0) -> Base:
 
 
 def base_for_steps(base) -> Base:
-    """The Base of a `contact.base_plate.BasePlate`, or what answers as it does, as far as its compliance is known."""
-    return base_of(base.grid.x, base.grid.y, base.grid.number, base.slot.copy(), node_matrix(base.compliance), base.grid.square)
+    """The Base of a `contact.base_plate.BasePlate`, or what answers as it does, as far as its
+    compliance is known.
+    """
+    return base_of(
+        base.grid.x,
+        base.grid.y,
+        base.grid.number,
+        base.slot.copy(),
+        node_matrix(base.compliance),
+        base.grid.square,
+    )
 
 
 @njit
 def project(base, positions, listed, points):
-    """Find the base's nodes under those of the listed points (k,) at positions (n, 3) that stand on it: ON, OFF its top, or UNKNOWN compliance.
+    """Find the base's nodes under those of the listed points (k,) at positions (n, 3) that stand on
+    it: ON, OFF its top, or UNKNOWN compliance.
 
-    Bilinear interpolation on the facet vertically below: the top's slope under load is about 1e-5 rad and changes gap and cone by 1e-5 of themselves.
-    An unbounded base is moved along with the middle of the points on it by whole squares. A point that is beyond the edge by rounding, or by the first slip of
-    a foot as wide as its plate, stands on the edge.
+    Bilinear interpolation on the facet vertically below: the top's slope under load is about 1e-5
+    rad and changes gap and cone by 1e-5 of themselves. An unbounded base is moved along with the
+    middle of the points on it by whole squares. A point that is beyond the edge by rounding, or by
+    the first slip of a foot as wide as its plate, stands on the edge.
     """
     answer, dx, dy, count = ON, 0.0, 0.0, 0
     if base.square > 0:
@@ -63,7 +77,10 @@ def project(base, positions, listed, points):
         if far_x or far_y:
             return OFF
         a, b = _cell(base.x, x), _cell(base.y, y)
-        s, t = (x - base.x[a]) / (base.x[a + 1] - base.x[a]), (y - base.y[b]) / (base.y[b + 1] - base.y[b])
+        s, t = (
+            (x - base.x[a]) / (base.x[a + 1] - base.x[a]),
+            (y - base.y[b]) / (base.y[b + 1] - base.y[b]),
+        )
         for q in range(4):
             slot = base.slot[base.number[a + q % 2, b + q // 2]]
             points[i].below[q] = slot
@@ -75,7 +92,9 @@ def project(base, positions, listed, points):
 
 @njit
 def _within(lines, x):
-    """The place nearest to x from the first to the last of the grid lines [m], and whether x is farther from it than EDGE of the last brick there."""
+    """The place nearest to x from the first to the last of the grid lines [m], and whether x is
+    farther from it than EDGE of the last brick there.
+    """
     nearest = min(max(x, lines[0]), lines[-1])
     brick = lines[1] - lines[0] if x < lines[0] else lines[-1] - lines[-2]
     # not `>`: a place that is not a number is on no base
@@ -84,13 +103,20 @@ def _within(lines, x):
 
 @njit
 def project_on_body(bodies, interface, point, x, y):
-    """Find the three nodes of a moving master's surface around the place x, y [m] in its frame, and their shares: ON or OFF the surface, or UNKNOWN where
-    the face goes on without nodes that are known.
+    """Find the three nodes of a moving master's surface around the place x, y [m] in its frame, and
+    their shares: ON or OFF the surface, or UNKNOWN where the face goes on without nodes that are
+    known.
 
-    From the facet where the point was found last towards the place; all facets are looked at where nodes that are not known are in the way, or an outline of a
-    surface that is not convex. Off the surface, of the nearest facet, or of a convex one of the last on the way.
+    From the facet where the point was found last towards the place; all facets are looked at where
+    nodes that are not known are in the way, or an outline of a surface that is not convex. Off the
+    surface, of the nearest facet, or of a convex one of the last on the way.
     """
-    first, count, facet, margin = interface.facet_first, interface.facet_count, point.facet, EDGE * interface.width + interface.bulge
+    first, count, facet, margin = (
+        interface.facet_first,
+        interface.facet_count,
+        point.facet,
+        EDGE * interface.width + interface.bulge,
+    )
     # of room of their own, made at each call, they would take longer than to find
     shares, nearest, least, side = point.shares, 0, np.inf, 0
     for step in range(count):
@@ -119,7 +145,9 @@ def project_on_body(bodies, interface, point, x, y):
 
 @njit
 def side_of_outline(answer, was, height, width):
-    """Where a point of a slave of some `width` is at the start of a step, `height` [m] above the surface of its master; answer: of `project_on_body`; `was`: SUNK is known."""
+    """Where a point of a slave of some `width` is at the start of a step, `height` [m] above the
+    surface of its master; answer: of `project_on_body`; `was`: SUNK is known.
+    """
     if was == SUNK:
         return SUNK
     if answer == UNKNOWN and height < CLOSE * width:
@@ -129,18 +157,23 @@ def side_of_outline(answer, was, height, width):
 
 @njit(inline="always")
 def find_seat(bodies, interface, point, pose, place):
-    """Bring the place (3,) of a point [m] from the table frame into that of its interface, and find its seat and the nodes below it on the moving master: as
-    `project_on_body`."""
+    """Bring the place (3,) of a point [m] from the table frame into that of its interface, and find
+    its seat and the nodes below it on the moving master: as `project_on_body`.
+    """
     axes, origin = interface.axes, interface.origin
     into_frame(pose, place)
     for a in range(3):
-        point.seat[a] = origin[a] + axes[a, 0] * place[0] + axes[a, 1] * place[1] + axes[a, 2] * place[2]
+        point.seat[a] = (
+            origin[a] + axes[a, 0] * place[0] + axes[a, 1] * place[1] + axes[a, 2] * place[2]
+        )
     return project_on_body(bodies, interface, point, place[0], place[1])
 
 
 @njit(inline="always")
 def take_surface(interface, point, q, moved, place):
-    """Take from a place (3,) in the frame of the interface what displacement or velocity `moved` (3,) of node q below it, in the master's frame, gives the surface."""
+    """Take from a place (3,) in the frame of the interface what displacement or velocity `moved`
+    (3,) of node q below it, in the master's frame, gives the surface.
+    """
     w, axes = point.shares[q], interface.axes
     for a in range(3):
         place[a] -= w * (axes[0, a] * moved[0] + axes[1, a] * moved[1] + axes[2, a] * moved[2])
@@ -148,11 +181,16 @@ def take_surface(interface, point, q, moved, place):
 
 @njit
 def place_on_masters(bodies, interfaces, points, poses, moved, starts, places):
-    """Bring the places (P, 3) [m] of the points that stand on moving masters from the table frame to the masters' surfaces.
+    """Bring the places (P, 3) [m] of the points that stand on moving masters from the table frame
+    to the masters' surfaces.
 
-    Args:
-        moved: (N, 3) displacement of all nodes in the frames of their bodies [m]. starts: whether at the start of a step, within which no point comes or goes
-            over an outline: one that is beyond it then is put high above the surface.
+    Parameters
+    ----------
+    moved
+        (N, 3) displacement of all nodes in the frames of their bodies [m].
+    starts
+        whether at the start of a step, within which no point comes or goes over an outline: one
+        that is beyond it then is put high above the surface.
     """
     for i in range(len(points)):
         if points[i].master == BASE:
@@ -162,14 +200,18 @@ def place_on_masters(bodies, interfaces, points, poses, moved, starts, places):
         for q in range(3):
             take_surface(interface, points[i], q, moved[points[i].below[q]], places[i])
         if starts:
-            points[i].beyond = side_of_outline(answer, points[i].beyond, places[i, 2] + points[i].lift, interface.width)
+            points[i].beyond = side_of_outline(
+                answer, points[i].beyond, places[i, 2] + points[i].lift, interface.width
+            )
         if points[i].beyond != OVER:
             places[i, 2] = interface.width
 
 
 @njit
 def _shares_of(facet, x, y, margin, shares):
-    """The first three shares: of a facet's corners in the place x, y; the side most beyond which it lies, -1 where it lies within, or by `margin` [m] beyond an outline."""
+    """The first three shares: of a facet's corners in the place x, y; the side most beyond which it
+    lies, -1 where it lies within, or by `margin` [m] beyond an outline.
+    """
     corners = facet.corners
     ax, ay = corners[1, 0] - corners[0, 0], corners[1, 1] - corners[0, 1]
     bx, by = corners[2, 0] - corners[0, 0], corners[2, 1] - corners[0, 1]
@@ -212,10 +254,19 @@ def _cell(lines, value):
     return low
 
 
-def nodes_under(grid, positions: np.ndarray, wanted: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (n, 4) of a `contact.base_top.BaseTop` under `positions` (n, 3) [m] and their shares (n, 4), of the wanted ones (mask) if it is given."""
-    points, listed = np.zeros(len(positions), POINT), np.arange(len(positions)) if wanted is None else np.flatnonzero(wanted)
+def nodes_under(
+    grid, positions: np.ndarray, wanted: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (n, 4) of a `contact.base_top.BaseTop` under `positions` (n, 3) [m] and their shares
+    (n, 4), of the wanted ones (mask) if it is given.
+    """
+    points, listed = (
+        np.zeros(len(positions), POINT),
+        np.arange(len(positions)) if wanted is None else np.flatnonzero(wanted),
+    )
     points["master"] = BASE
-    base = base_of(grid.x, grid.y, grid.number, np.arange(len(grid.points)), np.empty((0, 0)), grid.square)
+    base = base_of(
+        grid.x, grid.y, grid.number, np.arange(len(grid.points)), np.empty((0, 0)), grid.square
+    )
     interpreted(project)(base, positions, listed, points)
     return points["below"], points["shares"]

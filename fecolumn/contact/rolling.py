@@ -1,15 +1,19 @@
 """Rolling on a round rim: where its contact points are in a step, and what resists.
 
-A polygon rolls from corner to corner, and each corner that lands takes energy as a plastic impact does. The contact points of the circle roll along
-with its lowest one: in steady rolling none lands.
+A polygon rolls from corner to corner, and each corner that lands takes energy as a plastic impact
+does. The contact points of the circle roll along with its lowest one: in steady rolling none lands.
 
-The points turn with the lowest one of the circle. For a step they are those of the rotation halfway, lifted to the height at which steady rolling
-has them at both its ends. The lowest point's gap then changes by its displacement (a discrete gradient, Gonzalez 1996), those before and behind it
-do opposite work: rolling takes no energy up to dt^3, and what is left of the third order stays in the lift while the rim carries, so that
-it makes none either. Where the points stick moves on by the length of rim rolled.
+The points turn with the lowest one of the circle. For a step they are those of the rotation
+halfway, lifted to the height at which steady rolling has them at both its ends. The lowest point's
+gap then changes by its displacement (a discrete gradient, Gonzalez 1996), those before and behind
+it do opposite work: rolling takes no energy up to dt^3, and what is left of the third order stays
+in the lift while the rim carries, so that it makes none either. Where the points stick moves on by
+the length of rim rolled.
 
-Where the lowest point leaps, in a column that rocks over, they stay until the part of the rim that carried is free, as in a foot that stands. One that passes upright beside
-planar rocking does not leap: its lowest point runs to the other side of the rim, faster the flatter the foot becomes. Such a step is made in parts.
+Where the lowest point leaps, in a column that rocks over, they stay until the part of the rim that
+carried is free, as in a foot that stands. One that passes upright beside planar rocking does not
+leap: its lowest point runs to the other side of the rim, faster the flatter the foot becomes. Such
+a step is made in parts.
 """
 
 from __future__ import annotations
@@ -25,15 +29,24 @@ from fecolumn.contact.tolerances import FLAT, PARTS, REACH, ROLL, ROLL_STEP
 
 @njit
 def part_of_step(x, y, u, v, dt, done):
-    """How much of a step to make at once, in dt / PARTS, so that the lowest point of a rim runs along it by ROLL_STEP at most: PARTS for the whole of it.
+    """How much of a step to make at once, in dt / PARTS, so that the lowest point of a rim runs
+    along it by ROLL_STEP at most: PARTS for the whole of it.
 
-    The way down, seen along the foot, hardly changes its rate (u, v) within a step: a straight way on which the rim's lowest point runs at the rate
+    The way down, seen along the foot, hardly changes its rate (u, v) within a step: a straight way
+    on which the rim's lowest point runs at the rate
     |(x, y) x (u, v)| / (x^2 + y^2), fastest where the foot is flattest. Where that is below FLAT, or faster than the smallest part tells, the lowest point leaps:
     planar rocking over, an impact.
 
-    Args:
-        x, y: way down along the column's axes x and y, the tilt [rad] towards it. u, v: its rate [rad/s]. dt: of the whole step [s].
-        done: parts of it that are made.
+    Parameters
+    ----------
+    x, y
+        way down along the column's axes x and y, the tilt [rad] towards it.
+    u, v
+        its rate [rad/s].
+    dt
+        of the whole step [s].
+    done
+        parts of it that are made.
     """
     across, speed = abs(x * v - y * u), np.hypot(u, v)
     whole = PARTS
@@ -51,10 +64,12 @@ def part_of_step(x, y, u, v, dt, done):
 
 
 class Roll(NamedTuple):
-    """How the points of a rim move at the start of a step: `old` as they are, `like` those of the present rotation, `new` those of the rotation halfway.
+    """How the points of a rim move at the start of a step: `old` as they are, `like` those of the
+    present rotation, `new` those of the rotation halfway.
 
-    offsets, weights: (3, 4) of the carriers, as of `rim.on_circle`; index: (3,) and phase: (3,) of the point at the angle; passed: nodes by which the points' places
-    move; strongest: number of the point that carries most of those within reach, -1 where none carries.
+    offsets, weights: (3, 4) of the carriers, as of `rim.on_circle`; index: (3,) and phase: (3,) of
+    the point at the angle; passed: nodes by which the points' places move; strongest: number of the
+    point that carries most of those within reach, -1 where none carries.
     """
 
     offsets: np.ndarray
@@ -74,15 +89,36 @@ OLD, LIKE, NEW = range(3)
 def plan_roll(interface, rim, rim_state, contact, rotation, halfway, allowed):
     """Whether the points of a rim roll in a step, and their Roll.
 
-    Args:
-        interface: of INTERFACE. rim: (n,) its points. rim_state: of RIM at the start. contact: (P,) of CONTACT at the start.
-        rotation, halfway: (3, 3) of the slave to the frame of the interface at the start and in the middle of the step. allowed: False: they stay in any case.
+    Parameters
+    ----------
+    interface
+        of INTERFACE.
+    rim
+        (n,) its points.
+    rim_state
+        of RIM at the start.
+    contact
+        (P,) of CONTACT at the start.
+    rotation, halfway
+        (3, 3) of the slave to the frame of the interface at the start and in the middle of the
+        step.
+    allowed
+        False: they stay in any case.
     """
     n, first, sector, before = len(rim), interface.rim_angle, interface.sector, rim_state.angle
-    offsets, weights, index, phase = np.empty((3, 4), np.int64), np.empty((3, 4)), np.empty(3, np.int64), np.empty(3)
+    offsets, weights, index, phase = (
+        np.empty((3, 4), np.int64),
+        np.empty((3, 4)),
+        np.empty(3, np.int64),
+        np.empty(3),
+    )
     angle, tilt = lowest(halfway)
-    index[OLD], phase[OLD] = on_circle(first if np.isnan(before) else before, first, sector, n, offsets[OLD], weights[OLD])
-    index[LIKE], phase[LIKE] = on_circle(lowest(rotation)[0], first, sector, n, offsets[LIKE], weights[LIKE])
+    index[OLD], phase[OLD] = on_circle(
+        first if np.isnan(before) else before, first, sector, n, offsets[OLD], weights[OLD]
+    )
+    index[LIKE], phase[LIKE] = on_circle(
+        lowest(rotation)[0], first, sector, n, offsets[LIKE], weights[LIKE]
+    )
     index[NEW], phase[NEW] = on_circle(angle, first, sector, n, offsets[NEW], weights[NEW])
     turned = _sectors(index[NEW] + phase[NEW] - index[OLD] - phase[OLD], n)
     leaps = np.isnan(before) or abs(turned) * sector > ROLL
@@ -98,9 +134,23 @@ def plan_roll(interface, rim, rim_state, contact, rotation, halfway, allowed):
                 strongest, most = k, force
     rolls = allowed and tilt >= FLAT and not stands and not (leaps and loaded and strongest < 0)
     if leaps:
-        # a part of the rim that rested takes over: the nearest of its points goes to the lowest place
+        # a part of the rim that rested takes over: the nearest of its points goes to the lowest
+        # place
         turned -= np.rint(turned)
-    return rolls, tilt, Roll(offsets, weights, index, phase, angle, int(np.rint(turned - phase[NEW] + phase[OLD])), leaps, strongest)
+    return (
+        rolls,
+        tilt,
+        Roll(
+            offsets,
+            weights,
+            index,
+            phase,
+            angle,
+            int(np.rint(turned - phase[NEW] + phase[OLD])),
+            leaps,
+            strongest,
+        ),
+    )
 
 
 @njit
@@ -110,9 +160,21 @@ def mark_rolling(roll, rim, points, contact, wanted):
     passed = roll.passed % n
     for off in range(-REACH, REACH + 1):
         for q in range(4):
-            wanted[points[rim[_around(roll.index[LIKE] + off + roll.offsets[LIKE, q], n)]].node] = True
-            wanted[points[rim[_around(roll.index[NEW] + off + roll.offsets[NEW, q], n)]].node] = True
-            wanted[points[rim[_around(_around(roll.index[NEW] + off - passed, n) + roll.offsets[OLD, q], n)]].node] = True
+            wanted[points[rim[_around(roll.index[LIKE] + off + roll.offsets[LIKE, q], n)]].node] = (
+                True
+            )
+            wanted[points[rim[_around(roll.index[NEW] + off + roll.offsets[NEW, q], n)]].node] = (
+                True
+            )
+            wanted[
+                points[
+                    rim[
+                        _around(
+                            _around(roll.index[NEW] + off - passed, n) + roll.offsets[OLD, q], n
+                        )
+                    ]
+                ].node
+            ] = True
     for k in range(n):
         if contact[rim[k]].located:
             for q in range(4):
@@ -122,14 +184,22 @@ def mark_rolling(roll, rim, points, contact, wanted):
 
 @njit
 def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
-    """Roll the points of a rim on: their places on the rim, and in `before` (P,) what `contact` (P,) at the start brings to them.
+    """Roll the points of a rim on: their places on the rim, and in `before` (P,) what `contact`
+    (P,) at the start brings to them.
 
-    A point takes its force, anchor and relative position along, where that was located; another one starts from where it is. Those within reach
-    of the lowest one get heights at which steady rolling works without loss.
+    A point takes its force, anchor and relative position along, where that was located; another one
+    starts from where it is. Those within reach of the lowest one get heights at which steady
+    rolling works without loss.
 
-    Args:
-        rim_state: of RIM, changed. arms: (N, 3) of the nodes from their centre of mass. places: (N, 3) their positions at the start in the frame of the interface [m], where
-            `mark_rolling` wants them.
+    Parameters
+    ----------
+    rim_state
+        of RIM, changed.
+    arms
+        (N, 3) of the nodes from their centre of mass.
+    places
+        (N, 3) their positions at the start in the frame of the interface [m], where `mark_rolling`
+        wants them.
     """
     n, index = len(rim), roll.index[NEW]
     passed = roll.passed % n
@@ -138,12 +208,16 @@ def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
     held = 0.0
     if roll.strongest >= 0:
         taken = roll.strongest if roll.leaps else _around(index - passed, n)
-        held = _height(roll, OLD, taken, rim, points, places) - _height(roll, LIKE, roll.index[LIKE], rim, points, places)
+        held = _height(roll, OLD, taken, rim, points, places) - _height(
+            roll, LIKE, roll.index[LIKE], rim, points, places
+        )
         held += 0.0 if roll.leaps else rim_state.lift[REACH]
     for k in range(n):
         i, number, apart = rim[k], _around(k - passed, n), abs(k - index)
         # a contact that carries widens and narrows as it rolls: nothing lands there
-        points[i].rolls = roll.strongest >= 0 and not roll.leaps and min(apart, n - apart) * 2 * np.pi <= ROLL * n
+        points[i].rolls = (
+            roll.strongest >= 0 and not roll.leaps and min(apart, n - apart) * 2 * np.pi <= ROLL * n
+        )
         taken = rim[number]
         before[i] = contact[taken]
         near = min(apart, n - apart) <= REACH
@@ -151,8 +225,14 @@ def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
             for a in range(3):
                 way = 0.0
                 for q in range(4):
-                    way += roll.weights[NEW, q] * places[points[rim[_around(k + roll.offsets[NEW, q], n)]].node, a]
-                    way -= roll.weights[OLD, q] * places[points[rim[_around(number + roll.offsets[OLD, q], n)]].node, a]
+                    way += (
+                        roll.weights[NEW, q]
+                        * places[points[rim[_around(k + roll.offsets[NEW, q], n)]].node, a]
+                    )
+                    way -= (
+                        roll.weights[OLD, q]
+                        * places[points[rim[_around(number + roll.offsets[OLD, q], n)]].node, a]
+                    )
                 before[i].relative[a] += way
                 if a < 2:
                     before[i].anchor[a] += way
@@ -162,8 +242,11 @@ def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
         k = _around(index + off, n)
         i, number = rim[k], _around(k - passed, n)
         like = _height(roll, LIKE, roll.index[LIKE] + off, rim, points, places)
-        # at the step's end the height of the points before the lowest one will be what that of the points behind it is now
-        points[i].lift = rim_state.lift[REACH + off] = like - _height(roll, NEW, index - off, rim, points, places) + held
+        # at the step's end the height of the points before the lowest one will be what that of the
+        # points behind it is now
+        points[i].lift = rim_state.lift[REACH + off] = (
+            like - _height(roll, NEW, index - off, rim, points, places) + held
+        )
         up = like - _height(roll, OLD, number, rim, points, places) if roll.leaps else 0.0
         before[i].relative[2] = contact[rim[number]].relative[2] + up
     rim_state.angle = roll.angle
@@ -174,7 +257,10 @@ def _height(roll, which, k, rim, points, places):
     """Height [m] of point k of the rim where it is on the circle `which`."""
     total, n = 0.0, len(rim)
     for q in range(4):
-        total += roll.weights[which, q] * places[points[rim[_around(k + roll.offsets[which, q], n)]].node, 2]
+        total += (
+            roll.weights[which, q]
+            * places[points[rim[_around(k + roll.offsets[which, q], n)]].node, 2]
+        )
     return total
 
 
@@ -188,7 +274,10 @@ def place_points(roll, which, rim, arms, points):
         for a in range(3):
             points[i].arm[a] = 0.0
         for q in range(4):
-            node, w = points[rim[_around(k + roll.offsets[which, q], n)]].node, roll.weights[which, q]
+            node, w = (
+                points[rim[_around(k + roll.offsets[which, q], n)]].node,
+                roll.weights[which, q],
+            )
             points[i].carriers[q], points[i].weights[q] = node, w
             for a in range(3):
                 points[i].arm[a] += w * arms[node, a]
@@ -236,15 +325,27 @@ def _sectors(number, n):
 
 @njit
 def rolling_moment(rotation, spin, load, radius, coefficient, inverse, dt):
-    """Moment (3,) [N m] in the column's frame by which a rim resists to roll: it takes coefficient * load per length rolled.
+    """Moment (3,) [N m] in the column's frame by which a rim resists to roll: it takes coefficient
+    * load per length rolled.
 
-    With d the way down seen from the column and s its part along the foot's plane, the lowest point runs along the rim by the angle a.w dt, w the
-    spin and a = (dz dx / s^2, dz dy / s^2, -1). The moment is -coefficient load radius sign(a.w) a: to first order a load that acts
-    coefficient radius / s ahead of the lowest point, at most the radius. It does not turn the rolling round within the step.
+    With d the way down seen from the column and s its part along the foot's plane, the lowest point
+    runs along the rim by the angle a.w dt, w the spin and a = (dz dx / s^2, dz dy / s^2, -1). The
+    moment is -coefficient load radius sign(a.w) a: to first order a load that acts coefficient
+    radius / s ahead of the lowest point, at most the radius. It does not turn the rolling round
+    within the step.
 
-    Args:
-        rotation: (3, 3) column to the frame of the interface. spin: (3,) relative to the master, in the column's frame [rad/s]. load: normal contact force [N]. radius: of the rim [m].
-        inverse: (3, 3) of the inertia about the centre of mass [1/(kg m2)].
+    Parameters
+    ----------
+    rotation
+        (3, 3) column to the frame of the interface.
+    spin
+        (3,) relative to the master, in the column's frame [rad/s].
+    load
+        normal contact force [N].
+    radius
+        of the rim [m].
+    inverse
+        (3, 3) of the inertia about the centre of mass [1/(kg m2)].
     """
     moment, x, y, z = np.zeros(3), -rotation[2, 0], -rotation[2, 1], -rotation[2, 2]
     sine = np.hypot(x, y)

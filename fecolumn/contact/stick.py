@@ -1,8 +1,11 @@
-"""A foot that stays in its place: its compliance and the factor of it are found once and serve as long as it does.
+"""A foot that stays in its place: its compliance and the factor of it are found once and serve as
+long as it does.
 
-While a structure stands, its foot stays where it is but for micrometres, so that the compliance of all its points is constant up to
-1e-4 of itself. Its factor gives the forces of a wholly sticking foot at once; points that slip or open are a small problem
-in their own slips, r = r_stuck + W^-1 s, for which the rows of the inverse are found that it takes. Exact motion is checked by the iteration around it, see `contact.problem`.
+While a structure stands, its foot stays where it is but for micrometres, so that the compliance of
+all its points is constant up to 1e-4 of itself. Its factor gives the forces of a wholly sticking
+foot at once; points that slip or open are a small problem in their own slips, r = r_stuck + W^-1 s,
+for which the rows of the inverse are found that it takes. Exact motion is checked by the iteration
+around it, see `contact.problem`.
 """
 
 from __future__ import annotations
@@ -22,9 +25,12 @@ from fecolumn.contact.tolerances import PAD_TURN, STICK_STAYS, STICK_TURN, STICK
 
 
 class Stick(NamedTuple):
-    """Of k points that stand, room for n: compliance W (9 n^2,), see `operator_of`, and its factor, and the static part without what the points give alone; inverse: (3 n, 3 n), of whose
-    rows those known, (3 n,), are found, 3 k numbers each; rho, rho_all: (n,) stiffness of a point alone and with all others [N/m]; poses: (ni,) of POSE and angles: (ni,) of the rims for which they hold; key: (2,) length of the step, and
-    1 once they are found."""
+    """Of k points that stand, room for n: compliance W (9 n^2,), see `operator_of`, and its factor,
+    and the static part without what the points give alone; inverse: (3 n, 3 n), of whose rows those
+    known, (3 n,), are found, 3 k numbers each; rho, rho_all: (n,) stiffness of a point alone and
+    with all others [N/m]; poses: (ni,) of POSE and angles: (ni,) of the rims for which they hold;
+    key: (2,) length of the step, and 1 once they are found.
+    """
 
     W: np.ndarray
     factor: Blocked
@@ -40,18 +46,31 @@ class Stick(NamedTuple):
 
 def no_stick(n: int, interfaces: int = 1) -> Stick:
     """Of n points, not found yet."""
-    return Stick(np.zeros(9 * n * n), no_blocks(n), no_blocks(n), np.zeros((3 * n, 3 * n)), np.zeros(3 * n, bool), np.zeros(n), np.zeros(n), np.zeros(interfaces, POSE), np.zeros(interfaces), np.zeros(2))
+    return Stick(
+        np.zeros(9 * n * n),
+        no_blocks(n),
+        no_blocks(n),
+        np.zeros((3 * n, 3 * n)),
+        np.zeros(3 * n, bool),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(interfaces, POSE),
+        np.zeros(interfaces),
+        np.zeros(2),
+    )
 
 
 @njit
 def operator_of(stick, k):
     """Compliance (3 k, 3 k) of the k points that stand."""
-    return stick.W[:9 * k * k].reshape(3 * k, 3 * k)
+    return stick.W[: 9 * k * k].reshape(3 * k, 3 * k)
 
 
 @njit
 def same_points(angle, other):
-    """Whether the points of a rim are in the same places on it for two angles of its lowest one, nan while they are its nodes."""
+    """Whether the points of a rim are in the same places on it for two angles of its lowest one,
+    nan while they are its nodes.
+    """
     return angle == other or np.isnan(angle) and np.isnan(other)
 
 
@@ -69,30 +88,40 @@ def holds(stick, interfaces, rims, rigid, poses):
                 return False
         for a in range(3):
             for b in range(3):
-                if abs(now.turned[SLAVE, a, b] - then.turned[SLAVE, a, b]) > (PAD_TURN if on_pad else STICK_TURN):
+                if abs(now.turned[SLAVE, a, b] - then.turned[SLAVE, a, b]) > (
+                    PAD_TURN if on_pad else STICK_TURN
+                ):
                     return False
     return True
 
 
 @njit
 def is_worth(interface, pose, turn, way):
-    """Whether a foot in a pose (of POSE) that in one step turns by `turn` [rad] and goes by `way` [m] stays in its place long enough for finding the operator to pay."""
+    """Whether a foot in a pose (of POSE) that in one step turns by `turn` [rad] and goes by `way`
+    [m] stays in its place long enough for finding the operator to pay.
+    """
     if interface.on_pad:
         return turn < STICK_STAYS * PAD_TURN
     turned = pose.turned
     flat = np.hypot(turned[SLAVE, 2, 0], turned[SLAVE, 2, 1]) < STICK_TURN
-    return flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interface.width
+    return (
+        flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interface.width
+    )
 
 
 @njit
 def find_stick(stick, bodies, base, points, listed, springs, dynamic, rigid, rims, poses):
-    """Find the operator of feet of which all points, the listed ones (k,), stand; further arguments as of `compliance.assemble`."""
+    """Find the operator of feet of which all points, the listed ones (k,), stand; further arguments
+    as of `compliance.assemble`.
+    """
     k = len(listed)
     arms, static, W = np.empty((len(points), 3)), np.empty((3 * k, 3 * k)), operator_of(stick, k)
     for i in listed:
         for a in range(3):
             arms[i, a] = points[i].arm[a]
-    assemble(bodies, base, points, arms, listed, poses, 0.0, bodies.static, 1.0, springs.own, static)
+    assemble(
+        bodies, base, points, arms, listed, poses, 0.0, bodies.static, 1.0, springs.own, static
+    )
     assemble(bodies, base, points, arms, listed, poses, rigid, dynamic, 1.0, springs.own, W)
     for j in range(k):
         stick.rho[j] = stiffness_alone(W, j)
@@ -120,15 +149,29 @@ def _find_inverse(stick, row, count):
 
 @njit
 def solve_sticking(stick, points, listed, slack, active, after, tolerance, usable):
-    """Contact forces by semismooth Newton on the slips of the points that do not stick; as `newton.newton_step`.
+    """Contact forces by semismooth Newton on the slips of the points that do not stick; as
+    `newton.newton_step`.
 
-    Args:
-        listed: (k,) the points of the operator. slack: (n, 3) slips and gaps [m] under the forces of `after`, which are replaced where the residual is `usable`. active: (n,) mask; the
-            others are open.
+    Parameters
+    ----------
+    listed
+        (k,) the points of the operator.
+    slack
+        (n, 3) slips and gaps [m] under the forces of `after`, which are replaced where the residual
+        is `usable`.
+    active
+        (n,) mask; the others are open.
+
     Returns: residual of the laws [m], and Newton steps.
     """
     n, most, newton = len(listed), 15, 0
-    stuck, r, s, best, least = np.empty(3 * n), np.empty(3 * n), np.empty(3 * n), np.empty(3 * n), np.inf
+    stuck, r, s, best, least = (
+        np.empty(3 * n),
+        np.empty(3 * n),
+        np.empty(3 * n),
+        np.empty(3 * n),
+        np.inf,
+    )
     for i in range(n):
         for a in range(3):
             r[3 * i + a] = best[3 * i + a] = after[listed[i]].force[a]
@@ -136,7 +179,12 @@ def solve_sticking(stick, points, listed, slack, active, after, tolerance, usabl
     solve_factored(stick.factor, stuck)
     for j in range(3 * n):
         stuck[j] = r[j] - stuck[j]
-    unknown, point, opened, turn = np.empty(3 * n, np.int64), np.empty(3 * n, np.int64), np.empty(n, np.bool_), np.empty((n, 5))
+    unknown, point, opened, turn = (
+        np.empty(3 * n, np.int64),
+        np.empty(3 * n, np.int64),
+        np.empty(n, np.bool_),
+        np.empty((n, 5)),
+    )
     for newton in range(most):
         count = 0
         for i in range(n):
@@ -154,7 +202,11 @@ def solve_sticking(stick, points, listed, slack, active, after, tolerance, usabl
                 continue
             t0, t1 = t0 / length, t1 / length
             share = min(mu * max(r[3 * i + 2], 0.0) / length, 1.0)
-            turn[i, 0], turn[i, 1], turn[i, 2] = share * (1 - t0 * t0), -share * t0 * t1, share * (1 - t1 * t1)
+            turn[i, 0], turn[i, 1], turn[i, 2] = (
+                share * (1 - t0 * t0),
+                -share * t0 * t1,
+                share * (1 - t1 * t1),
+            )
             turn[i, 3], turn[i, 4] = mu * t0, mu * t1
             for a in range(2):
                 unknown[count], point[count] = 3 * i + a, i
@@ -177,7 +229,11 @@ def solve_sticking(stick, points, listed, slack, active, after, tolerance, usabl
             right[u] = -(1 - a) * stuck[row] + b * stuck[row + 1] + x * stuck[row + 2]
             right[u + 1] = b * stuck[row] - (1 - d) * stuck[row + 1] + y * stuck[row + 2]
             for v in range(count):
-                k0, k1, k2 = stick.inverse[row, unknown[v]], stick.inverse[row + 1, unknown[v]], stick.inverse[unknown[v], row + 2]
+                k0, k1, k2 = (
+                    stick.inverse[row, unknown[v]],
+                    stick.inverse[row + 1, unknown[v]],
+                    stick.inverse[unknown[v], row + 2],
+                )
                 matrix[u, v] = (1 - a) * k0 - b * k1 - x * k2
                 matrix[u + 1, v] = -b * k0 + (1 - d) * k1 - y * k2
             rho = stick.rho_all[i]
@@ -202,7 +258,19 @@ def solve_sticking(stick, points, listed, slack, active, after, tolerance, usabl
                 r[3 * i] = r[3 * i + 1] = r[3 * i + 2] = 0.0
                 if not active[listed[i]]:
                     continue
-            worst = max(worst, law_error(r[3 * i], r[3 * i + 1], r[3 * i + 2], s[3 * i], s[3 * i + 1], s[3 * i + 2], stick.rho[i], points[listed[i]].friction))
+            worst = max(
+                worst,
+                law_error(
+                    r[3 * i],
+                    r[3 * i + 1],
+                    r[3 * i + 2],
+                    s[3 * i],
+                    s[3 * i + 1],
+                    s[3 * i + 2],
+                    stick.rho[i],
+                    points[listed[i]].friction,
+                ),
+            )
         if worst < least:
             least = worst
             put(r, best)

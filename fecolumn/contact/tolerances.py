@@ -1,150 +1,206 @@
-"""Tolerances of contact and of the steps that use it: what each is measured by, what it means, and why it has this size.
+"""Tolerances of contact and of the steps that use it: what each is measured by, what it means, and
+why it has this size.
 
 Lengths are over the width of the foot, so that a larger structure gives the same answer.
 """
 
-# --- Contact problem of a step -------------------------------------------------------------------------------------------------------------
-#: Height over the base below which a point takes part in the contact problem. All that a point costs grows with it; one that is missed shows
-#: below the base and is taken in by the next iteration.
+# --- Contact problem of a step
+# -------------------------------------------------------------------------------------------------------------
+#: Height over the base below which a point takes part in the contact problem. All that a point
+#: costs grows with it; one that is missed shows below the base and is taken in by the next
+#: iteration.
 NEAR = 2e-5
-#: Height over the base up to which a point's static displacement is found: twice NEAR, so that a point is known before it takes part.
+#: Height over the base up to which a point's static displacement is found: twice NEAR, so that a
+#: point is known before it takes part.
 CLOSE = 4e-5
-#: Residual of the contact laws at which a step is solved: a thousandth of the elastic indentation of a standing steel column.
+#: Residual of the contact laws at which a step is solved: a thousandth of the elastic indentation
+#: of a standing steel column.
 SOLVED = 1e-11
-#: Force over the strongest one that a residual may stand for, where that is less: the same thousandth, which a stiff, light or short-stepped foot
-#: passes within a far shorter length.
+#: Force over the strongest one that a residual may stand for, where that is less: the same
+#: thousandth, which a stiff, light or short-stepped foot passes within a far shorter length.
 SHARE = 1e-3
-#: Residual that is always small enough: 400 times the rounding of a position, so that a column twenty times as high as wide reaches it.
+#: Residual that is always small enough: 400 times the rounding of a position, so that a column
+#: twenty times as high as wide reaches it.
 EXACT = 1e-13
-#: Residual to which a contact problem is solved, over that at which a step is: so that what the motion adds to it may be as large as it is.
+#: Residual to which a contact problem is solved, over that at which a step is: so that what the
+#: motion adds to it may be as large as it is.
 SHARP = 0.1
 #: Residual of a contact problem that may still be used to go on from; above it the step has failed.
 USABLE = 1e-9
 #: Depth to which points outside the contact problem may sink below the base: a tenth of USABLE.
 PENETRATION = 1e-10
-#: Points up to which compliance is taken node by node; of more, whole lines of the gathered compliance are beside each other in memory.
+#: Points up to which compliance is taken node by node; of more, whole lines of the gathered
+#: compliance are beside each other in memory.
 FEW_SIDES = 8
 #: Iterations of a step: Newton takes two to five, more where points come and go.
 ITERATIONS = 25
 
-# --- Friction solver: steps of Newton, then other ways; found by trial on 10^5 problems of rocking columns ------------------------------------
+# --- Friction solver: steps of Newton, then other ways; found by trial on 10^5 problems of rocking
+# columns ------------------------------------
 #: Newton steps from a good guess, and without a better residual, after which another way is tried.
 NEWTON_STEPS, NEWTON_STALLED = 25, 6
 #: The same from frictionless forces, from where Newton finds its way late rather than never.
 FAR_STEPS, FAR_STALLED = 60, 15
-#: Points above which those that carry are solved for alone; iterations of an interior point before Newton's first try, between two tries, and at most.
+#: Points above which those that carry are solved for alone; iterations of an interior point before
+#: Newton's first try, between two tries, and at most.
 FEW_POINTS, INSIDE_FIRST, INSIDE_TURN, INSIDE_MOST = 4, 8, 4, 60
-#: Compliance against a change of force in a Newton step from inside, over the softest point's own: forces that W leaves open stay, others converge by
-#: this over their own compliance in a step.
+#: Compliance against a change of force in a Newton step from inside, over the softest point's own:
+#: forces that W leaves open stay, others converge by this over their own compliance in a step.
 GIVE = 1e-9
-#: The same from a good guess, where Newton without it fails; growth of the residual in a step at which it has: slips that depend on one another make W singular, as the
-#: three at a node of two bodies beside each other on the ground, and forces without any bound then leave them as they are.
+#: The same from a good guess, where Newton without it fails; growth of the residual in a step at
+#: which it has: slips that depend on one another make W singular, as the three at a node of two
+#: bodies beside each other on the ground, and forces without any bound then leave them as they are.
 NEAR_GIVE, SINGULAR = 1e-7, 1e6
-#: The same of the proximal point, its Newton steps and those without a better residual: stiff bodies in many contacts, whose forces W hardly
-#: tells apart (1e-6), need some fifty.
+#: The same of the proximal point, its Newton steps and those without a better residual: stiff
+#: bodies in many contacts, whose forces W hardly tells apart (1e-6), need some fifty.
 HELD_GIVE, HELD_STEPS, HELD_STALLED = 1e-4, 200, 60
-#: The same with slips frozen from solution to solution: points at most, of more a shorter step costs less; solutions, of which one on 18 points needed 70; and iterations
-#: of the interior point for each, some 25 but where rounding rules.
+#: The same with slips frozen from solution to solution: points at most, of more a shorter step
+#: costs less; solutions, of which one on 18 points needed 70; and iterations of the interior point
+#: for each, some 25 but where rounding rules.
 FROZEN_POINTS, FROZEN_TURNS, FROZEN_INSIDE = 40, 200, 60
-#: Points taken in one by one at most, and times that each is let go again: problems of the soak which no other way had solved needed 7 to 46.
+#: Points taken in one by one at most, and times that each is let go again: problems of the soak
+#: which no other way had solved needed 7 to 46.
 ONE_BY_ONE, LET_GO = 60, 2
-#: Share of the way to the boundary of the cones in an interior iteration, that below which it gets no farther, and gap and residual, over the first ones, at which it is at
-#: its end: a point at the brink of slip has force and slip of the size of the gap's root, 1e-10 of the first.
+#: Share of the way to the boundary of the cones in an interior iteration, that below which it gets
+#: no farther, and gap and residual, over the first ones, at which it is at its end: a point at the
+#: brink of slip has force and slip of the size of the gap's root, 1e-10 of the first.
 INSIDE_WAY, INSIDE_JAMMED, INSIDE_END = 0.9, 1e-4, 1e-20
-#: Least share of the middle of the cones that an interior iteration aims at, and the length that rounds the kink of |s_t|, over the mean length that is left to
-#: go: a hundredth hardly moves the slip of any point that slides.
+#: Least share of the middle of the cones that an interior iteration aims at, and the length that
+#: rounds the kink of |s_t|, over the mean length that is left to go: a hundredth hardly moves the
+#: slip of any point that slides.
 INSIDE_CENTRED, INSIDE_SMOOTH = 1e-4, 0.01
 #: Sweeps of Gauss-Seidel: the first try, each next takes four times as many, and the largest.
 SWEEPS_FIRST, SWEEPS_MOST = 50, 800
 
-# --- Stick operator: how far a foot may move until its compliance is found anew -----------------------------------------------------------------
-#: Rotation [rad] and horizontal way, within which the compliance of a foot changes by 1e-4 of itself.
+# --- Stick operator: how far a foot may move until its compliance is found anew
+# -----------------------------------------------------------------
+#: Rotation [rad] and horizontal way, within which the compliance of a foot changes by 1e-4 of
+#: itself.
 STICK_TURN, STICK_WAY = 1e-4, 5e-5
 #: Rotation [rad] on a pad, whose springs are nearly all of the compliance and the same everywhere.
 PAD_TURN = 5e-3
-#: A foot that in one step moves by less than this share of the above will stay long enough for the operator to pay.
+#: A foot that in one step moves by less than this share of the above will stay long enough for the
+#: operator to pay.
 STICK_STAYS = 0.2
 
-# --- Bodies that do not deform ------------------------------------------------------------------------------------------------------------------
-#: Compliance of their contact points over the mobility of the body's points within a step, so that many points share forces in one way only. In the step of a landing it stores a quarter of
-#: this share of the kinetic energy that goes, whatever the step; below a body that weighs more it is more by the ratio of the masses.
+# --- Bodies that do not deform
+# ------------------------------------------------------------------------------------------------------------------
+#: Compliance of their contact points over the mobility of the body's points within a step, so that
+#: many points share forces in one way only. In the step of a landing it stores a quarter of this
+#: share of the kinetic energy that goes, whatever the step; below a body that weighs more it is
+#: more by the ratio of the masses.
 RIGID_GIVE = 1e-3
 
-# --- Impact and end of slip -----------------------------------------------------------------------------------------------------------------
-#: Height at the start of a step above which a point that touches at its end has landed: far above PENETRATION, far below any flight.
+# --- Impact and end of slip
+# -----------------------------------------------------------------------------------------------------------------
+#: Height at the start of a step above which a point that touches at its end has landed: far above
+#: PENETRATION, far below any flight.
 OPEN = 1e-8
-#: Way of a sticking point within which it keeps its anchor to the last digit, so that stick does not creep.
+#: Way of a sticking point within which it keeps its anchor to the last digit, so that stick does
+#: not creep.
 STUCK = 1e-10
-#: Way of a point in a step above which it slides as part of the body: ten times the elastic slip of a standing foot.
+#: Way of a point in a step above which it slides as part of the body: ten times the elastic slip of
+#: a standing foot.
 SLIDE = 1e-7
-#: Share by which a friction force may miss Coulomb's limit and still be sliding: rounding of the solver.
+#: Share by which a friction force may miss Coulomb's limit and still be sliding: rounding of the
+#: solver.
 FULL_FRICTION = 1e-9
-#: Residual velocity of an impact over the largest velocity of its points, and the least such velocity [m/s], below which nothing moves.
+#: Residual velocity of an impact over the largest velocity of its points, and the least such
+#: velocity [m/s], below which nothing moves.
 IMPACT_SOLVED, IMPACT_LEAST = 1e-8, 1e-3
-#: What a point gives against its impulse over its own mobility, in one solution of an impact after the other: without it a stiff foot's many impulses are not unique. What the first one
-#: leaves closing is up to 4e-2 of the approach below a heavy slab, 6e-4 at a column's foot; each further one leaves as little of that. It ends where a solution changes velocities by less
-#: than this share of the largest. Of 105 recorded impacts none then closes by more than 6e-4 of its approach.
+#: What a point gives against its impulse over its own mobility, in one solution of an impact after
+#: the other: without it a stiff foot's many impulses are not unique. What the first one leaves
+#: closing is up to 4e-2 of the approach below a heavy slab, 6e-4 at a column's foot; each further
+#: one leaves as little of that. It ends where a solution changes velocities by less than this share
+#: of the largest. Of 105 recorded impacts none then closes by more than 6e-4 of its approach.
 IMPACT_GIVES, IMPACT_LEFT = (1e-4, 1e-4, 1e-5, 1e-5, 1e-5), 1e-4
-#: Of the share of the rigid loss that impacts take: approach, over the largest before an impact, at which nothing approaches any more; how long an impact lasts, over the time until then, elastic
-#: faces giving back for longer than they store; and rigid loss of one that counts, over the least weight of a body and width of a foot: that of a column which rocks at a thousandth of its critical tilt.
+#: Of the share of the rigid loss that impacts take: approach, over the largest before an impact, at
+#: which nothing approaches any more; how long an impact lasts, over the time until then, elastic
+#: faces giving back for longer than they store; and rigid loss of one that counts, over the least
+#: weight of a body and width of a foot: that of a column which rocks at a thousandth of its
+#: critical tilt.
 APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS = 0.1, 4.0, 1e-5
 
-# --- Rolling rim ------------------------------------------------------------------------------------------------------------------------------
-#: Tilt [rad] below which the points stay where they are on the rim: circle and polygon are then less than a nanometre apart.
+# --- Rolling rim
+# ------------------------------------------------------------------------------------------------------------------------------
+#: Tilt [rad] below which the points stay where they are on the rim: circle and polygon are then
+#: less than a nanometre apart.
 FLAT = 1e-5
-#: Angle [rad] by which the lowest point may move along the rim in a step and still be the contact that rolls on.
+#: Angle [rad] by which the lowest point may move along the rim in a step and still be the contact
+#: that rolls on.
 ROLL = 0.8
-#: Angle [rad] by which it may run there in a step at the fastest rate in it; a step in which it would run farther is made in parts.
+#: Angle [rad] by which it may run there in a step at the fastest rate in it; a step in which it
+#: would run farther is made in parts.
 ROLL_STEP = 0.1
 #: Parts of a step at most, a power of two.
 PARTS = 64
 #: Points so many sectors before and behind the lowest one belong to the same contact.
 REACH = 2
-#: Work of contact, over weight and foot's width, above which a step, or a part of it, is made again with the rim's points at rest: the most energy that
-#: contact can make in it. A traction along the rim shifts the pressure to the side, where it pushes a foot on that rolls; most of it comes back. Ten times
-#: less, and a column that wobbles at a small tilt would lose a tenth of its energy in a few revolutions to points at rest.
+#: Work of contact, over weight and foot's width, above which a step, or a part of it, is made again
+#: with the rim's points at rest: the most energy that contact can make in it. A traction along the
+#: rim shifts the pressure to the side, where it pushes a foot on that rolls; most of it comes back.
+#: Ten times less, and a column that wobbles at a small tilt would lose a tenth of its energy in a
+#: few revolutions to points at rest.
 CREATED = 1e-6
-#: Nodes that count as a circle: so many at least, their distances from its centre and their sectors equal up to this share.
+#: Nodes that count as a circle: so many at least, their distances from its centre and their sectors
+#: equal up to this share.
 ROUND_NODES, ROUND = 12, 1e-6
 
-# --- Start from rest --------------------------------------------------------------------------------------------------------------------------
-#: Inertia of the iteration to equilibrium over the rate of falling, squared: it only holds what contact and friction leave free. The contact's
-#: compliance leaves out that a tilt moves the weight; the iteration that mends this contracts by the inverse.
+# --- Start from rest
+# --------------------------------------------------------------------------------------------------------------------------
+#: Inertia of the iteration to equilibrium over the rate of falling, squared: it only holds what
+#: contact and friction leave free. The contact's compliance leaves out that a tilt moves the
+#: weight; the iteration that mends this contracts by the inverse.
 FIRMNESS = 10.0
-#: Times that the inertia is made ten times as large where the iteration diverges. About the vertical it is a slender column's smallest, and horizontal forces on a wide
-#: flange, which the compliance keeps where they are, turn it further.
+#: Times that the inertia is made ten times as large where the iteration diverges. About the
+#: vertical it is a slender column's smallest, and horizontal forces on a wide flange, which the
+#: compliance keeps where they are, turn it further.
 FIRMER_TIMES = 2
-#: The same inertia over the square of the fastest frequency of the links: these answer the motion of an iteration at once, and it must not answer them as strongly.
+#: The same inertia over the square of the fastest frequency of the links: these answer the motion
+#: of an iteration at once, and it must not answer them as strongly.
 LINKS_FIRM = 4.0
-#: Displacement of an iteration, over the column's height, below which the column is at rest: ten thousand times the rounding of a position.
+#: Displacement of an iteration, over the column's height, below which the column is at rest: ten
+#: thousand times the rounding of a position.
 REST = 1e-11
-#: Iterations to equilibrium within which the displacement of one must fall to this share, else none is found: a slender column needs a pad
-#: whose stiffness against tilting is 1.6 times its weight times the height of its centre.
+#: Iterations to equilibrium within which the displacement of one must fall to this share, else none
+#: is found: a slender column needs a pad whose stiffness against tilting is 1.6 times its weight
+#: times the height of its centre.
 REST_ITERATIONS, REST_PROGRESS = 50, 0.5
 #: Iterations after which points keep the slides that they have made. Until then friction is that of
-#: a point's whole way, whatever the iterations did. Where all points of a joint slide, as of a light
-#: stone that a heavy one spreads below it, friction of 1.5 makes that balance unstable and the body
-#: goes to and fro; with slides kept, what goes back sticks. Most structures are at rest after four.
+#: a point's whole way, whatever the iterations did. Where all points of a joint slide, as of a
+#: light stone that a heavy one spreads below it, friction of 1.5 makes that balance unstable and
+#: the body goes to and fro; with slides kept, what goes back sticks. Most structures are at rest
+#: after four.
 SLIDES_KEPT = 20
 
-# --- Bodies that stand on moving ones -----------------------------------------------------------------------------------------------------------
-#: Way beyond the outline of a surface, over the width of the foot on it, within which a point still stands on it: feet as wide as what they stand on
-#: would else lose their outline to the first slip. On a base plate over the width of its last brick.
+# --- Bodies that stand on moving ones
+# -----------------------------------------------------------------------------------------------------------
+#: Way beyond the outline of a surface, over the width of the foot on it, within which a point still
+#: stands on it: feet as wide as what they stand on would else lose their outline to the first slip.
+#: On a base plate over the width of its last brick.
 EDGE = 2e-3
 
-# --- Joints with two sides, over the larger side of the slave's face ----------------------------------------------------------------------------
-#: Outlines closer than this are one: of two equal faces the points are nodes of the slave. Far below any slide, far above rounding.
+# --- Joints with two sides, over the larger side of the slave's face
+# ----------------------------------------------------------------------------
+#: Outlines closer than this are one: of two equal faces the points are nodes of the slave. Far
+#: below any slide, far above rounding.
 SAME_OUTLINE = 1e-9
-#: Way beyond an outline within which a point stays with the body it belongs to, though it is laid on the edge exactly: while a structure stands, elastic shear
-#: moves outlines over one another by a hundredth of it, and points would change bodies in each step.
+#: Way beyond an outline within which a point stays with the body it belongs to, though it is laid
+#: on the edge exactly: while a structure stands, elastic shear moves outlines over one another by a
+#: hundredth of it, and points would change bodies in each step.
 OUTLINE_BAND = 1e-4
-#: Way of a corner of the region within a step in which it is still the same one; two points nearer than the second stand for one, of which the corner stays.
+#: Way of a corner of the region within a step in which it is still the same one; two points nearer
+#: than the second stand for one, of which the corner stays.
 SAME_CORNER, SAME_POINT = 0.05, 1e-3
 
-# --- Geometry and overturning -----------------------------------------------------------------------------------------------------------------
-#: Nodes are at the same place up to this share of the foot's width or the body's size: rounding of a mesh file.
+# --- Geometry and overturning
+# -----------------------------------------------------------------------------------------------------------------
+#: Nodes are at the same place up to this share of the foot's width or the body's size: rounding of
+#: a mesh file.
 SAME_PLACE = 1e-9
-#: Share of the largest friction force below which an edge sticks: the force of one that slides meets it to 1e-6.
+#: Share of the largest friction force below which an edge sticks: the force of one that slides
+#: meets it to 1e-6.
 STICKS = 0.999
-#: Corners that stand for a round rim when overturning is judged; its radius comes out 1e-5 too small between them.
+#: Corners that stand for a round rim when overturning is judged; its radius comes out 1e-5 too
+#: small between them.
 ROUND_CORNERS = 720

@@ -1,10 +1,12 @@
-"""Contact points of joints with two sides: on the outline of the region where both faces overlap, at every moment.
+"""Contact points of joints with two sides: on the outline of the region where both faces overlap,
+at every moment.
 
-Within a step a point is a place of one body, as any contact point is. At the start of each step the points are laid
-anew on the corners and edges of the region (`contact.overlap`). Where an edge of the master bounds it, the points are
-places of the master that touch the face of the slave: they belong to the interface with the roles exchanged, so that
-the normal of contact is that of the face that slides over the edge. A point that moves, or that changes from one
-interface to the other, takes along its force and where it sticks (`contact.moved_points`).
+Within a step a point is a place of one body, as any contact point is. At the start of each step the
+points are laid anew on the corners and edges of the region (`contact.overlap`). Where an edge of
+the master bounds it, the points are places of the master that touch the face of the slave: they
+belong to the interface with the roles exchanged, so that the normal of contact is that of the face
+that slides over the edge. A point that moves, or that changes from one interface to the other,
+takes along its force and where it sticks (`contact.moved_points`).
 """
 
 from __future__ import annotations
@@ -12,7 +14,15 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.moved_points import begin_afresh, bring, carry_by_node, carry_by_outline, leave_out, move_inwards, on_face
+from fecolumn.contact.moved_points import (
+    begin_afresh,
+    bring,
+    carry_by_node,
+    carry_by_outline,
+    leave_out,
+    move_inwards,
+    on_face,
+)
 from fecolumn.contact.overlap import OTHER, OWN, beyond, find_corners, lies_within, map_between
 from fecolumn.contact.tolerances import FLAT, OUTLINE_BAND, SAME_CORNER, SAME_OUTLINE, SAME_POINT
 
@@ -22,12 +32,20 @@ NONE, FORWARD, REVERSE = range(3)
 
 @njit
 def mark_unused(overlaps, interfaces, frames, poses, rims):
-    """Mark the reverse interfaces that no point of needs, as the slave's face lies within the master's: `unused` in
-    rims (ni,) of RIM at the end of the step."""
+    """Mark the reverse interfaces that no point of needs, as the slave's face lies within the
+    master's: `unused` in rims (ni,) of RIM at the end of the step.
+    """
     slope, shift = np.empty((3, 2)), np.empty(3)
     for j in range(len(overlaps.joints)):
         joint = overlaps.joints[j]
-        map_between(interfaces[joint.forward], interfaces[joint.reverse], frames, poses[joint.forward], slope, shift)
+        map_between(
+            interfaces[joint.forward],
+            interfaces[joint.reverse],
+            frames,
+            poses[joint.forward],
+            slope,
+            shift,
+        )
         joint.within = lies_within(joint, overlaps.sides, slope, shift)
         unused = rims[joint.forward].plain and joint.within
         rims[joint.reverse].unused = unused
@@ -37,19 +55,32 @@ def mark_unused(overlaps, interfaces, frames, poses, rims):
 
 @njit
 def place_overlaps(overlaps, interfaces, rim, arms, frames, poses, contact, rims, points, before):
-    """Lay the points of all joints with two sides; whether other points take part than in the step before.
+    """Lay the points of all joints with two sides; whether other points take part than in the step
+    before.
 
-    Args:
-        rim: points on the circles of all interfaces. arms: (N, 3) of the nodes [m]. frames: (nb,) with the centres of
-            mass, poses: (ni,) of POSE and contact: (P,) of CONTACT at the start of the step. rims: (ni,) of RIM at its end.
-        points: (P,) of POINT and before: (P,) of CONTACT, changed; before has what `contact`, or a rim that rolled, brings.
+    Parameters
+    ----------
+    rim
+        points on the circles of all interfaces.
+    arms
+        (N, 3) of the nodes [m].
+    frames
+        (nb,) with the centres of mass, poses: (ni,) of POSE and contact: (P,) of CONTACT at the
+        start of the step.
+    rims
+        (ni,) of RIM at its end.
+    points
+        (P,) of POINT and before: (P,) of CONTACT, changed; before has what `contact`, or a rim that
+        rolled, brings.
     """
     changed = False
     for j in range(len(overlaps.joints)):
         joint = overlaps.joints[j]
         if rims[joint.reverse].unused and joint.plain:
             continue
-        changed |= _place(overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims, points, before)
+        changed |= _place(
+            overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims, points, before
+        )
         rims[joint.forward].placed = True
     return changed
 
@@ -64,7 +95,7 @@ def _place(overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims,
     map_between(interfaces[k], interfaces[r], frames, poses[k], slope, shift)
     map_between(interfaces[r], interfaces[k], frames, poses[r], back, back_shift)
     count = find_corners(joint, sides, slope, shift, back, back_shift, own, other, on)
-    slots, axes = overlaps.slots[joint.slot:joint.slot + joint.slots], interfaces[r].axes
+    slots, axes = overlaps.slots[joint.slot : joint.slot + joint.slots], interfaces[r].axes
     # where the slave's face inclines, in the plane of the master's
     turned, x_down, y_down = poses[k].turned[0], 0.0, 0.0
     for c in range(3):
@@ -76,7 +107,9 @@ def _place(overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims,
         at[s, 0] = slope[0, 0] * slots[s].place[0] + slope[0, 1] * slots[s].place[1] + shift[0]
         at[s, 1] = slope[1, 0] * slots[s].place[0] + slope[1, 1] * slots[s].place[1] + shift[1]
         out[s], nearest[s] = beyond(joint, sides, OTHER, at[s, 0], at[s, 1])
-    _choose_corners(slots, interfaces, k, r, out, at, contact, slope, shift, other[:count], size, chosen)
+    _choose_corners(
+        slots, interfaces, k, r, out, at, contact, slope, shift, other[:count], size, chosen
+    )
     changed, plain, lay = False, count == 0, not rims[k].placed
     own_place, other_place = np.empty(2), np.empty(2)
     for s in range(len(slots)):
@@ -85,27 +118,79 @@ def _place(overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims,
         if slot.reverse >= 0 and contact[slot.reverse].present:
             was = REVERSE
         role, own_side, other_side, v = NONE, slot.side, nearest[s], chosen[s]
-        if v < 0 and slot.free and was == NONE and points[slot.forward].idle and points[slot.reverse].idle:
+        if (
+            v < 0
+            and slot.free
+            and was == NONE
+            and points[slot.forward].idle
+            and points[slot.reverse].idle
+        ):
             continue
-        if v < 0 and was == FORWARD and out[s] <= SAME_OUTLINE * size and _stays(slot, points, before, arms) and (
-                slot.side < 0 or slot.corner or not _is_near(other[:count], at[s], SAME_POINT * size)):
+        if (
+            v < 0
+            and was == FORWARD
+            and out[s] <= SAME_OUTLINE * size
+            and _stays(slot, points, before, arms)
+            and (
+                slot.side < 0
+                or slot.corner
+                or not _is_near(other[:count], at[s], SAME_POINT * size)
+            )
+        ):
             continue
         if v >= 0:
             own_side, other_side = on[v, OWN], on[v, OTHER]
             for a in range(2):
                 own_place[a], other_place[a] = own[v, a], other[v, a]
             in_band = not slot.free and out[s] <= OUTLINE_BAND * size
-            role = was if in_band and was != NONE else FORWARD if in_band else _role_of_corner(
-                joint, sides, own_side, other_side, own_place, other_place, slope, x_down, y_down, was)
+            role = (
+                was
+                if in_band and was != NONE
+                else FORWARD
+                if in_band
+                else _role_of_corner(
+                    joint,
+                    sides,
+                    own_side,
+                    other_side,
+                    own_place,
+                    other_place,
+                    slope,
+                    x_down,
+                    y_down,
+                    was,
+                )
+            )
         elif not slot.free and not (slot.corner and out[s] > SAME_OUTLINE * size):
             for a in range(2):
                 own_place[a], other_place[a] = slot.place[a], at[s, a]
-            role = _role_of_node(joint, sides, slot, out[s], other_side, other_place, back, back_shift, own_place, was)
-            if role != NONE and slot.side >= 0 and not slot.corner and _is_near(other[:count], other_place, SAME_POINT * size):
+            role = _role_of_node(
+                joint,
+                sides,
+                slot,
+                out[s],
+                other_side,
+                other_place,
+                back,
+                back_shift,
+                own_place,
+                was,
+            )
+            if (
+                role != NONE
+                and slot.side >= 0
+                and not slot.corner
+                and _is_near(other[:count], other_place, SAME_POINT * size)
+            ):
                 role = NONE
         if role == REVERSE and slot.reverse < 0:
             role = NONE
-        plain &= role == FORWARD and own_place[0] == slot.place[0] and own_place[1] == slot.place[1] or slot.free
+        plain &= (
+            role == FORWARD
+            and own_place[0] == slot.place[0]
+            and own_place[1] == slot.place[1]
+            or slot.free
+        )
         if role != FORWARD:
             changed |= leave_out(slot.forward, points, before)
         if role != REVERSE and slot.reverse >= 0:
@@ -115,27 +200,86 @@ def _place(overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims,
         i, gone = (slot.forward, slot.reverse) if role == FORWARD else (slot.reverse, slot.forward)
         changed |= points[i].idle
         points[i].idle = False
-        if role == FORWARD and not slot.free and own_place[0] == slot.place[0] and own_place[1] == slot.place[1]:
+        if (
+            role == FORWARD
+            and not slot.free
+            and own_place[0] == slot.place[0]
+            and own_place[1] == slot.place[1]
+        ):
             carry_by_node(points[i], points[i].node, arms)
         elif role == FORWARD:
-            carry_by_outline(overlaps, joint, OWN, own_side, own_place, interfaces[k], interfaces[r], rim, points, i, arms)
+            carry_by_outline(
+                overlaps,
+                joint,
+                OWN,
+                own_side,
+                own_place,
+                interfaces[k],
+                interfaces[r],
+                rim,
+                points,
+                i,
+                arms,
+            )
         else:
-            carry_by_outline(overlaps, joint, OTHER, other_side, other_place, interfaces[r], interfaces[k], rim, points, i, arms)
+            carry_by_outline(
+                overlaps,
+                joint,
+                OTHER,
+                other_side,
+                other_place,
+                interfaces[r],
+                interfaces[k],
+                rim,
+                points,
+                i,
+                arms,
+            )
         bring(i, gone, interfaces, frames, poses, contact, points, before, size, lay)
     if joint.radius[OWN] > 0.0:
-        changed |= _place_rim(joint, sides, OTHER, k, interfaces, rim, slope, shift, poses[k].turned[0], arms, points, before,
-                              other[:count], lay)
+        changed |= _place_rim(
+            joint,
+            sides,
+            OTHER,
+            k,
+            interfaces,
+            rim,
+            slope,
+            shift,
+            poses[k].turned[0],
+            arms,
+            points,
+            before,
+            other[:count],
+            lay,
+        )
     if joint.radius[OTHER] > 0.0:
-        changed |= _place_rim(joint, sides, OWN, r, interfaces, rim, back, back_shift, poses[r].turned[0], arms, points, before,
-                              own[:count], lay)
+        changed |= _place_rim(
+            joint,
+            sides,
+            OWN,
+            r,
+            interfaces,
+            rim,
+            back,
+            back_shift,
+            poses[r].turned[0],
+            arms,
+            points,
+            before,
+            own[:count],
+            lay,
+        )
     joint.plain = rims[k].plain = plain and joint.within
     return changed
 
 
 @njit
 def _choose_corners(slots, interfaces, k, r, out, at, contact, slope, shift, other, size, chosen):
-    """Give each corner of the region, at `other` (n, 2) [m] on the master's face, the slot that was nearest to it in the
-    step before, or else that of the nearest corner of the slave's face, or a free one; chosen: (slots,) corner of each."""
+    """Give each corner of the region, at `other` (n, 2) [m] on the master's face, the slot that was
+    nearest to it in the step before, or else that of the nearest corner of the slave's face, or a
+    free one; chosen: (slots,) corner of each.
+    """
     taken = np.zeros(len(other), np.bool_)
     for s in range(len(slots)):
         if not (slots[s].free or slots[s].corner and out[s] > SAME_OUTLINE * size):
@@ -158,11 +302,17 @@ def _choose_corners(slots, interfaces, k, r, out, at, contact, slope, shift, oth
 
 @njit
 def _place_before(slot, interfaces, k, r, contact, slope, shift):
-    """Whether a slot took part in the step before, and the place x, y [m] on the master's face where it is now."""
+    """Whether a slot took part in the step before, and the place x, y [m] on the master's face
+    where it is now.
+    """
     i, j = slot.forward, slot.reverse
     if contact[i].present:
         x, y = on_face(contact[i].arm, interfaces[r])
-        return True, slope[0, 0] * x + slope[0, 1] * y + shift[0], slope[1, 0] * x + slope[1, 1] * y + shift[1]
+        return (
+            True,
+            slope[0, 0] * x + slope[0, 1] * y + shift[0],
+            slope[1, 0] * x + slope[1, 1] * y + shift[1],
+        )
     if j >= 0 and contact[j].present:
         x, y = on_face(contact[j].arm, interfaces[k])
         return True, x, y
@@ -182,9 +332,17 @@ def _nearest(places, taken, x, y, within):
 
 @njit
 def _stays(slot, points, before, arms):
-    """Whether a slot is a node of the slave that takes part where it is and did so in the step before, so that it brings itself."""
+    """Whether a slot is a node of the slave that takes part where it is and did so in the step
+    before, so that it brings itself.
+    """
     i, j = slot.forward, slot.reverse
-    if slot.free or points[i].count != 1 or points[i].idle or j >= 0 and not (points[j].idle and not before[j].located):
+    if (
+        slot.free
+        or points[i].count != 1
+        or points[i].idle
+        or j >= 0
+        and not (points[j].idle and not before[j].located)
+    ):
         return False
     for a in range(3):
         if not before[i].arm[a] == points[i].arm[a] == arms[points[i].node, a]:
@@ -203,15 +361,21 @@ def _is_near(places, place, within):
 
 
 @njit
-def _role_of_corner(joint, sides, own_side, other_side, own_place, other_place, slope, x_down, y_down, was):
-    """Whether a corner of the region is a point of the slave or of the master: of the body over whose edge the slave leans."""
+def _role_of_corner(
+    joint, sides, own_side, other_side, own_place, other_place, slope, x_down, y_down, was
+):
+    """Whether a corner of the region is a point of the slave or of the master: of the body over
+    whose edge the slave leans.
+    """
     if beyond(joint, sides, OWN, own_place[0], own_place[1])[0] < -OUTLINE_BAND * joint.size:
         return REVERSE
     tilt = np.hypot(x_down, y_down)
     if tilt < FLAT:
         return was if was != NONE else FORWARD
     u, v = _normal(joint, sides, OWN, own_side, own_place)
-    over_own = x_down * (slope[0, 0] * u + slope[0, 1] * v) + y_down * (slope[1, 0] * u + slope[1, 1] * v)
+    over_own = x_down * (slope[0, 0] * u + slope[0, 1] * v) + y_down * (
+        slope[1, 0] * u + slope[1, 1] * v
+    )
     u, v = _normal(joint, sides, OTHER, other_side, other_place)
     over_other = x_down * u + y_down * v
     if abs(over_own - over_other) < 1e-3 * tilt and was != NONE:
@@ -231,8 +395,10 @@ def _normal(joint, sides, which, side, place):
 
 @njit
 def _role_of_node(joint, sides, slot, out, side, place, back, back_shift, own_place, was):
-    """Role of a node of the slave's face that is `out` [m] beyond the master's outline; one that is beyond it is moved to
-    the edge there, in `place` on the master's face and `own_place` on the slave's."""
+    """Role of a node of the slave's face that is `out` [m] beyond the master's outline; one that is
+    beyond it is moved to the edge there, in `place` on the master's face and `own_place` on the
+    slave's.
+    """
     band = OUTLINE_BAND * joint.size
     if slot.side < 0:
         return FORWARD if out <= band else NONE
@@ -243,7 +409,9 @@ def _role_of_node(joint, sides, slot, out, side, place, back, back_shift, own_pl
     if side >= 0:
         for a in range(2):
             place[a] -= out * sides[side].normal[a]
-        way = (place[0] - sides[side].start[0]) * sides[side].along[0] + (place[1] - sides[side].start[1]) * sides[side].along[1]
+        way = (place[0] - sides[side].start[0]) * sides[side].along[0] + (
+            place[1] - sides[side].start[1]
+        ) * sides[side].along[1]
         if way < 0.0 or way > sides[side].length:
             return NONE
     else:
@@ -259,10 +427,32 @@ def _role_of_node(joint, sides, slot, out, side, place, back, back_shift, own_pl
 
 
 @njit
-def _place_rim(joint, sides, limit, k, interfaces, rim, slope, shift, turned, arms, points, before, corners, lay):
-    """Points of the round rim of interface k: those beyond the outline `limit` are moved to it if they are hardly beyond,
-    else they take no part; of the master's rim those take part that are within the slave's outline."""
-    interface, face, changed, way = interfaces[k], interfaces[joint.reverse if limit == OTHER else joint.forward], False, np.empty(3)
+def _place_rim(
+    joint,
+    sides,
+    limit,
+    k,
+    interfaces,
+    rim,
+    slope,
+    shift,
+    turned,
+    arms,
+    points,
+    before,
+    corners,
+    lay,
+):
+    """Points of the round rim of interface k: those beyond the outline `limit` are moved to it if
+    they are hardly beyond, else they take no part; of the master's rim those take part that are
+    within the slave's outline.
+    """
+    interface, face, changed, way = (
+        interfaces[k],
+        interfaces[joint.reverse if limit == OTHER else joint.forward],
+        False,
+        np.empty(3),
+    )
     place, band = np.empty(2), OUTLINE_BAND * joint.size
     for q in range(interface.rim_count):
         i = rim[interface.rim_first + q]

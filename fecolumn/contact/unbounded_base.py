@@ -7,19 +7,28 @@ import numpy as np
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.layer import layer_response
 
-# Rows of nodes around the foot of which the compliance is known from the start: a cell, and the foot's place within one
+# Rows of nodes around the foot of which the compliance is known from the start: a cell, and the
+# foot's place within one
 ROWS = 3
 
 
 class UnboundedBase:
     """Static compliance of a layer's top, the same wherever the column goes.
 
-    It answers as `contact.base_plate.BasePlate` does. Its nodes are those of a window that follows the foot by whole bricks: all
-    bricks are equal, so that the window may move at any time and nothing changes.
+    It answers as `contact.base_plate.BasePlate` does. Its nodes are those of a window that follows
+    the foot by whole bricks: all bricks are equal, so that the window may move at any time and
+    nothing changes.
 
-    Args:
-        size: of a brick in plan [m]. response: of `layer_response`. reference: (n, 3) the foot's nodes [m].
-        frequency: lowest of the layer [Hz].
+    Parameters
+    ----------
+    size
+        of a brick in plan [m].
+    response
+        of `layer_response`.
+    reference
+        (n, 3) the foot's nodes [m].
+    frequency
+        lowest of the layer [Hz].
     """
 
     body, dofs, made_s, made_cpu_s = None, 0, 0.0, 0.0
@@ -31,7 +40,9 @@ class UnboundedBase:
         self.known = np.zeros(0, np.int64)
         distance = np.linalg.norm(reference[:, :2] - reference[:, :2].mean(axis=0), axis=1)
         away, reach = np.linalg.norm(self.grid.points[:, :2], axis=1), ROWS * size
-        self.need(np.flatnonzero((away <= distance.max() + reach) & (away >= distance.min() - reach)))
+        self.need(
+            np.flatnonzero((away <= distance.max() + reach) & (away >= distance.min() - reach))
+        )
 
     def need(self, wanted: np.ndarray) -> None:
         """Make sure that the compliance holds the nodes `wanted` of the window."""
@@ -43,7 +54,9 @@ class UnboundedBase:
         lines, middle = len(self.grid.y), len(self.response) // 2
         i, j = np.divmod(self.known, lines)
         #: Blocks (k, k, 3, 3) [m/N] of the known nodes.
-        self.compliance = np.ascontiguousarray(self.response[middle + i[:, None] - i, middle + j[:, None] - j])
+        self.compliance = np.ascontiguousarray(
+            self.response[middle + i[:, None] - i, middle + j[:, None] - j]
+        )
 
 
 class MovingTop(BaseTop):
@@ -68,14 +81,26 @@ class MovingTop(BaseTop):
 
 def window(size: float, reference: np.ndarray) -> int:
     """Squares to each side of the foot's middle that hold the foot (n, 3) however it is turned."""
-    return int(np.ceil(np.linalg.norm(reference[:, :2] - reference[:, :2].mean(axis=0), axis=1).max() / size)) + ROWS
+    return (
+        int(
+            np.ceil(
+                np.linalg.norm(reference[:, :2] - reference[:, :2].mean(axis=0), axis=1).max()
+                / size
+            )
+        )
+        + ROWS
+    )
 
 
-def unbounded_base(size: float, depths: np.ndarray, material, reference: np.ndarray) -> UnboundedBase:
+def unbounded_base(
+    size: float, depths: np.ndarray, material, reference: np.ndarray
+) -> UnboundedBase:
     """The base of bricks `size` x `size` in plan with levels `depths` (n,) [m], falling from 0.
 
-    Raises:
-        ValueError: too thick for its bricks; see `layer_response`.
+    Raises
+    ------
+    ValueError
+        too thick for its bricks; see `layer_response`.
     """
     response = layer_response(size, depths, material, 2 * window(size, reference))
     return UnboundedBase(size, response, reference, shear_frequency(material, -depths[-1]))

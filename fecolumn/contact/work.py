@@ -11,11 +11,13 @@ from fecolumn.contact.tolerances import STUCK
 
 @njit
 def book_impulses(gained, own, contact, other):
-    """The terms of a step [J] after its impulses were replaced by others that gain `gained` [J] of kinetic energy: own, contact, other.
+    """The terms of a step [J] after its impulses were replaced by others that gain `gained` [J] of
+    kinetic energy: own, contact, other.
 
-    own: of what happened, impact or friction; contact, other: what contact and the other of the two did before. What the impulses give back was taken by those in whose
-    place they are, first by their own term, then by contact, then by the other one: neither impact nor friction ever shows as a gain. So what contact had made is the
-    first that they take.
+    own: of what happened, impact or friction; contact, other: what contact and the other of the two
+    did before. What the impulses give back was taken by those in whose place they are, first by
+    their own term, then by contact, then by the other one: neither impact nor friction ever shows
+    as a gain. So what contact had made is the first that they take.
     """
     made = min(max(contact, 0.0), max(-gained, 0.0))
     own, contact = own + gained + made, contact - made
@@ -27,25 +29,46 @@ def book_impulses(gained, own, contact, other):
 
 @njit
 def move_anchors(points, interfaces, springs, listed, before, after):
-    """Where the listed points (k,) stick from now on: a slipping spring of contact law or pad keeps its elastic part."""
+    """Where the listed points (k,) stick from now on: a slipping spring of contact law or pad keeps
+    its elastic part.
+    """
     for i in listed:
-        x = after[i].relative[0] + springs.own[i, 0] * after[i].force[0] + springs.kept * before[i].indentation[0]
-        y = after[i].relative[1] + springs.own[i, 1] * after[i].force[1] + springs.kept * before[i].indentation[1]
-        stuck = after[i].force[2] > 0 and np.hypot(x - before[i].anchor[0], y - before[i].anchor[1]) <= STUCK * interfaces[points[i].interface].width
+        x = (
+            after[i].relative[0]
+            + springs.own[i, 0] * after[i].force[0]
+            + springs.kept * before[i].indentation[0]
+        )
+        y = (
+            after[i].relative[1]
+            + springs.own[i, 1] * after[i].force[1]
+            + springs.kept * before[i].indentation[1]
+        )
+        stuck = (
+            after[i].force[2] > 0
+            and np.hypot(x - before[i].anchor[0], y - before[i].anchor[1])
+            <= STUCK * interfaces[points[i].interface].width
+        )
         after[i].anchor[0] = before[i].anchor[0] if stuck else x
         after[i].anchor[1] = before[i].anchor[1] if stuck else y
 
 
 @njit
 def losses(points, interfaces, springs, listed, before, after, contact):
-    """Energy [J] that friction and landings of the listed points (k,) add in a step, both below 0, and that the dashpots of a pad take; contact: that all of contact adds."""
+    """Energy [J] that friction and landings of the listed points (k,) add in a step, both below 0,
+    and that the dashpots of a pad take; contact: that all of contact adds.
+    """
     friction, landed, on_pad = 0.0, 0.0, interfaces[0].on_pad
     for i in listed:
         if after[i].force[2] > 0:
-            friction += after[i].force[0] * (after[i].anchor[0] - before[i].anchor[0]) + after[i].force[1] * (after[i].anchor[1] - before[i].anchor[1])
+            friction += after[i].force[0] * (after[i].anchor[0] - before[i].anchor[0]) + after[
+                i
+            ].force[1] * (after[i].anchor[1] - before[i].anchor[1])
             if before[i].force[2] <= 0 and not on_pad:
                 # a point of a rim that rolls may be pushed out: no landing
-                landed += min(after[i].force[2] * (after[i].relative[2] - before[i].relative[2]), 0.0)
-    # the gap of a point that goes along a rim or an outline is not the way of a body alone: landings take no more than contact does beside friction
+                landed += min(
+                    after[i].force[2] * (after[i].relative[2] - before[i].relative[2]), 0.0
+                )
+    # the gap of a point that goes along a rim or an outline is not the way of a body alone:
+    # landings take no more than contact does beside friction
     landed = max(landed, min(contact - friction, 0.0))
     return friction, landed, dashpot_work(points, springs, before, after) if on_pad else 0.0

@@ -12,9 +12,11 @@ from fecolumn.fem.rotation import out_of_frames
 
 
 class FullAnalysis(Analysis):
-    """A running analysis of the full-order engine, of a column on its base; of many bodies what `structures.full` makes of it.
+    """A running analysis of the full-order engine, of a column on its base; of many bodies what
+    `structures.full` makes of it.
 
-    Attributes beside those of Analysis: system, state, ledger, stepper: of `dynamics`. observer: measures states and says when all is lost.
+    Attributes beside those of Analysis: system, state, ledger, stepper: of `dynamics`. observer:
+    measures states and says when all is lost.
     """
 
     def __init__(self, case, folder, comm, file, quiet):
@@ -29,8 +31,15 @@ class FullAnalysis(Analysis):
         self.began += time.perf_counter() - began  # what is compiled is so for all analyses
         self.warn_of_base(self.system.base.frequency, self.system.interface.pad, file)
         self.ledger = Ledger(self.system)
-        self.stepper = Stepper(self.system, self.ledger, case.contact.impact, plan.tolerance,
-                               plan.max_iterations, plan.max_cuts, plan.substeps)
+        self.stepper = Stepper(
+            self.system,
+            self.ledger,
+            case.contact.impact,
+            plan.tolerance,
+            plan.max_iterations,
+            plan.max_cuts,
+            plan.substeps,
+        )
         self.stance, self.top_arm = self.observer.stance, self.observer.top_arm
         self.fields, self.rest = self._fields() if self.field_steps else None, None
         if self.went_on(self._take):
@@ -73,7 +82,10 @@ class FullAnalysis(Analysis):
 
     def foot(self) -> tuple[np.ndarray, np.ndarray]:
         """Places (n, 3) [m] of what stands on the base, and velocities (n, 3) [m/s]."""
-        return tuple(self.system.column.gather(self.system.foot_nodes, values) for values in (self.state.x, self.state.v))
+        return tuple(
+            self.system.column.gather(self.system.foot_nodes, values)
+            for values in (self.state.x, self.state.v)
+        )
 
     def _standing(self):
         """Gravity equilibrium, its energy noted; None of what is released leaning and cannot stand."""
@@ -95,7 +107,10 @@ class FullAnalysis(Analysis):
 
         state, extra = read_state(arrays, self.system)
         start = float(extra["start"])
-        work, record = dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True)), Record(*extra["record"].tolist())
+        work, record = (
+            dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True)),
+            Record(*extra["record"].tolist()),
+        )
         points, kept = self.system.interface.points, extra["points"]
         if kept.shape != points.shape or not np.can_cast(kept.dtype, points.dtype, "equiv"):
             raise ValueError("points do not fit")
@@ -103,7 +118,12 @@ class FullAnalysis(Analysis):
         self.system.interface.stay.take(extra)
         points[...] = kept
         self.system.interface.list_present()
-        self.state, self.ledger.start, self.ledger.work, self.stepper.record = state, start, work, record
+        self.state, self.ledger.start, self.ledger.work, self.stepper.record = (
+            state,
+            start,
+            work,
+            record,
+        )
 
     def _fields(self):
         from fecolumn.post.fields import FieldWriter
@@ -116,19 +136,37 @@ class FullAnalysis(Analysis):
         system, state = self.system, self.state
         interface, R, rows = system.interface, state.rotation, system.column.rows
         self.rest = self.rest or StaticRest(system)
-        at_nodes, local = interface.at_nodes(state.forces, R), system.kinematics.local_displacement(state.x)
+        at_nodes, local = (
+            interface.at_nodes(state.forces, R),
+            system.kinematics.local_displacement(state.x),
+        )
         rest = self.rest.displacement(at_nodes, R)
-        sunk = interface.positions(state.x, R, interface.poses(state.x, R)) if system.base.body else None
-        self.fields.write(state.time, state.x + out_of_frames(rest, R, rows), local + rest, sunk, state.forces, at_nodes)
+        sunk = (
+            interface.positions(state.x, R, interface.poses(state.x, R))
+            if system.base.body
+            else None
+        )
+        self.fields.write(
+            state.time,
+            state.x + out_of_frames(rest, R, rows),
+            local + rest,
+            sunk,
+            state.forces,
+            at_nodes,
+        )
 
     def run(self, stop) -> dict:
-        from fecolumn.dynamics.overturning import STANDS
         from fecolumn.dynamics.cuts import StepFailed
+        from fecolumn.dynamics.overturning import STANDS
         from fecolumn.progress import Progress
 
         cadence = self.case.output
-        progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet or self.comm.rank > 0,
-                            until_rest_from=self.motion_steps if self.until_rest else None)
+        progress = Progress(
+            self.steps,
+            self.case.integration.dt_s,
+            quiet=self.quiet or self.comm.rank > 0,
+            until_rest_from=self.motion_steps if self.until_rest else None,
+        )
         saved, fallen, over, off = time.perf_counter(), STANDS, False, None
         try:
             while self.step < self.steps and not over:
@@ -142,7 +180,9 @@ class FullAnalysis(Analysis):
                 progress.show(self.step, measures, self.stepper.record)
                 if self.fields and self.step % self.field_steps == 0:
                     self._write_fields()
-                due, ended = self._agree(time.perf_counter() - saved > cadence.checkpoint_every_s, stop())
+                due, ended = self._agree(
+                    time.perf_counter() - saved > cadence.checkpoint_every_s, stop()
+                )
                 if due or ended:
                     self._save()
                     saved = time.perf_counter()
@@ -152,11 +192,18 @@ class FullAnalysis(Analysis):
             off = self.slid_off(failure, self.system.base, *self.foot())
             if off is None:
                 self._save()
-                raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+                raise AnalysisFailed(
+                    f"{failure}; state saved in {self.folder / CHECKPOINT}"
+                ) from None
         finally:
             progress.end()
         dofs = 3 * self.system.column.n_nodes + self.system.base.dofs
-        return self.finish(off or self.ending(fallen, self.state.rotation), dofs, self.stepper.record, self.system.factorizations)
+        return self.finish(
+            off or self.ending(fallen, self.state.rotation),
+            dofs,
+            self.stepper.record,
+            self.system.factorizations,
+        )
 
     def _agree(self, due: bool, ended: bool) -> tuple[bool, bool]:
         """Checkpoint due, stop asked for: so for all ranks where it is so for one."""
@@ -173,8 +220,12 @@ class FullAnalysis(Analysis):
     def _save(self) -> None:
         from fecolumn.dynamics.checkpoint import write_checkpoint
 
-        extra = self.to_resume() | dict(start=self.ledger.start, work=list(self.ledger.work.values()),
-                                        record=dataclasses.astuple(self.stepper.record), points=self.system.interface.points)
+        extra = self.to_resume() | dict(
+            start=self.ledger.start,
+            work=list(self.ledger.work.values()),
+            record=dataclasses.astuple(self.stepper.record),
+            points=self.system.interface.points,
+        )
         extra |= self.system.interface.stay.to_keep(self.system.of_step().nodal)
         write_checkpoint(self.folder / CHECKPOINT, self.system, self.state, extra)
         self.write_history()

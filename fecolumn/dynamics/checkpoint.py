@@ -15,11 +15,22 @@ from fecolumn.dynamics.system import State
 from fecolumn.files import read_bytes
 
 _FIELDS = ("x", "v", "a", "contact_a", "internal", "surface_a")
-# arrays and fields with the angle of the rim's lowest point, nan while the foot touches with its nodes only
+# arrays and fields with the angle of the rim's lowest point, nan while the foot touches with its
+# nodes only
 _WITH_RIM = {"angle", "stick.key", "stick.angles", "extra.stick.angles"}
 # A file knows no records
 _RECORDS = {"contact": CONTACT, "rims": RIM, "ties": TIE}
-_SHARED = ("time", "strain", "rotation", "contact", "static", "ground", "rims", "ties", "surface_forces")
+_SHARED = (
+    "time",
+    "strain",
+    "rotation",
+    "contact",
+    "static",
+    "ground",
+    "rims",
+    "ties",
+    "surface_forces",
+)
 
 
 def node_order(body) -> np.ndarray:
@@ -42,9 +53,14 @@ def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
     known = [name for name in _FIELDS + _SHARED if getattr(state, name) is not None]
     arrays = {name: getattr(state, name) for name in _SHARED if name in known}
     for name in filter(known.__contains__, _FIELDS):
-        values = [gather_all(part, getattr(state, name)[rows]) for part, rows in zip(column.parts, column.rows)]
+        values = [
+            gather_all(part, getattr(state, name)[rows])
+            for part, rows in zip(column.parts, column.rows)
+        ]
         if column.comm.rank == 0:
-            arrays[name] = np.concatenate([one[orders[part]] for part, one in zip(column.parts, values)])
+            arrays[name] = np.concatenate(
+                [one[orders[part]] for part, one in zip(column.parts, values)]
+            )
     if column.comm.rank == 0:
         content = io.BytesIO()
         np.savez(content, **arrays, **{f"extra.{name}": value for name, value in extra.items()})
@@ -54,15 +70,25 @@ def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
 def read_arrays(path: Path) -> dict[str, np.ndarray]:
     """Arrays of a checkpoint by name.
 
-    Raises:
-        Exception: of the many kinds a damaged archive leads to.
+    Raises
+    ------
+    Exception
+        of the many kinds a damaged archive leads to.
     """
     with np.load(io.BytesIO(read_bytes(path))) as file:
         arrays = {name: file[name] for name in file.files}
     for name, values in arrays.items():
-        parts = {part: values[part] for part in values.dtype.names} if values.dtype.names else {name: values}
+        parts = (
+            {part: values[part] for part in values.dtype.names}
+            if values.dtype.names
+            else {name: values}
+        )
         for part, numbers in parts.items():
-            if numbers.dtype.kind == "f" and not np.isfinite(numbers).all() and part not in _WITH_RIM:
+            if (
+                numbers.dtype.kind == "f"
+                and not np.isfinite(numbers).all()
+                and part not in _WITH_RIM
+            ):
                 raise ValueError(f"{name} is not finite")
     return arrays
 
@@ -71,7 +97,11 @@ def read_state(arrays: dict[str, np.ndarray], system) -> tuple[State, dict]:
     """State on this rank and the `extra` arrays of a checkpoint of the full-order engine."""
     parts = system.column.parts
     orders = {part: node_order(part) for part in set(parts)}
-    values = {name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name] for name in _SHARED if name in arrays}
+    values = {
+        name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name]
+        for name in _SHARED
+        if name in arrays
+    }
     values |= {name: values[name].astype(kind) for name, kind in _RECORDS.items()}
     ends = np.cumsum([part.n_nodes for part in parts])
     for name in filter(arrays.__contains__, _FIELDS):
@@ -79,9 +109,11 @@ def read_state(arrays: dict[str, np.ndarray], system) -> tuple[State, dict]:
         for part, kept in zip(parts, np.split(arrays[name], ends[:-1]), strict=True):
             by_node = np.empty((part.n_nodes, *kept.shape[1:]))
             by_node[orders[part]] = kept
-            mine.append(by_node[part.first:part.first + part.n_owned])
+            mine.append(by_node[part.first : part.first + part.n_owned])
         values[name] = np.concatenate(mine)
-    return State(**values), {name[6:]: value for name, value in arrays.items() if name.startswith("extra.")}
+    return State(**values), {
+        name[6:]: value for name, value in arrays.items() if name.startswith("extra.")
+    }
 
 
 def read_checkpoint(path: Path, system) -> tuple[State, dict]:

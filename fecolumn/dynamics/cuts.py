@@ -1,4 +1,6 @@
-"""Steps that are not made at once: what is made in parts, and steps that fail and are tried again in halves."""
+"""Steps that are not made at once: what is made in parts, and steps that fail and are tried again
+in halves.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,8 @@ import enum
 
 from fecolumn.dynamics.hht import HHT
 
-#: Words of integration.substeps, for what a step is made in parts: a rim that rolls fast, a point that lands, nothing at all; their numbers in compiled code.
+#: Words of integration.substeps, for what a step is made in parts: a rim that rolls fast, a point
+#: that lands, nothing at all; their numbers in compiled code.
 SUBSTEPS = ("rolling", "impacts", "none")
 ROLLING, IMPACTS, LITERAL = range(3)
 
@@ -30,19 +33,36 @@ class StepFailed(RuntimeError):
         self.stop = stop
 
 
-def in_halves(take, state, before, after, hht: HHT, max_cuts: int, failure: StepFailed, count, cuts: int = 0):
-    """The state after a step that failed with `failure`, made in two halves, and these in halves where they fail, too.
+def in_halves(
+    take, state, before, after, hht: HHT, max_cuts: int, failure: StepFailed, count, cuts: int = 0
+):
+    """The state after a step that failed with `failure`, made in two halves, and these in halves
+    where they fail, too.
 
-    Args:
-        take: function (state, ground, hht) of the state one hht.dt later, or StepFailed. state: at the start of the step.
-        before, after: (3,) ground acceleration at the ends of the step [m/s2].
-        max_cuts: halvings allowed. count: called once for each.
+    Parameters
+    ----------
+    take
+        function (state, ground, hht) of the state one hht.dt later, or StepFailed.
+    state
+        at the start of the step.
+    before, after
+        (3,) ground acceleration at the ends of the step [m/s2].
+    max_cuts
+        halvings allowed.
+    count
+        called once for each.
 
-    Raises:
-        StepFailed: even with the smallest step; at once where the foot left the base or the part of a face that is known, which no smaller step mends.
+    Raises
+    ------
+    StepFailed
+        even with the smallest step; at once where the foot left the base or the part of a face that
+        is known, which no smaller step mends.
     """
     if cuts == max_cuts or failure.stop in (Stop.OFF_BASE, Stop.OFF_PATCH):
-        raise StepFailed(failure.stop, f"{failure} (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else str(failure))
+        raise StepFailed(
+            failure.stop,
+            f"{failure} (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else str(failure),
+        )
     count()
     half, middle = HHT(hht.dt / 2, hht.alpha), (before + after) / 2
     for first, last in ((before, middle), (middle, after)):

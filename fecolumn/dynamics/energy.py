@@ -5,19 +5,33 @@ from __future__ import annotations
 import numpy as np
 
 #: State terms, then accumulated terms, in the order they are written.
-TERMS = ("kinetic", "strain", "gravity", "base_work", "friction", "impact", "contact", "algorithmic", "damping", "rolling",
-         "links", "closure")
+TERMS = (
+    "kinetic",
+    "strain",
+    "gravity",
+    "base_work",
+    "friction",
+    "impact",
+    "contact",
+    "algorithmic",
+    "damping",
+    "rolling",
+    "links",
+    "closure",
+)
 
 
 class Ledger:
     """Energy in the table frame [J].
 
-    kinetic + strain + gravity = start + base_work + friction + impact + contact + algorithmic + damping + rolling + links + closure
+    kinetic + strain + gravity = start + base_work + friction + impact + contact + algorithmic +
+    damping + rolling + links + closure
 
-    base_work is the work of the base motion's inertia forces; friction, impact, contact, algorithmic (HHT), damping (of elastic
-    modes, and the dashpots of a pad), rolling (resistance of the rim) and links (their yielding, breaking and dashpots) are what these add, so a loss is
-    negative. Each is computed from forces and displacements of the step, independent of the state's energy; closure is what is left over, the error of solver
-    and bookkeeping.
+    base_work is the work of the base motion's inertia forces; friction, impact, contact,
+    algorithmic (HHT), damping (of elastic modes, and the dashpots of a pad), rolling (resistance of
+    the rim) and links (their yielding, breaking and dashpots) are what these add, so a loss is
+    negative. Each is computed from forces and displacements of the step, independent of the state's
+    energy; closure is what is left over, the error of solver and bookkeeping.
     """
 
     def __init__(self, system):
@@ -26,12 +40,16 @@ class Ledger:
         self.start: float | None = None
 
     def state_terms(self, state) -> dict[str, float]:
-        """Kinetic, strain and gravity energy now; gravity is relative to the reference configuration."""
+        """Kinetic, strain and gravity energy now; gravity is relative to the reference
+        configuration.
+        """
         system, column = self.system, self.system.column
         weight = system.load(np.zeros(3))
-        return dict(kinetic=0.5 * column.dot(state.v, column.momentum(state.v)),
-                    strain=state.strain + state.static,
-                    gravity=-column.dot(weight, state.x - column.placed))
+        return dict(
+            kinetic=0.5 * column.dot(state.v, column.momentum(state.v)),
+            strain=state.strain + state.static,
+            gravity=-column.dot(weight, state.x - column.placed),
+        )
 
     def open(self, state) -> None:
         """Take the energy now as the start."""

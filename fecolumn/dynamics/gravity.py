@@ -1,4 +1,6 @@
-"""State at t = 0: gravity equilibrium of the standing column, or a rigid tilt; at rest, or with a velocity and a spin."""
+"""State at t = 0: gravity equilibrium of the standing column, or a rigid tilt; at rest, or with a
+velocity and a spin.
+"""
 
 from __future__ import annotations
 
@@ -15,27 +17,36 @@ from fecolumn.fem.rotation import rotation_matrix
 
 
 class NoEquilibrium(RuntimeError):
-    """The column does not stand: its centre of mass is not over its foot, or contact does not converge."""
+    """The column does not stand: its centre of mass is not over its foot, or contact does not
+    converge.
+    """
 
 
 def pseudo_inertia(weight: float, depth: float, inertia: np.ndarray) -> float:
-    """Inertia factor [1/s2] of the proximal steps of a column of `weight` [N] with its centre of mass `depth` [m] above its foot.
+    """Inertia factor [1/s2] of the proximal steps of a column of `weight` [N] with its centre of
+    mass `depth` [m] above its foot.
 
-    Args:
-        inertia: (3, 3) about the centre of mass [kg m2].
+    Parameters
+    ----------
+    inertia
+        (3, 3) about the centre of mass [kg m2].
     """
     return FIRMNESS * weight * depth / float(np.linalg.eigvalsh(inertia[:2, :2])[0])
 
 
 def iterate_to_rest(proximal_step, height: float) -> None:
-    """Make proximal steps until one moves the structure by less than the rounding of its `height` [m] allows to tell; a step returns by how much it moved.
+    """Make proximal steps until one moves the structure by less than the rounding of its `height`
+    [m] allows to tell; a step returns by how much it moved.
 
-    Backward-Euler steps without velocity: each is a proximal-point iteration on the energy with contact and contracts
-    by the ratio of inertia to stiffness, about 1e-4, so that a handful reaches rounding. On a pad that tilts under a small moment it is
-    nearer to 1, and many are needed.
+    Backward-Euler steps without velocity: each is a proximal-point iteration on the energy with
+    contact and contracts by the ratio of inertia to stiffness, about 1e-4, so that a handful
+    reaches rounding. On a pad that tilts under a small moment it is nearer to 1, and many are
+    needed.
 
-    Raises:
-        NoEquilibrium: it does not come to rest, or all too slowly: its pad hardly holds it upright.
+    Raises
+    ------
+    NoEquilibrium
+        it does not come to rest, or all too slowly: its pad hardly holds it upright.
     """
     moved, steps, yardstick = np.inf, 0, np.inf
     while True:
@@ -46,40 +57,86 @@ def iterate_to_rest(proximal_step, height: float) -> None:
             if not moved < REST_PROGRESS * yardstick:
                 break
             yardstick = moved
-    raise NoEquilibrium(f"gravity equilibrium: still moving by {moved:.2e} m after {steps} iterations")
+    raise NoEquilibrium(
+        f"gravity equilibrium: still moving by {moved:.2e} m after {steps} iterations"
+    )
 
 
 def standing(system, tolerance: float = 1e-9) -> State:
     """Gravity equilibrium on the elastic base with friction.
 
-    Raises:
-        NoEquilibrium: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
+    Raises
+    ------
+    NoEquilibrium
+        no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
     column, interface, links = system.column, system.interface, system.links
     state = system.unstrained(column.placed)
     # a single column is drawn as it stands
-    firmness, height, turned = *_firmness_and_height(system), np.eye(3) if state.rotation.ndim == 2 else state.rotation
+    firmness, height, turned = (
+        *_firmness_and_height(system),
+        np.eye(3) if state.rotation.ndim == 2 else state.rotation,
+    )
     factors, load, pulls, straight = (firmness, 1.0), system.load(np.zeros(3)), None, 0.0
 
     def proximal_step():
         nonlocal state, pulls, straight
         before, rims = interface.lay(state)
-        stage = Stage(target=state.x, load=load, start=state.x, scale=1.0, before=before, dt=np.inf, rotation=turned,
-                      centers=column.centers(state.x) if links else None, ties=state.ties, turns=interface.foot.filtered)
+        stage = Stage(
+            target=state.x,
+            load=load,
+            start=state.x,
+            scale=1.0,
+            before=before,
+            dt=np.inf,
+            rotation=turned,
+            centers=column.centers(state.x) if links else None,
+            ties=state.ties,
+            turns=interface.foot.filtered,
+        )
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
         if outcome.stop is not Stop.CONVERGED:
-            raise NoEquilibrium(f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual {outcome.residual:.2e} of the weight)")
+            raise NoEquilibrium(
+                f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual "
+                f"{outcome.residual:.2e} of the weight)"
+            )
         moved = column.max(np.abs(outcome.x - state.x).max(initial=0.0))
         outcome.contact["anchor"] = before["anchor"]
-        state = replace(state, x=outcome.x, rims=rims, internal=outcome.internal, strain=outcome.strain, rotation=outcome.rotation, contact=outcome.contact, static=outcome.static)
-        straight = sum(stage.untwisting(system, state.x, state.internal, state.rotation, state.rotation, state.forces, interface.load(state.forces, state.rotation)))
+        state = replace(
+            state,
+            x=outcome.x,
+            rims=rims,
+            internal=outcome.internal,
+            strain=outcome.strain,
+            rotation=outcome.rotation,
+            contact=outcome.contact,
+            static=outcome.static,
+        )
+        straight = sum(
+            stage.untwisting(
+                system,
+                state.x,
+                state.internal,
+                state.rotation,
+                state.rotation,
+                state.forces,
+                interface.load(state.forces, state.rotation),
+            )
+        )
         if links:
-            pulls, state.ties = links.pulls(stage, state.x, state.rotation), links.ties(column.centers(state.x), state.rotation)
+            pulls, state.ties = (
+                links.pulls(stage, state.x, state.rotation),
+                links.ties(column.centers(state.x), state.rotation),
+            )
         return moved
 
     iterate_to_rest(proximal_step, height)
     system.forget(*factors)
-    push = interface.acceleration(state.forces, state.rotation) + straight if interface.foot.filtered else np.zeros_like(state.x)
+    push = (
+        interface.acceleration(state.forces, state.rotation) + straight
+        if interface.foot.filtered
+        else np.zeros_like(state.x)
+    )
     if links:
         push = push + links.acceleration(pulls, state.rotation)
         state.static += links.stored(state)
@@ -94,25 +151,38 @@ def _firmness_and_height(system) -> tuple[float, float]:
         return pseudo_inertia(system.weight, depth, rigid_fields(column)[2][3:, 3:]), 2 * depth
     depths = column.of_each(lambda part, _: np.ptp(part.all_X[:, 2]) / 2)
     inertias = column.of_each(lambda part, _: rigid_fields(part)[2][3:, 3:])
-    firmness = max(pseudo_inertia(system.weight, depth, inertia) for depth, inertia in zip(depths, inertias))
+    firmness = max(
+        pseudo_inertia(system.weight, depth, inertia) for depth, inertia in zip(depths, inertias)
+    )
     # links answer the motion of a step at once: the motion must not answer them as strongly
     return max(firmness, LINKS_FIRM * system.links.stiffest if system.links else 0.0), column.extent
 
 
-def leaning(foot, round_rim: bool, tilt: float, direction: float) -> tuple[np.ndarray, np.ndarray, float]:
-    """Rotation (3, 3) of a column that leans by `tilt` [rad] towards `direction` [rad], the point (3,) [m] of the foot's circle about
-    which it is turned, and the lift [m] that then puts its lowest point on the base; foot: (n, 3) nodes."""
+def leaning(
+    foot, round_rim: bool, tilt: float, direction: float
+) -> tuple[np.ndarray, np.ndarray, float]:
+    """Rotation (3, 3) of a column that leans by `tilt` [rad] towards `direction` [rad], the point
+    (3,) [m] of the foot's circle about which it is turned, and the lift [m] that then puts its
+    lowest point on the base; foot: (n, 3) nodes.
+    """
     turn = rotation_matrix(tilt * np.array([-np.sin(direction), np.cos(direction), 0.0]))
-    pivot = np.array([np.cos(direction), np.sin(direction), 0.0]) * np.linalg.norm(foot[:, :2], axis=1).max()
+    pivot = (
+        np.array([np.cos(direction), np.sin(direction), 0.0])
+        * np.linalg.norm(foot[:, :2], axis=1).max()
+    )
     # a round rim stands on the pivot itself, between nodes
     return turn, pivot, 0.0 if round_rim else -((foot - pivot) @ turn.T + pivot)[:, 2].min()
 
 
-def spun(foot, round_rim: bool, tilt: float, direction: float, spin) -> tuple[np.ndarray, np.ndarray]:
-    """Points (3,) [m] about which a column at t = 0 turns, by the horizontal and by the vertical part of its `spin` (3,) [rad/s].
+def spun(
+    foot, round_rim: bool, tilt: float, direction: float, spin
+) -> tuple[np.ndarray, np.ndarray]:
+    """Points (3,) [m] about which a column at t = 0 turns, by the horizontal and by the vertical
+    part of its `spin` (3,) [rad/s].
 
-    Both are the point of the foot (nodes (n, 3) [m]) on which a tilted column stands, so that it neither slips nor strikes. An upright one tips over
-    the point of its foot towards which the spin leans it, and spins about its axis.
+    Both are the point of the foot (nodes (n, 3) [m]) on which a tilted column stands, so that it
+    neither slips nor strikes. An upright one tips over the point of its foot towards which the spin
+    leans it, and spins about its axis.
     """
     upright = tilt == 0
     if upright:
@@ -126,23 +196,37 @@ def spun(foot, round_rim: bool, tilt: float, direction: float, spin) -> tuple[np
 
 
 def moving(foot, round_rim: bool, initial, x: np.ndarray) -> np.ndarray:
-    """Velocities (n, 3) [m/s] at positions x (n, 3) of a column that the [initial] section of a case sets moving; further arguments as of `spun`."""
+    """Velocities (n, 3) [m/s] at positions x (n, 3) of a column that the [initial] section of a
+    case sets moving; further arguments as of `spun`.
+    """
     spin = np.array(initial.spin_rad_s)
     tip, axis = spun(foot, round_rim, initial.tilt_rad, np.radians(initial.direction_deg), spin)
     level = spin * [1.0, 1.0, 0.0]
-    return np.asarray(initial.velocity_m_s) + np.cross(level, x - tip) + np.cross(spin - level, x - axis)
+    return (
+        np.asarray(initial.velocity_m_s)
+        + np.cross(level, x - tip)
+        + np.cross(spin - level, x - axis)
+    )
 
 
 def begin(system, initial) -> State:
     """The state that the [initial] section of a case describes."""
-    state = tilted(system, initial.tilt_rad, np.radians(initial.direction_deg)) if initial.tilt_rad else standing(system)
+    state = (
+        tilted(system, initial.tilt_rad, np.radians(initial.direction_deg))
+        if initial.tilt_rad
+        else standing(system)
+    )
     if initial.moves:
-        state.v = moving(system.interface.reference, system.interface.rim is not None, initial, state.x)
+        state.v = moving(
+            system.interface.reference, system.interface.rim is not None, initial, state.x
+        )
     return state
 
 
 def tilted(system, tilt: float, direction: float) -> State:
-    """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest point on the base."""
+    """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest
+    point on the base.
+    """
     column, interface = system.column, system.interface
     turn, pivot, lift = leaning(interface.reference, interface.rim is not None, tilt, direction)
     state = system.unstrained((column.X - pivot) @ turn.T + pivot + [0.0, 0.0, lift])

@@ -13,11 +13,15 @@ class HHT:
         x1 = x0 + dt v0 + dt^2 [(1/2 - beta) a0 + beta a1]
         v1 = v0 + dt [(1 - gamma) a0 + gamma a1]
 
-    Second order in dt, unconditionally stable, alpha = 0 is the trapezoidal rule. OpenSees calls 1 + alpha "alpha".
+    Second order in dt, unconditionally stable, alpha = 0 is the trapezoidal rule. OpenSees calls 1
+    + alpha "alpha".
 
-    Args:
-        dt: time step [s].
-        alpha: in [-1/3, 0].
+    Parameters
+    ----------
+    dt
+        time step [s].
+    alpha
+        in [-1/3, 0].
     """
 
     dt: float
@@ -25,7 +29,10 @@ class HHT:
 
     def __post_init__(self):
         if not -1 / 3 <= self.alpha <= 0:
-            raise ValueError(f"alpha_hht = {self.alpha}: must lie in [-1/3, 0] (OpenSees writes 1 + alpha = {1 + self.alpha})")
+            raise ValueError(
+                f"alpha_hht = {self.alpha}: must lie in [-1/3, 0] (OpenSees writes 1 + "
+                f"alpha = {1 + self.alpha})"
+            )
         if not self.dt > 0:
             raise ValueError(f"dt = {self.dt} s: must be greater than 0")
 

@@ -1,4 +1,6 @@
-"""Contact of full-order bodies with the base and with one another: what `contact` is given of them, and what it gives back."""
+"""Contact of full-order bodies with the base and with one another: what `contact` is given of them,
+and what it gives back.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn._compiled import compile_for, compiled, interpreted
-from fecolumn.contact.projection import base_for_steps, place_on_masters, project
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact
@@ -15,12 +16,25 @@ from fecolumn.contact.joints import Joints, left_faces
 from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
-from fecolumn.contact.problem import CONTACT_FAILED, FAR_BASE, ITERATIONS_SPENT, N_CONTACT, N_COUNTS, OFF_BASE, list_present, near_points, room, solve_linear, stored_energy
 from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, poses_on_base
+from fecolumn.contact.problem import (
+    CONTACT_FAILED,
+    FAR_BASE,
+    ITERATIONS_SPENT,
+    N_CONTACT,
+    N_COUNTS,
+    OFF_BASE,
+    list_present,
+    near_points,
+    room,
+    solve_linear,
+    stored_energy,
+)
+from fecolumn.contact.projection import base_for_steps, place_on_masters, project
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
-from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS
-from fecolumn.dynamics.cuts import Stop, StepFailed
+from fecolumn.contact.two_sided import mark_unused, place_overlaps
+from fecolumn.dynamics.cuts import StepFailed, Stop
 from fecolumn.dynamics.stay import Stay
 from fecolumn.fem.rotation import into_frames, out_of_frames
 
@@ -29,42 +43,70 @@ _STOPS = {CONTACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.CONTACT, OFF_BASE
 
 @dataclass(slots=True)
 class Nodal:
-    """Compliance of the surface nodes [m/N] in the frames of their bodies within a stage, as of `contact.bodies.Bodies`: `elastic` that of the factored matrix,
-    `dynamic` with the static part."""
+    """Compliance of the surface nodes [m/N] in the frames of their bodies within a stage, as of
+    `contact.bodies.Bodies`: `elastic` that of the factored matrix, `dynamic` with the static part.
+    """
 
     elastic: np.ndarray
     dynamic: np.ndarray
 
 
 class Interface:
-    """Contact points of bodies on the top of the base, in the table frame, and on one another, in the frames of their interfaces.
+    """Contact points of bodies on the top of the base, in the table frame, and on one another, in
+    the frames of their interfaces.
 
     The points are surface nodes, but for those of a round rim, which may have turned along it.
 
-    Args:
-        column: Body or Composite. foot: of `fem.composite.foot_of`: what the time integration shows of its surface nodes.
-        base: BasePlate, or what answers as it does.
-        joints: points, interfaces, rims and facets.
-        laws: of the single column of `reduced.model.structure_of`; none of a structure of bodies.
+    Parameters
+    ----------
+    column
+        Body or Composite.
+    foot
+        of `fem.composite.foot_of`: what the time integration shows of its surface nodes.
+    base
+        BasePlate, or what answers as it does.
+    joints
+        points, interfaces, rims and facets.
+    laws
+        of the single column of `reduced.model.structure_of`; none of a structure of bodies.
     """
 
     def __init__(self, column, foot, base, joints: Joints, laws: dict | None = None):
-        self.column, self.foot, self.base, self.joints, self.laws = column, foot, base, joints, laws or {}
+        self.column, self.foot, self.base, self.joints, self.laws = (
+            column,
+            foot,
+            base,
+            joints,
+            laws or {},
+        )
         self.rim, self.pad = self.laws.get("rim"), self.laws.get("pad")
-        #: (P,) of POINT; interfaces (ni,) of INTERFACE, the first of them the record of a single column.
+        #: (P,) of POINT; interfaces (ni,) of INTERFACE, the first of them the record of a single
+        #: column.
         self.points, self.interfaces = joints.points.copy(), joints.interfaces.copy()
         self.size, self.record = len(self.points), self.interfaces[0]
-        self.width, self.moving = float(self.record["width"]), bool((self.points["master"] != BASE).any())
+        self.width, self.moving = (
+            float(self.record["width"]),
+            bool((self.points["master"] != BASE).any()),
+        )
         several = isinstance(foot.static, list)
-        nodes, static, mobility = (getattr(foot, name, None) if several else [getattr(foot, name, None)] for name in ("nodes", "static", "mobility"))
+        nodes, static, mobility = (
+            getattr(foot, name, None) if several else [getattr(foot, name, None)]
+            for name in ("nodes", "static", "mobility")
+        )
         #: Reference positions (N, 3) of the surface nodes, each body as it is drawn [m].
         self.reference = np.concatenate([part.all_X[own] for part, own in zip(column.parts, nodes)])
         mobility = mobility if foot.filtered else [np.zeros_like(one) for one in static]
-        centers = np.repeat([part.center for part in column.parts], [len(own) for own in nodes], axis=0)
-        #: Arms of the surface nodes: from the centres of mass, of a single column from where it is drawn.
+        centers = np.repeat(
+            [part.center for part in column.parts], [len(own) for own in nodes], axis=0
+        )
+        #: Arms of the surface nodes: from the centres of mass, of a single column from where it is
+        #: drawn.
         self.arms = self.reference - centers if self.moving else self.reference
         rows = np.cumsum([0] + [len(own) for own in nodes])
-        parts = [one_body(self.arms[first:last], node_matrix(one), node_matrix(own)) for first, last, one, own in zip(rows, rows[1:], static, mobility)]
+        parts = [
+            one_body(self.arms[first:last], node_matrix(one), node_matrix(own))
+            for first, last, one, own in zip(rows, rows[1:], static, mobility)
+        ]
         #: As `contact.bodies` has them: their rigid motion is part of the nodal mobility.
         self.bodies = Bodies(*joined(parts)[:4], joints.facets)
         #: Rows of each body's surface nodes.
@@ -75,44 +117,118 @@ class Interface:
         self.stay = Stay(self.interfaces, self.size if self.moving else 0)
         #: Nodes and shares of the masters below the points at the start of the step.
         self._below, self._shares = self.points["below"].copy(), self.points["shares"].copy()
-        #: Arms (N, 3) of the surface nodes from the centres of mass, in the frames of their bodies, where they were found last.
+        #: Arms (N, 3) of the surface nodes from the centres of mass, in the frames of their bodies,
+        #: where they were found last.
         self._arms_now = self.reference - centers
         # Positions, and velocities, and the rotation that were filtered last, and what came of it
         self._filtered = self._filtered_velocity = None, None, None
 
     def prepare(self, say=lambda text: None) -> None:
-        """Have compiled what the steps call, so that the first landing costs what all cost; `say` is told why it takes long, if it does."""
+        """Have compiled what the steps call, so that the first landing costs what all cost; `say`
+        is told why it takes long, if it does.
+        """
         if not (compiled(solve_linear) and compiled(find_impact)):
             say("compiling the contact of the full-order engine, once on this machine: a minute")
-        before, values, mask = np.zeros(self.size, CONTACT), np.zeros((self.size, 3)), np.zeros(self.size, bool)
-        static, springs, poses = self.bodies.static, springs_of(self.points, self.record, 1.0), poses_on_base(np.eye(3)[None])
-        compile_for(solve_linear, (self._problem, self.bodies, self.surface, self.points, self.interfaces, springs, static, static, self.stay.stick, self.stay.rims,
-                                   poses, values, ITERATIONS, before, before, self.counts))
-        compile_for(find_impact, (self.bodies, self.surface, self.points, self.interfaces, springs, self.near, values, poses, before, before, values, values,
-                                  mask, mask, True, 1.0, 1.0, self.counts))
+        before, values, mask = (
+            np.zeros(self.size, CONTACT),
+            np.zeros((self.size, 3)),
+            np.zeros(self.size, bool),
+        )
+        static, springs, poses = (
+            self.bodies.static,
+            springs_of(self.points, self.record, 1.0),
+            poses_on_base(np.eye(3)[None]),
+        )
+        compile_for(
+            solve_linear,
+            (
+                self._problem,
+                self.bodies,
+                self.surface,
+                self.points,
+                self.interfaces,
+                springs,
+                static,
+                static,
+                self.stay.stick,
+                self.stay.rims,
+                poses,
+                values,
+                ITERATIONS,
+                before,
+                before,
+                self.counts,
+            ),
+        )
+        compile_for(
+            find_impact,
+            (
+                self.bodies,
+                self.surface,
+                self.points,
+                self.interfaces,
+                springs,
+                self.near,
+                values,
+                poses,
+                before,
+                before,
+                values,
+                values,
+                mask,
+                mask,
+                True,
+                1.0,
+                1.0,
+                self.counts,
+            ),
+        )
         if self.moving:
-            compile_for(find_poses, (self.interfaces, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses))
-            compile_for(place_on_masters, (self.bodies, self.interfaces, self.points, poses, values, True, values))
+            compile_for(
+                find_poses, (self.interfaces, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses)
+            )
+            compile_for(
+                place_on_masters,
+                (self.bodies, self.interfaces, self.points, poses, values, True, values),
+            )
 
     def at_points(self, values: np.ndarray) -> np.ndarray:
         """Values (P, ...) at the points from those at the nodes (N, ...) of their slaves."""
         return np.einsum("pq,pqa->pa", self.points["weights"], values[self.points["carriers"]])
 
-    def at_nodes(self, forces: np.ndarray, rotation: np.ndarray, within: bool = False) -> np.ndarray:
-        """Forces (N, 3) on the nodes, in the table frame, from those (P, 3) on the points: on slaves, and the opposite on moving masters.
+    def at_nodes(
+        self, forces: np.ndarray, rotation: np.ndarray, within: bool = False
+    ) -> np.ndarray:
+        """Forces (N, 3) on the nodes, in the table frame, from those (P, 3) on the points: on
+        slaves, and the opposite on moving masters.
 
-        Args:
-            rotation: of the bodies, with which the frames of the interfaces turn. within: whether the forces act throughout a step, in which the points may move
-                over the masters: they act where a point was at the start and where it is, half at each; else they act where it is.
+        Parameters
+        ----------
+        rotation
+            of the bodies, with which the frames of the interfaces turn.
+        within
+            whether the forces act throughout a step, in which the points may move over the masters:
+            they act where a point was at the start and where it is, half at each; else they act
+            where it is.
         """
         shared, loaded = np.zeros_like(self.reference), np.flatnonzero(forces.any(axis=1))
         pushes = forces[loaded]
         if self.moving:
-            pushes = np.einsum("pab,pb->pa", self._frames(rotation)[self.points["interface"][loaded]], pushes)
-        np.add.at(shared, self.points["carriers"][loaded], self.points["weights"][loaded, :, None] * pushes[:, None])
+            pushes = np.einsum(
+                "pab,pb->pa", self._frames(rotation)[self.points["interface"][loaded]], pushes
+            )
+        np.add.at(
+            shared,
+            self.points["carriers"][loaded],
+            self.points["weights"][loaded, :, None] * pushes[:, None],
+        )
         if self.moving:
             under = self.points["master"][loaded] != BASE
-            rows, pushes, ends = loaded[under], pushes[under], [(self.points["below"], self.points["shares"])]
+            rows, pushes, ends = (
+                loaded[under],
+                pushes[under],
+                [(self.points["below"], self.points["shares"])],
+            )
             if within:
                 ends.append((self._below, self._shares))
             for below, shares in ends:
@@ -121,8 +237,13 @@ class Interface:
 
     def _frames(self, rotation: np.ndarray) -> np.ndarray:
         """Axes (ni, 3, 3) of the interfaces in the table frame."""
-        frames, masters = np.tile(np.eye(3), (len(self.interfaces), 1, 1)), self.interfaces["master"]
-        frames[masters != BASE] = rotation[masters[masters != BASE]] @ self.interfaces["axes"][masters != BASE]
+        frames, masters = (
+            np.tile(np.eye(3), (len(self.interfaces), 1, 1)),
+            self.interfaces["master"],
+        )
+        frames[masters != BASE] = (
+            rotation[masters[masters != BASE]] @ self.interfaces["axes"][masters != BASE]
+        )
         return frames
 
     def poses(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
@@ -134,14 +255,22 @@ class Interface:
         return poses
 
     def node_positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Positions (N, 3) of the surface nodes from the bodies' positions x (n_owned, 3), without the static part."""
+        """Positions (N, 3) of the surface nodes from the bodies' positions x (n_owned, 3), without
+        the static part.
+        """
         return self._out_of_frames(self.reference + self._displacement(x, rotation), rotation)
 
     def _displacement(self, x, rotation) -> np.ndarray:
-        """Filtered displacement (N, 3) of the surface nodes in the frames of their bodies, from where these are drawn; of the same x once, as the filter of a large body is
-        the most of what a step reads."""
+        """Filtered displacement (N, 3) of the surface nodes in the frames of their bodies, from
+        where these are drawn; of the same x once, as the filter of a large body is the most of what
+        a step reads.
+        """
         if self._filtered[0] is not x or self._filtered[1] is not rotation:
-            self._filtered = x, rotation, self.foot.position(into_frames(x, rotation, self.column.rows) - self.column.X)
+            self._filtered = (
+                x,
+                rotation,
+                self.foot.position(into_frames(x, rotation, self.column.rows) - self.column.X),
+            )
         return self._filtered[2]
 
     def _into_frames(self, values, rotation):
@@ -156,104 +285,211 @@ class Interface:
         self._below, self._shares = self.points["below"].copy(), self.points["shares"].copy()
         return positions
 
-    def positions(self, x: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False) -> np.ndarray:
-        """Positions (P, 3) of the points, without the static part: in the table frame, or relative to the surface of the moving master in the frame of the interface.
+    def positions(
+        self, x: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False
+    ) -> np.ndarray:
+        """Positions (P, 3) of the points, without the static part: in the table frame, or relative
+        to the surface of the moving master in the frame of the interface.
 
-        starts: at the start of a step, for all of which it decides what points are beyond an outline.
+        starts: at the start of a step, for all of which it decides what points are beyond an
+        outline.
         """
         moved = self._displacement(x, rotation)
-        centers = self._into_frames(np.repeat(self.column.centers(x), self.bodies.body["count"], axis=0), rotation)
-        positions, self._arms_now = self.at_points(self._out_of_frames(self.reference + moved, rotation)), self.reference + moved - centers
+        centers = self._into_frames(
+            np.repeat(self.column.centers(x), self.bodies.body["count"], axis=0), rotation
+        )
+        positions, self._arms_now = (
+            self.at_points(self._out_of_frames(self.reference + moved, rotation)),
+            self.reference + moved - centers,
+        )
         if self.moving:
             # of the centre of mass, which the frames of the interfaces follow
             drawn = centers - (self.reference - self.arms)
-            place_on_masters(self.bodies, self.interfaces, self.points, poses, moved - drawn, starts, positions)
+            place_on_masters(
+                self.bodies, self.interfaces, self.points, poses, moved - drawn, starts, positions
+            )
         positions[:, 2] += self.points["lift"]
         return positions
 
     def levers(self) -> np.ndarray:
-        """Arms (P, 2, 3) [m] of the points from the centres of mass of slave and moving master, in their frames, where `positions` has found them last."""
+        """Arms (P, 2, 3) [m] of the points from the centres of mass of slave and moving master, in
+        their frames, where `positions` has found them last.
+        """
         return np.stack([self.at_points(self._arms_now), self.points["seat"]], axis=1)
 
     def moments(self, forces: np.ndarray, rotation: np.ndarray, levers: np.ndarray) -> np.ndarray:
-        """Moments (nb, 3) [N m] of forces (P, 3) at the points' `levers` about the centres of mass of bodies turned by `rotation`, in their frames."""
+        """Moments (nb, 3) [N m] of forces (P, 3) at the points' `levers` about the centres of mass
+        of bodies turned by `rotation`, in their frames.
+        """
         turned, loaded = rotation.reshape(-1, 3, 3), np.flatnonzero(forces.any(axis=1))
-        moments, pushes = np.zeros((len(turned), 3)), np.einsum("pab,pb->pa", self._frames(turned)[self.points["interface"][loaded]], forces[loaded])
+        moments, pushes = (
+            np.zeros((len(turned), 3)),
+            np.einsum(
+                "pab,pb->pa", self._frames(turned)[self.points["interface"][loaded]], forces[loaded]
+            ),
+        )
         for side, name, sign in ((SLAVE, "slave", 1.0), (MASTER, "master", -1.0)):
             of = np.flatnonzero(self.points[name][loaded] != BASE)
             bodies = self.points[name][loaded][of]
-            np.add.at(moments, bodies, sign * np.cross(levers[loaded[of], side], np.einsum("pa,pab->pb", pushes[of], turned[bodies])))
+            np.add.at(
+                moments,
+                bodies,
+                sign
+                * np.cross(
+                    levers[loaded[of], side], np.einsum("pa,pab->pb", pushes[of], turned[bodies])
+                ),
+            )
         return moments
 
-    def velocities(self, v: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False) -> np.ndarray:
-        """Velocities (P, 3) of the points from the bodies' velocities, relative to the master in the frame of the interface; starts: with the nodes that were below them
-        at the start of the step."""
+    def velocities(
+        self, v: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False
+    ) -> np.ndarray:
+        """Velocities (P, 3) of the points from the bodies' velocities, relative to the master in
+        the frame of the interface; starts: with the nodes that were below them at the start of the
+        step.
+        """
         if self._filtered_velocity[0] is not v or self._filtered_velocity[1] is not rotation:
             # those at the end of a step are those at the start of the next
-            self._filtered_velocity = v, rotation, self._out_of_frames(self.foot.position(into_frames(v, rotation, self.column.rows)), rotation)
-        return self._relative(self._filtered_velocity[2], poses, *((self._below, self._shares) if starts else (self.points["below"], self.points["shares"])))
+            self._filtered_velocity = (
+                v,
+                rotation,
+                self._out_of_frames(
+                    self.foot.position(into_frames(v, rotation, self.column.rows)), rotation
+                ),
+            )
+        return self._relative(
+            self._filtered_velocity[2],
+            poses,
+            *(
+                (self._below, self._shares)
+                if starts
+                else (self.points["below"], self.points["shares"])
+            ),
+        )
 
     def _relative(self, nodes, poses, below, shares) -> np.ndarray:
-        """Values (P, 3) at the points, relative to the nodes `below` in the frame of the interface, from those at the nodes (N, 3)."""
+        """Values (P, 3) at the points, relative to the nodes `below` in the frame of the interface,
+        from those at the nodes (N, 3).
+        """
         values = self.at_points(nodes)
         if self.moving:
             under = np.flatnonzero(self.points["master"] != BASE)
             relative = values[under] - np.einsum("pq,pqa->pa", shares[under], nodes[below[under]])
-            values[under] = np.einsum("pba,pb->pa", poses["frame"][self.points["interface"][under]], relative)
+            values[under] = np.einsum(
+                "pba,pb->pa", poses["frame"][self.points["interface"][under]], relative
+            )
         return values
 
     def load(self, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Nodal forces (n_owned, 3) of contact forces (P, 3) in a step on bodies turned by `rotation`."""
+        """Nodal forces (n_owned, 3) of contact forces (P, 3) in a step on bodies turned by
+        `rotation`.
+        """
         return self.answer(self.surface_forces(forces, rotation), rotation)[0]
 
-    def surface_forces(self, forces: np.ndarray, rotation: np.ndarray, within: bool = True) -> np.ndarray:
-        """Forces (N, 3) [N] on the surface nodes, in the frames of their bodies turned by `rotation`, of contact forces (P, 3); within: as of `at_nodes`."""
+    def surface_forces(
+        self, forces: np.ndarray, rotation: np.ndarray, within: bool = True
+    ) -> np.ndarray:
+        """Forces (N, 3) [N] on the surface nodes, in the frames of their bodies turned by
+        `rotation`, of contact forces (P, 3); within: as of `at_nodes`.
+        """
         return self._into_frames(self.at_nodes(forces, rotation, within), rotation)
 
-    def answer(self, surface_forces: np.ndarray, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-        """Nodal forces (n_owned, 3) [N] of `surface_forces` and their acceleration (n_owned, 3) [m/s2], of which they are the mass times; None where the foot has no filter."""
+    def answer(
+        self, surface_forces: np.ndarray, rotation: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray | None]:
+        """Nodal forces (n_owned, 3) [N] of `surface_forces` and their acceleration (n_owned, 3)
+        [m/s2], of which they are the mass times; None where the foot has no filter.
+        """
         if self.foot.filtered:
-            acceleration = out_of_frames(self.foot.acceleration(surface_forces), rotation, self.column.rows)
+            acceleration = out_of_frames(
+                self.foot.acceleration(surface_forces), rotation, self.column.rows
+            )
             return self.column.momentum(acceleration), acceleration
         return out_of_frames(self.foot.load(surface_forces), rotation, self.column.rows), None
 
-    def acceleration(self, forces: np.ndarray, rotation: np.ndarray, within: bool = True) -> np.ndarray:
-        """Accelerations (n_owned, 3) of contact forces in a step; within False: velocity jumps of contact impulses (P, 3) at its end."""
-        return out_of_frames(self.foot.acceleration(self.surface_forces(forces, rotation, within)), rotation, self.column.rows)
+    def acceleration(
+        self, forces: np.ndarray, rotation: np.ndarray, within: bool = True
+    ) -> np.ndarray:
+        """Accelerations (n_owned, 3) of contact forces in a step; within False: velocity jumps of
+        contact impulses (P, 3) at its end.
+        """
+        return out_of_frames(
+            self.foot.acceleration(self.surface_forces(forces, rotation, within)),
+            rotation,
+            self.column.rows,
+        )
 
-    def displacement(self, response, scale: float, surface_forces: np.ndarray, rotation: np.ndarray, frame: np.ndarray) -> np.ndarray:
-        """Displacement (n_owned, 3) [m] of `scale` times `surface_forces` on bodies turned by `rotation`; response: of `fem.composite.response_of`, found with the
-        bodies turned by `frame`."""
+    def displacement(
+        self,
+        response,
+        scale: float,
+        surface_forces: np.ndarray,
+        rotation: np.ndarray,
+        frame: np.ndarray,
+    ) -> np.ndarray:
+        """Displacement (n_owned, 3) [m] of `scale` times `surface_forces` on bodies turned by
+        `rotation`; response: of `fem.composite.response_of`, found with the bodies turned by
+        `frame`.
+        """
         along = rotation @ frame.swapaxes(-1, -2)
-        return out_of_frames(scale * response.displacement(self._out_of_frames(surface_forces, frame)), along, self.column.rows)
+        return out_of_frames(
+            scale * response.displacement(self._out_of_frames(surface_forces, frame)),
+            along,
+            self.column.rows,
+        )
 
-    def shifts(self, nodal: Nodal, surface_forces: np.ndarray, rotation: np.ndarray, poses: np.ndarray) -> np.ndarray:
-        """By how much `positions` (P, 3) [m] change where the bodies, turned by `rotation`, answer `surface_forces` in a stage."""
-        moved = np.concatenate([(nodal.elastic[3 * rows.start:3 * rows.stop, :3 * (rows.stop - rows.start)] @ surface_forces[rows].ravel()).reshape(-1, 3) for rows in self.rows])
-        return self._relative(self._out_of_frames(moved, rotation), poses, self.points["below"], self.points["shares"])
+    def shifts(
+        self, nodal: Nodal, surface_forces: np.ndarray, rotation: np.ndarray, poses: np.ndarray
+    ) -> np.ndarray:
+        """By how much `positions` (P, 3) [m] change where the bodies, turned by `rotation`, answer
+        `surface_forces` in a stage.
+        """
+        moved = np.concatenate(
+            [
+                (
+                    nodal.elastic[3 * rows.start : 3 * rows.stop, : 3 * (rows.stop - rows.start)]
+                    @ surface_forces[rows].ravel()
+                ).reshape(-1, 3)
+                for rows in self.rows
+            ]
+        )
+        return self._relative(
+            self._out_of_frames(moved, rotation), poses, self.points["below"], self.points["shares"]
+        )
 
     def nodal(self, compliance, scale: float, frame: np.ndarray) -> Nodal:
-        """Compliance of a stage from that of its response (n, n, 3, 3), of several bodies a list, found with them turned by `frame`."""
+        """Compliance of a stage from that of its response (n, n, 3, 3), of several bodies a list,
+        found with them turned by `frame`.
+        """
         if frame.ndim == 2:
             elastic = _turned(compliance, scale, frame)
         else:
             elastic = np.zeros_like(self.bodies.static)
             for one, R, rows in zip(compliance, frame, self.rows):
-                elastic[3 * rows.start:3 * rows.stop, :3 * len(one)] = _turned(one, scale, R)
+                elastic[3 * rows.start : 3 * rows.stop, : 3 * len(one)] = _turned(one, scale, R)
         return Nodal(elastic, elastic + self.bodies.static)
 
-    def begin_step(self, state, halfway: np.ndarray, rolls: bool) -> tuple[np.ndarray, np.ndarray, bool]:
-        """Place the points of a step: what the State brings to them (P,) of CONTACT, its rims (ni,) of RIM, whether any rolled.
+    def begin_step(
+        self, state, halfway: np.ndarray, rolls: bool
+    ) -> tuple[np.ndarray, np.ndarray, bool]:
+        """Place the points of a step: what the State brings to them (P,) of CONTACT, its rims (ni,)
+        of RIM, whether any rolled.
 
-        Args:
-            halfway: (3, 3) rotation in the middle of the step, (nb, 3, 3) of several bodies. rolls: False: the points stay in any case.
+        Parameters
+        ----------
+        halfway
+            (3, 3) rotation in the middle of the step, (nb, 3, 3) of several bodies.
+        rolls
+            False: the points stay in any case.
         """
         before, rims, rolled = state.contact.copy(), state.rims.copy(), False
         now, then = self.poses(state.x, state.rotation), self.poses(state.x, halfway)
         self._mark_unused(state.x, now, rims)
         for interface, rim, pose, turned in zip(self.interfaces, rims, now, then):
             if interface["rim_count"] and not rim["unused"]:
-                rolled |= self._roll(interface, rim, pose, turned["turned"][SLAVE], state, before, rolls)
+                rolled |= self._roll(
+                    interface, rim, pose, turned["turned"][SLAVE], state, before, rolls
+                )
         self._lay_points(state, now, before, rims)
         if self.moving:
             self.stay.note(now, rims)
@@ -262,19 +498,30 @@ class Interface:
             positions = self.start_positions(state.x, state.rotation, now)
             taking = ~self.points["idle"]
             if (self.points["beyond"][taking] == UNPREPARED).any():
-                raise StepFailed(Stop.OFF_PATCH, f"{Stop.OFF_PATCH.value}: {left_faces(self.joints.names, self.points)}")
+                raise StepFailed(
+                    Stop.OFF_PATCH,
+                    f"{Stop.OFF_PATCH.value}: {left_faces(self.joints.names, self.points)}",
+                )
             self._find_sunk(before, positions, now, state.rims, rims)
             before["beyond"] = self.points["beyond"] != OVER
             # one that was found by nothing but its place, or beyond an outline
-            elsewhere = ~before["located"] | (self.points["master"] != BASE) & (before["relative"][:, 2] > CLOSE * self.interfaces["width"][self.points["interface"]])
+            elsewhere = ~before["located"] | (self.points["master"] != BASE) & (
+                before["relative"][:, 2]
+                > CLOSE * self.interfaces["width"][self.points["interface"]]
+            )
             before["relative"][elsewhere] = positions[elsewhere]
-            before["anchor"][elsewhere], before["located"] = before["relative"][elsewhere, :2], taking
+            before["anchor"][elsewhere], before["located"] = (
+                before["relative"][elsewhere, :2],
+                taking,
+            )
         else:
             self.positions(state.x, state.rotation, now)
         return before, rims, rolled
 
     def lay(self, state) -> tuple[np.ndarray, np.ndarray]:
-        """What a State brings to its points, (P,) of CONTACT, and its rims, once the points of joints with two sides are laid; once they are, they stay."""
+        """What a State brings to its points, (P,) of CONTACT, and its rims, once the points of
+        joints with two sides are laid; once they are, they stay.
+        """
         before, rims = state.contact.copy(), state.rims.copy()
         if not rims["placed"][self.overlaps.joints["forward"]].all():
             poses = self.poses(state.x, state.rotation)
@@ -284,12 +531,24 @@ class Interface:
 
     def _mark_unused(self, x, poses, rims) -> None:
         if len(self.overlaps.joints):
-            mark_unused(self.overlaps, self.interfaces, frames_at(self.column.centers(x)), poses, rims)
+            mark_unused(
+                self.overlaps, self.interfaces, frames_at(self.column.centers(x)), poses, rims
+            )
 
     def _lay_points(self, state, poses, before, rims) -> None:
         """Lay the points of joints with two sides."""
-        if len(self.overlaps.joints) and place_overlaps(self.overlaps, self.interfaces, self.joints.rim, self.arms, frames_at(self.column.centers(state.x)), poses,
-                                                        state.contact, rims, self.points, before):
+        if len(self.overlaps.joints) and place_overlaps(
+            self.overlaps,
+            self.interfaces,
+            self.joints.rim,
+            self.arms,
+            frames_at(self.column.centers(state.x)),
+            poses,
+            state.contact,
+            rims,
+            self.points,
+            before,
+        ):
             self.list_present()
             # the operator is that of other points
             self.stay.stick.key[1] = 0.0
@@ -301,20 +560,38 @@ class Interface:
     def _find_sunk(self, before, positions, poses, rims_before, rims) -> None:
         """As `reduced.equilibrium.find_sunk`; sunk points are put high above the surface."""
         k = self.points["interface"]
-        below = np.flatnonzero(before["beyond"] & (self.points["beyond"] == OVER) & (positions[:, 2] < 0))
-        back = [i for i in below if interpreted(was_beyond)(before[i], rims_before[k[i]], rims[k[i]])]
+        below = np.flatnonzero(
+            before["beyond"] & (self.points["beyond"] == OVER) & (positions[:, 2] < 0)
+        )
+        back = [
+            i for i in below if interpreted(was_beyond)(before[i], rims_before[k[i]], rims[k[i]])
+        ]
         if not back:
             return
         loaded = np.flatnonzero(before["force"][:, 2] > 0)
-        interpreted(mark_sunk)(self.bodies, self.surface, self.points, self.interfaces, poses, before, np.concatenate([loaded, back]), len(loaded), positions,
-                               np.zeros((self.size, 3)))
+        interpreted(mark_sunk)(
+            self.bodies,
+            self.surface,
+            self.points,
+            self.interfaces,
+            poses,
+            before,
+            np.concatenate([loaded, back]),
+            len(loaded),
+            positions,
+            np.zeros((self.size, 3)),
+        )
         sunk = self.points["beyond"] == SUNK
         positions[sunk, 2] = self.interfaces["width"][k[sunk]]
 
     def _roll(self, interface, rim, pose, halfway, state, before, rolls) -> bool:
         """Place the points of a rim; whether they rolled."""
-        points = self.joints.rim[interface["rim_first"]:interface["rim_first"] + interface["rim_count"]]
-        rolled, tilt, roll = plan_roll(interface, points, rim, state.contact, pose["turned"][SLAVE], halfway, rolls)
+        points = self.joints.rim[
+            interface["rim_first"] : interface["rim_first"] + interface["rim_count"]
+        ]
+        rolled, tilt, roll = plan_roll(
+            interface, points, rim, state.contact, pose["turned"][SLAVE], halfway, rolls
+        )
         if not rolled:
             stay(roll, points, rim, tilt, self.arms, self.points)
             return False
@@ -325,7 +602,9 @@ class Interface:
         return True
 
     def ways_down(self, poses: np.ndarray) -> np.ndarray:
-        """Ways down (k, 2) to the master's surface along the slave's axes x and y, of those with a round rim."""
+        """Ways down (k, 2) to the master's surface along the slave's axes x and y, of those with a
+        round rim.
+        """
         return -poses["turned"][self.interfaces["rim_count"] > 0, SLAVE, 2, :2]
 
     def take_rim_as_polygon(self) -> None:
@@ -334,16 +613,36 @@ class Interface:
         self.interfaces["rim_count"] = 0
 
     def static_compliance(self, listed: np.ndarray) -> np.ndarray:
-        """Compliance (3 k, 3 k) [m/N] of some points that follows their forces at once, in the reference configuration."""
-        everyone, own, W = np.arange(self.size), np.zeros((self.size, 3)), np.empty((3 * len(listed), 3 * len(listed)))
+        """Compliance (3 k, 3 k) [m/N] of some points that follows their forces at once, in the
+        reference configuration.
+        """
+        everyone, own, W = (
+            np.arange(self.size),
+            np.zeros((self.size, 3)),
+            np.empty((3 * len(listed), 3 * len(listed))),
+        )
         self._extend_base(self.reference)
         interpreted(project)(self.surface, self.reference, everyone, self.points)
-        interpreted(assemble)(self.bodies, self.surface, self.points, self.reference, listed, poses_on_base(np.eye(3)[None]), 0.0, self.bodies.static, 1.0, own, W)
+        interpreted(assemble)(
+            self.bodies,
+            self.surface,
+            self.points,
+            self.reference,
+            listed,
+            poses_on_base(np.eye(3)[None]),
+            0.0,
+            self.bodies.static,
+            1.0,
+            own,
+            W,
+        )
         return W
 
-    def solve(self, nodal: Nodal, poses, positions, dt: float, before, after, times: int = ITERATIONS) -> tuple[Stop, float]:
-        """Find forces in `after` that obey the laws at points that move from `positions` (P, 3) along with them: why it ended, violation over
-        what is allowed.
+    def solve(
+        self, nodal: Nodal, poses, positions, dt: float, before, after, times: int = ITERATIONS
+    ) -> tuple[Stop, float]:
+        """Find forces in `after` that obey the laws at points that move from `positions` (P, 3)
+        along with them: why it ended, violation over what is allowed.
 
         times: 0 only looks how well they do, in or near the places where they were found last.
         """
@@ -351,8 +650,24 @@ class Interface:
         if times:
             self.stay.begin(self._problem, nodal)
         while True:
-            answer, residual = solve_linear(self._problem, self.bodies, self.surface, self.points, self.interfaces, springs, nodal.dynamic, nodal.elastic,
-                                            self.stay.stick, self.stay.rims, poses, positions, times, before, after, self.counts)
+            answer, residual = solve_linear(
+                self._problem,
+                self.bodies,
+                self.surface,
+                self.points,
+                self.interfaces,
+                springs,
+                nodal.dynamic,
+                nodal.elastic,
+                self.stay.stick,
+                self.stay.rims,
+                poses,
+                positions,
+                times,
+                before,
+                after,
+                self.counts,
+            )
             self.stay.end(self._problem, nodal)
             if answer != FAR_BASE:
                 return _STOPS.get(answer, Stop.CONVERGED), residual
@@ -364,8 +679,17 @@ class Interface:
         self.surface = base_for_steps(self.base)
 
     def stored(self, dt: float, before, after) -> float:
-        """Strain energy [J] of base, foot's static rest, contact law and pad, whose indentation is found, after `solve`."""
-        return stored_energy(self._problem, self.points, self.interfaces, springs_of(self.points, self.record, dt), before, after)
+        """Strain energy [J] of base, foot's static rest, contact law and pad, whose indentation is
+        found, after `solve`.
+        """
+        return stored_energy(
+            self._problem,
+            self.points,
+            self.interfaces,
+            springs_of(self.points, self.record, dt),
+            before,
+            after,
+        )
 
     @property
     def near(self) -> np.ndarray:

@@ -14,7 +14,8 @@ from fecolumn.fem.rotation import out_of_frames
 class Linkage:
     """Forces of links (nl,) of LINK as nodal forces and accelerations of a Composite.
 
-    A link is held by the rigid motion of its bodies: by the places that its ends have from the centres of mass, turned by the mean rotations.
+    A link is held by the rigid motion of its bodies: by the places that its ends have from the
+    centres of mass, turned by the mean rotations.
     """
 
     def __init__(self, column, links: np.ndarray):
@@ -23,31 +24,57 @@ class Linkage:
         self._fields, self._momenta, masses = zip(*made)
         self._inverse = [np.linalg.inv(one) for one in masses]
         #: Bound of the square of the fastest frequency of the bodies on their links [1/s2].
-        self.stiffest = sum(float(link["stiffness"]) * sum(self._gives(b, arm) for b, arm in ends_of(link)) for link in links)
+        self.stiffest = sum(
+            float(link["stiffness"]) * sum(self._gives(b, arm) for b, arm in ends_of(link))
+            for link in links
+        )
 
     def _gives(self, b: int, arm) -> float:
         """Bound of the acceleration of an end per force on it [1/kg]."""
-        return 0.0 if b == BASE else self._inverse[b][0, 0] + arm @ arm * np.linalg.eigvalsh(self._inverse[b][3:, 3:])[-1]
+        return (
+            0.0
+            if b == BASE
+            else self._inverse[b][0, 0]
+            + arm @ arm * np.linalg.eigvalsh(self._inverse[b][3:, 3:])[-1]
+        )
 
     def stored(self, state) -> float:
-        """Strain energy [J] of the links at rest in a State, whose ties become those of the links at rest."""
+        """Strain energy [J] of the links at rest in a State, whose ties become those of the links
+        at rest.
+        """
         before, frames = state.ties.copy(), frames_at(self._column.centers(state.x))
         kept, _ = end_links(self.links, frames, state.rotation, before, state.ties, np.inf)
         state.ties["work"] = 0.0  # what they lose on the way there is not of the motion
         return kept
 
     def ties(self, centers: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Ties (nl,) of TIE of links that have not been loaded, of bodies with centres of mass (nb, 3) [m] turned by (nb, 3, 3)."""
+        """Ties (nl,) of TIE of links that have not been loaded, of bodies with centres of mass (nb,
+        3) [m] turned by (nb, 3, 3).
+        """
         ties, frames = np.zeros(len(self.links), TIE), frames_at(centers)
         for tie, link in zip(ties, self.links):
-            first, other = (np.array(arm) if b == BASE else frames["center"][b] + rotation[b] @ arm for b, arm in ends_of(link))
+            first, other = (
+                np.array(arm) if b == BASE else frames["center"][b] + rotation[b] @ arm
+                for b, arm in ends_of(link)
+            )
             tie["length"] = np.linalg.norm(other - first)
         return ties
 
     def pulls(self, stage, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Forces (nl, 3) [N] on the ends a in a Stage that ends at positions x (n_owned, 3) with the bodies turned by `rotation`."""
+        """Forces (nl, 3) [N] on the ends a in a Stage that ends at positions x (n_owned, 3) with
+        the bodies turned by `rotation`.
+        """
         pulls = np.zeros((len(self.links), 3))
-        pull_links(self.links, stage.ties, frames_at(stage.centers), stage.rotation, frames_at(self._column.centers(x)), rotation, float(stage.dt), pulls)
+        pull_links(
+            self.links,
+            stage.ties,
+            frames_at(stage.centers),
+            stage.rotation,
+            frames_at(self._column.centers(x)),
+            rotation,
+            float(stage.dt),
+            pulls,
+        )
         return pulls
 
     def _rigid(self, pulls, halfway) -> list[np.ndarray]:
@@ -69,7 +96,12 @@ class Linkage:
         return self._spread(self._fields, pulls, halfway)
 
     def _spread(self, fields, pulls, halfway) -> np.ndarray:
-        rows = np.concatenate([(field @ rigid).reshape(-1, 3) for field, rigid in zip(fields, self._rigid(pulls, halfway))])
+        rows = np.concatenate(
+            [
+                (field @ rigid).reshape(-1, 3)
+                for field, rigid in zip(fields, self._rigid(pulls, halfway))
+            ]
+        )
         return out_of_frames(rows, halfway, self._column.rows)
 
 

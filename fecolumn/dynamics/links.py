@@ -1,4 +1,6 @@
-"""Links between points of two bodies, or of a body and the ground: tendons, springs, dashpots and restrainers with play."""
+"""Links between points of two bodies, or of a body and the ground: tendons, springs, dashpots and
+restrainers with play.
+"""
 
 from __future__ import annotations
 
@@ -9,35 +11,64 @@ from fecolumn._compiled import njit
 from fecolumn.contact.points import BASE
 from fecolumn.contact.record import record
 
-#: A link from body a to body b, -1 for the ground: arm_a, arm_b: (3,) of its ends from the centres of mass in the bodies' frames, in the table frame on the
-#: ground [m]; length: unstressed [m]; play: way at either side of it without force [m]; stiffness [N/m]; damping [N s/m]; pulls, pushes: whether it can;
-#: yields: force at which it flows [N]; breaks: elongation beyond its play [m] at which it fails; infinite where it does not.
-LINK = record(("a", "i8"), ("b", "i8"), ("arm_a", "f8", 3), ("arm_b", "f8", 3), ("length", "f8"), ("play", "f8"), ("stiffness", "f8"), ("damping", "f8"),
-              ("pulls", "?"), ("pushes", "?"), ("yields", "f8"), ("breaks", "f8"))
-#: What a link carries from step to step: its length now and the part of it that has flowed [m]; force [N], pull > 0, a dashpot's part of it the mean over the
-#: step; work: energy that its dashpot, yielding and breaking have taken [J]; whether it is broken.
+#: A link from body a to body b, -1 for the ground: arm_a, arm_b: (3,) of its ends from the centres
+#: of mass in the bodies' frames, in the table frame on the ground [m]; length: unstressed [m];
+#: play: way at either side of it without force [m]; stiffness [N/m]; damping [N s/m]; pulls,
+#: pushes: whether it can; yields: force at which it flows [N]; breaks: elongation beyond its play
+#: [m] at which it fails; infinite where it does not.
+LINK = record(
+    ("a", "i8"),
+    ("b", "i8"),
+    ("arm_a", "f8", 3),
+    ("arm_b", "f8", 3),
+    ("length", "f8"),
+    ("play", "f8"),
+    ("stiffness", "f8"),
+    ("damping", "f8"),
+    ("pulls", "?"),
+    ("pushes", "?"),
+    ("yields", "f8"),
+    ("breaks", "f8"),
+)
+#: What a link carries from step to step: its length now and the part of it that has flowed [m];
+#: force [N], pull > 0, a dashpot's part of it the mean over the step; work: energy that its
+#: dashpot, yielding and breaking have taken [J]; whether it is broken.
 TIE = record(("length", "f8"), ("flowed", "f8"), ("force", "f8"), ("work", "f8"), ("broken", "?"))
-# Share of a change of the links' forces that the motion within a step may answer at once: beyond it the step is too long for the links
+# Share of a change of the links' forces that the motion within a step may answer at once: beyond it
+# the step is too long for the links
 STIFFEST = 0.5
 
 
 def links_of(model, hht) -> np.ndarray:
     """Links (nl,) of LINK.
 
-    Raises:
-        ValueError: links too stiff, or dashpots too strong, for the step; names the one with most of it and the longest step.
+    Raises
+    ------
+    ValueError
+        links too stiff, or dashpots too strong, for the step; names the one with most of it and the
+        longest step.
     """
     links = np.zeros(len(model.links), LINK)
     for row, link in zip(links, model.links):
-        sides = [(model.parts[b] if b != BASE else None, np.asarray(arm, float)) for b, arm in ((link.a, link.arm_a), (link.b, link.arm_b))]
+        sides = [
+            (model.parts[b] if b != BASE else None, np.asarray(arm, float))
+            for b, arm in ((link.a, link.arm_a), (link.b, link.arm_b))
+        ]
         ends = [arm if part is None else part.center + part.rotation @ arm for part, arm in sides]
         length = np.linalg.norm(ends[1] - ends[0])
         held = link.slack + link.prestress / link.stiffness if link.prestress else 0.0
         row["a"], row["b"], row["arm_a"], row["arm_b"] = link.a, link.b, link.arm_a, link.arm_b
-        row["length"], row["play"], row["stiffness"], row["damping"] = length - held, link.slack, link.stiffness, link.damping
+        row["length"], row["play"], row["stiffness"], row["damping"] = (
+            length - held,
+            link.slack,
+            link.stiffness,
+            link.damping,
+        )
         row["pulls"], row["pushes"], row["yields"] = link.pulls, link.pushes, link.yield_n
         row["breaks"] = link.breaking_n / link.stiffness if link.stiffness else np.inf
-    bodies = [(part.model.mass, part.model.inertia, part.center, part.rotation) for part in model.parts]
+    bodies = [
+        (part.model.mass, part.model.inertia, part.center, part.rotation) for part in model.parts
+    ]
 
     def answered(dt):
         square, place = fastest(links, links["stiffness"] + links["damping"] / dt, bodies)
@@ -45,14 +76,25 @@ def links_of(model, hht) -> np.ndarray:
 
     share, place = answered(hht.dt)
     if share > STIFFEST:
-        longest, link = bisect(lambda dt: answered(dt)[0] - STIFFEST, 1e-9 * hht.dt, hht.dt, rtol=1e-3), model.links[place]
-        much = " and ".join(f"{value:g} {unit}" for value, unit in ((link.stiffness, "N/m"), (link.damping, "N s/m")) if value)
-        raise ValueError(f"links.{link.name}: {much} between such light bodies, with the links beside it, needs steps of at most {longest:.2g} s")
+        longest, link = (
+            bisect(lambda dt: answered(dt)[0] - STIFFEST, 1e-9 * hht.dt, hht.dt, rtol=1e-3),
+            model.links[place],
+        )
+        much = " and ".join(
+            f"{value:g} {unit}"
+            for value, unit in ((link.stiffness, "N/m"), (link.damping, "N s/m"))
+            if value
+        )
+        raise ValueError(
+            f"links.{link.name}: {much} between such light bodies, with the links "
+            f"beside it, needs steps of at most {longest:.2g} s"
+        )
     return links
 
 
 def fastest(links: np.ndarray, stiffness: np.ndarray, bodies: list[tuple]) -> tuple[float, int]:
-    """Square of the fastest frequency [1/s2] at which free rigid bodies swing on their links, were these as stiff as `stiffness` (nl,) [N/m]; place of the link that does most.
+    """Square of the fastest frequency [1/s2] at which free rigid bodies swing on their links, were
+    these as stiff as `stiffness` (nl,) [N/m]; place of the link that does most.
 
     bodies: mass [kg], inertia (3, 3) [kg m2], centre of mass (3,) [m] and rotation (3, 3) of each.
     """
@@ -71,8 +113,10 @@ def fastest(links: np.ndarray, stiffness: np.ndarray, bodies: list[tuple]) -> tu
                     mass, inertia, _, rotation = bodies[b]
                     # in the body's frame, over the roots of mass and inertia
                     local = rotation.T @ along
-                    row[6 * b:6 * b + 3] += sign * local / np.sqrt(mass)
-                    row[6 * b + 3:6 * b + 6] += sign * np.linalg.solve(np.linalg.cholesky(inertia), np.cross(arm, local))
+                    row[6 * b : 6 * b + 3] += sign * local / np.sqrt(mass)
+                    row[6 * b + 3 : 6 * b + 6] += sign * np.linalg.solve(
+                        np.linalg.cholesky(inertia), np.cross(arm, local)
+                    )
             pulls.append(np.sqrt(its) * row)
             places.append(place)
     squares, shapes = np.linalg.eigh(np.array(pulls) @ np.transpose(pulls))
@@ -81,7 +125,7 @@ def fastest(links: np.ndarray, stiffness: np.ndarray, bodies: list[tuple]) -> tu
 
 @njit
 def _end_of(b, arm, frames, rotation, target):
-    """target (3,): where an end of a link is."""
+    """Target (3,): where an end of a link is."""
     for a in range(3):
         if b == BASE:
             target[a] = arm[a]
@@ -92,7 +136,7 @@ def _end_of(b, arm, frames, rotation, target):
 
 @njit
 def span(link, frames, rotation, target):
-    """target (3,): way from end a to end b [m]; its length."""
+    """Target (3,): way from end a to end b [m]; its length."""
     other = np.empty(3)
     _end_of(link.a, link.arm_a, frames, rotation, other)
     _end_of(link.b, link.arm_b, frames, rotation, target)
@@ -116,9 +160,16 @@ def _stretch(link, tie, length):
 
 @njit
 def _flowing(link, stretch):
-    """Part of a stretch [m] that flows: what is beyond the force at which the link yields. It yields both ways, as far as it pulls and pushes."""
+    """Part of a stretch [m] that flows: what is beyond the force at which the link yields.
+
+    It yields both ways, as far as it pulls and pushes.
+    """
     force = link.stiffness * stretch
-    return np.sign(force) * (abs(force) - link.yields) / link.stiffness if abs(force) > link.yields else 0.0
+    return (
+        np.sign(force) * (abs(force) - link.yields) / link.stiffness
+        if abs(force) > link.yields
+        else 0.0
+    )
 
 
 @njit
@@ -129,12 +180,18 @@ def _flow_work(link, flow):
 
 @njit
 def pull(link, tie, begin, way, length, dt, target):
-    """target (3,): force [N] of a link on its end a within a step, on b the opposite; the elastic force and that of the dashpot.
+    """Target (3,): force [N] of a link on its end a within a step, on b the opposite; the elastic
+    force and that of the dashpot.
 
-    A discrete gradient (Gonzalez 1996): its work is the loss of strain energy and what flows times the force at which it does, exactly; the dashpot's c (l1 - l0)^2 / dt.
+    A discrete gradient (Gonzalez 1996): its work is the loss of strain energy and what flows times
+    the force at which it does, exactly; the dashpot's c (l1 - l0)^2 / dt.
 
-    Args:
-        begin, way: (3,) from a to b at the start and at the end of the step [m]. length: at the end [m]; tie.length is that at the start.
+    Parameters
+    ----------
+    begin, way
+        (3,) from a to b at the start and at the end of the step [m].
+    length
+        at the end [m]; tie.length is that at the start.
     """
     before, elastic, rate = tie.length, 0.0, (length - tie.length) / dt
     if not tie.broken:
@@ -150,14 +207,18 @@ def pull(link, tie, begin, way, length, dt, target):
     total = elastic + (0.0 if tie.broken else link.damping * rate)
     for a in range(3):
         # without length at both ends of the step it has no direction, and no force
-        target[a] = total * (begin[a] + way[a]) / (before + length) if before + length > 0.0 else 0.0
+        target[a] = (
+            total * (begin[a] + way[a]) / (before + length) if before + length > 0.0 else 0.0
+        )
     return total
 
 
 @njit
 def pull_links(links, ties, frames, rotation, later_frames, later_rotation, dt, pulls):
-    """pulls (nl, 3): forces [N] of links with `ties` (nl,) on their ends a, in a step that brings the bodies from the first frames and rotations to the later
-    ones; the largest change over the largest force."""
+    """Pulls (nl, 3): forces [N] of links with `ties` (nl,) on their ends a, in a step that brings
+    the bodies from the first frames and rotations to the later ones; the largest change over the
+    largest force.
+    """
     begin, way, force, change, largest = np.empty(3), np.empty(3), np.empty(3), 0.0, 0.0
     for n in range(len(links)):
         span(links[n], frames, rotation, begin)
@@ -181,13 +242,21 @@ def strain_of_links(links, ties):
 
 @njit
 def end_links(links, frames, rotation, before, after, dt):
-    """Carry ties (nl,) on to the end of a step: strain energy at its end, energy that their dashpots, yielding and breaking have taken in it [J]."""
+    """Carry ties (nl,) on to the end of a step: strain energy at its end, energy that their
+    dashpots, yielding and breaking have taken in it [J].
+    """
     kept = taken = 0.0
     way = np.empty(3)
     for n in range(len(links)):
         link, tie, new = links[n], before[n], after[n]
         length = span(link, frames, rotation, way)
-        new.flowed, new.broken, new.length, new.work, new.force = tie.flowed, tie.broken, length, tie.work, 0.0
+        new.flowed, new.broken, new.length, new.work, new.force = (
+            tie.flowed,
+            tie.broken,
+            length,
+            tie.work,
+            0.0,
+        )
         if tie.broken:
             continue
         stretch, viscous = _stretch(link, tie, length), link.damping * (length - tie.length) / dt

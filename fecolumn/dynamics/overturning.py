@@ -1,29 +1,39 @@
-"""The point of no return: when a column can no longer come back, whatever the rest of the motion does.
+"""The point of no return: when a column can no longer come back, whatever the rest of the motion
+does.
 
-A rigid body leans so far that its centre of mass stands beyond the edge of its foot, by x in the horizontal, at the height z above
-that edge. The base can push its edge up with N and sideways with T. About the centre of mass, the moment that tilts it further is
+A rigid body leans so far that its centre of mass stands beyond the edge of its foot, by x in the
+horizontal, at the height z above that edge. The base can push its edge up with N and sideways with
+T. About the centre of mass, the moment that tilts it further is
 
     N x - T z >= 0    for    T / N <= x / z = tan(overhang).
 
 T / N is bounded in two ways:
 
 - by friction: T <= mu N, whether the edge sticks, slides, flies or lands;
-- where the edge sticks the body turns about it, I tilt'' = m ((g + v) x - a z) under a ground acceleration a towards the lean and v
-  upwards, so that T / N stays below x / z as long as a / (g + v), the inclination of apparent gravity, does. Of the motion
-  only what is still to come matters; a recording that is interpolated between its samples is steepest at one of them.
+- where the edge sticks the body turns about it, I tilt'' = m ((g + v) x - a z) under a ground
+    acceleration a towards the lean and v
+  upwards, so that T / N stays below x / z as long as a / (g + v), the inclination of apparent
+      gravity, does. Of the motion
+  only what is still to come matters; a recording that is interpolated between its samples is
+      steepest at one of them.
 
-A tilt that grows while tan(overhang) exceeds the smaller bound therefore grows for ever: tilt'' >= 0 from then on, and
-the overhang grows with the tilt. After the motion's end the bound of a sticking edge is 0: the column is lost once it
-leans beyond its critical tilt and still moves outwards. If an edge that stuck slides later, T / N has met mu, and x / z is above it.
+A tilt that grows while tan(overhang) exceeds the smaller bound therefore grows for ever: tilt'' >=
+0 from then on, and the overhang grows with the tilt. After the motion's end the bound of a sticking
+edge is 0: the column is lost once it leans beyond its critical tilt and still moves outwards. If an
+edge that stuck slides later, T / N has met mu, and x / z is above it.
 
-What is exact and what is not. For a rigid body that tilts in a plane the rule is exact: what it calls overturned never comes back. It may
-call it late, as it takes the steepest moment to come for all moments to come. In three dimensions the overhang is measured in the direction of
-the lean from every corner of the foot's convex hull, wherever the body may touch next. The gyroscopic moment is counted at its present
-value where it holds the body up, and a body that spins about its own axis so fast that it may stand as a top, L^2 > I m g h, is judged
-only when it lies. That a wobbling body's lean turns while it falls, that the edge of an elastic foot gives a little (inwards, which
-makes it fall sooner), and that a column bends, is left out. A body whose axis is horizontal has overturned in any case.
+What is exact and what is not. For a rigid body that tilts in a plane the rule is exact: what it
+calls overturned never comes back. It may call it late, as it takes the steepest moment to come for
+all moments to come. In three dimensions the overhang is measured in the direction of the lean from
+every corner of the foot's convex hull, wherever the body may touch next. The gyroscopic moment is
+counted at its present value where it holds the body up, and a body that spins about its own axis so
+fast that it may stand as a top, L^2 > I m g h, is judged only when it lies. That a wobbling body's
+lean turns while it falls, that the edge of an elastic foot gives a little (inwards, which makes it
+fall sooner), and that a column bends, is left out. A body whose axis is horizontal has overturned
+in any case.
 
-Source: the equation of rocking is Housner's (1963), Bull. Seism. Soc. Am. 53(2), with vertical motion as in Makris and Kampas (2016).
+Source: the equation of rocking is Housner's (1963), Bull. Seism. Soc. Am. 53(2), with vertical
+motion as in Makris and Kampas (2016).
 """
 
 from __future__ import annotations
@@ -37,16 +47,18 @@ from fecolumn._compiled import njit
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import ROUND_CORNERS, STICKS
 
-# Answers of `fallen`, and what one of many bodies is that is below the ground, on which it has no face to stand
+# Answers of `fallen`, and what one of many bodies is that is below the ground, on which it has no
+# face to stand
 STANDS, NO_RETURN, CAPPED, FELL = range(4)
 
 
 class Stance(NamedTuple):
     """How a column stands: what its overturning depends on.
 
-    corners: (k, 2) of the foot's convex hull, counterclockwise, from the centre of mass in the column's frame [m];
-    depth: height of the centre of mass above the foot [m]; critical: least tilt, of all directions, at which the centre of mass stands
-    over the foot's edge [rad], negative where it never stands over the foot; inertia: (3, 3) [kg m2]; weight [N]; friction: coefficient;
+    corners: (k, 2) of the foot's convex hull, counterclockwise, from the centre of mass in the
+    column's frame [m]; depth: height of the centre of mass above the foot [m]; critical: least
+    tilt, of all directions, at which the centre of mass stands over the foot's edge [rad], negative
+    where it never stands over the foot; inertia: (3, 3) [kg m2]; weight [N]; friction: coefficient;
     cap: top displacement that counts as overturned [m], inf for none.
     """
 
@@ -59,21 +71,42 @@ class Stance(NamedTuple):
     cap: float
 
 
-def stance(arms: np.ndarray, inertia: np.ndarray, weight: float, friction: float, cap: float) -> Stance:
-    """Stance of a column whose foot's nodes are at `arms` (n, 3) [m] from its centre of mass; further arguments as of Stance, cap 0 for none."""
+def stance(
+    arms: np.ndarray, inertia: np.ndarray, weight: float, friction: float, cap: float
+) -> Stance:
+    """Stance of a column whose foot's nodes are at `arms` (n, 3) [m] from its centre of mass;
+    further arguments as of Stance, cap 0 for none.
+    """
     plane = np.asarray(arms, float)[:, :2]
     if rim := Rim.find(arms):
         angles = 2 * np.pi * np.arange(ROUND_CORNERS) / ROUND_CORNERS
         plane = plane.mean(axis=0) + rim.radius * np.column_stack([np.cos(angles), np.sin(angles)])
     corners = plane[ConvexHull(plane).vertices]
     depth = float(-np.mean(np.asarray(arms)[:, 2]))
-    return Stance(np.ascontiguousarray(corners), depth, float(np.arctan2(weakest(corners)[0], depth)),
-                  np.ascontiguousarray(inertia, float), float(weight), float(friction), float(cap) if cap > 0 else np.inf)
+    return Stance(
+        np.ascontiguousarray(corners),
+        depth,
+        float(np.arctan2(weakest(corners)[0], depth)),
+        np.ascontiguousarray(inertia, float),
+        float(weight),
+        float(friction),
+        float(cap) if cap > 0 else np.inf,
+    )
 
 
 def never_alone(inertia: np.ndarray, weight: float, cap: float) -> Stance:
-    """Stance of a body that its cap alone tells from one that stands: one of many; further arguments as of Stance, cap 0 for none."""
-    return Stance(np.zeros((1, 2)), 1.0, np.inf, np.ascontiguousarray(inertia, float), float(weight), 0.0, float(cap) if cap > 0 else np.inf)
+    """Stance of a body that its cap alone tells from one that stands: one of many; further
+    arguments as of Stance, cap 0 for none.
+    """
+    return Stance(
+        np.zeros((1, 2)),
+        1.0,
+        np.inf,
+        np.ascontiguousarray(inertia, float),
+        float(weight),
+        0.0,
+        float(cap) if cap > 0 else np.inf,
+    )
 
 
 def weakest(corners: np.ndarray) -> tuple[float, np.ndarray]:
@@ -86,20 +119,28 @@ def weakest(corners: np.ndarray) -> tuple[float, np.ndarray]:
 
 
 def barrier(stance: Stance) -> float:
-    """Energy [J] that lifts the column from upright onto its nearest edge: what it takes to overturn it slowly, 0 if it cannot stand."""
+    """Energy [J] that lifts the column from upright onto its nearest edge: what it takes to
+    overturn it slowly, 0 if it cannot stand.
+    """
     distance = weakest(stance.corners)[0]
-    return stance.weight * (np.hypot(distance, stance.depth) - stance.depth) if distance > 0 else 0.0
+    return (
+        stance.weight * (np.hypot(distance, stance.depth) - stance.depth) if distance > 0 else 0.0
+    )
 
 
 def critical_displacement(stance: Stance, top_arm: np.ndarray) -> float:
-    """Horizontal displacement [m] of a point at `top_arm` (3,) from the centre of mass when the rigid column leans by its critical tilt."""
+    """Horizontal displacement [m] of a point at `top_arm` (3,) from the centre of mass when the
+    rigid column leans by its critical tilt.
+    """
     distance, normal = weakest(stance.corners)
     across, up = top_arm[:2] @ normal - distance, top_arm[2] + stance.depth
     return float(across * (np.cos(stance.critical) - 1) + up * np.sin(stance.critical))
 
 
 def critical_tilt_along(stance: Stance, rotation: np.ndarray) -> float:
-    """Tilt [rad] at which the centre of mass stands over the foot's farthest corner in the direction in which the column leans now."""
+    """Tilt [rad] at which the centre of mass stands over the foot's farthest corner in the
+    direction in which the column leans now.
+    """
     lean = rotation[:2, 2]
     length = np.hypot(*lean)
     if length == 0.0:
@@ -109,11 +150,15 @@ def critical_tilt_along(stance: Stance, rotation: np.ndarray) -> float:
 
 
 def steepest_to_come(gravity: np.ndarray, grounds: np.ndarray) -> np.ndarray:
-    """Largest tangent (n,) of the inclination of apparent gravity from each moment on; inf where it points upwards.
+    """Largest tangent (n,) of the inclination of apparent gravity from each moment on; inf where it
+    points upwards.
 
-    Args:
-        gravity: (3,) [m/s2].
-        grounds: (n, 3) ground accelerations [m/s2] at the ends of the steps to come.
+    Parameters
+    ----------
+    gravity
+        (3,) [m/s2].
+    grounds
+        (n, 3) ground accelerations [m/s2] at the ends of the steps to come.
     """
     apparent = np.asarray(gravity, float) - np.asarray(grounds, float)
     level, down = np.hypot(apparent[:, 0], apparent[:, 1]), -apparent[:, 2]
@@ -125,12 +170,20 @@ def steepest_to_come(gravity: np.ndarray, grounds: np.ndarray) -> np.ndarray:
 def fallen(stance, rotation, spin, force, top, steepest):
     """Whether the column is lost: STANDS, NO_RETURN or CAPPED.
 
-    Args:
-        stance: Stance.
-        rotation: (3, 3) column to table. spin: (3,) angular velocity in the column's frame [rad/s].
-        force: (3,) of the base on the column [N].
-        top: horizontal displacement of the top [m].
-        steepest: tangent of the steepest inclination of apparent gravity from now on, see `steepest_to_come`.
+    Parameters
+    ----------
+    stance
+        Stance.
+    rotation
+        (3, 3) column to table.
+    spin
+        (3,) angular velocity in the column's frame [rad/s].
+    force
+        (3,) of the base on the column [N].
+    top
+        horizontal displacement of the top [m].
+    steepest
+        tangent of the steepest inclination of apparent gravity from now on, see `steepest_to_come`.
     """
     if top >= stance.cap:
         return CAPPED
@@ -145,14 +198,20 @@ def fallen(stance, rotation, spin, force, top, steepest):
         w0 += rotation[0, a] * spin[a]
         w1 += rotation[1, a] * spin[a]
         w2 += rotation[2, a] * spin[a]
-        moved = stance.inertia[a, 0] * spin[0] + stance.inertia[a, 1] * spin[1] + stance.inertia[a, 2] * spin[2]
+        moved = (
+            stance.inertia[a, 0] * spin[0]
+            + stance.inertia[a, 1] * spin[1]
+            + stance.inertia[a, 2] * spin[2]
+        )
         l0 += rotation[0, a] * moved
         l1 += rotation[1, a] * moved
         if a == 2:
             own = moved
     if w1 * ahead - w0 * aside <= 0:  # it comes back, or stays
         return STANDS
-    if own**2 > min(stance.inertia[0, 0], stance.inertia[1, 1]) * stance.weight * stance.depth:  # a top
+    if (
+        own**2 > min(stance.inertia[0, 0], stance.inertia[1, 1]) * stance.weight * stance.depth
+    ):  # a top
         return STANDS
     # the lean turns about the vertical, and with it the angular momentum along it
     turning = w2 - (w0 * ahead + w1 * aside) * rotation[2, 2] / sine

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 @dataclass(slots=True)
 class Record:
-    """Iterations of positions and of contact problems, impacts, cuts of steps that fail, parts of steps in which the rim rolls fast."""
+    """Iterations of positions and of contact problems, impacts, cuts of steps that fail, parts of
+    steps in which the rim rolls fast.
+    """
 
     iterations: int = 0
     contact_iterations: int = 0

@@ -1,4 +1,6 @@
-"""One implicit stage: positions of the bodies and contact forces in equilibrium at the end of a step."""
+"""One implicit stage: positions of the bodies and contact forces in equilibrium at the end of a
+step.
+"""
 
 from __future__ import annotations
 
@@ -13,25 +15,32 @@ from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation
 
 @dataclass(slots=True)
 class Stage:
-    """What an implicit stage asks for: m M (x - target) + s T1 [f(x) + C (velocity + rate (x - target))] = load + scale U r.
+    """What an implicit stage asks for: m M (x - target) + s T1 [f(x) + C (velocity + rate (x -
+    target))] = load + scale U r.
 
-    Bodies turn within a step. What internal forces bring to it at its start and at its end acts in the frame halfway, to which T1 turns those of the end, and
-    `middle` what the start brings. So the work of the mean internal force is the change of the strain energy, however far a body turns.
+    Bodies turn within a step. What internal forces bring to it at its start and at its end acts in
+    the frame halfway, to which T1 turns those of the end, and `middle` what the start brings. So
+    the work of the mean internal force is the change of the strain energy, however far a body
+    turns.
 
-    target: (n_owned, 3) where the column would go without internal forces at the end, but for `memory` [m].
-    load: (n_owned, 3) effective forces known beforehand, but for `held` [N].
-    start: (n_owned, 3) first guess of the positions [m].
-    scale: effective force per contact force.
-    before: (n,) of CONTACT, what the points bring to the stage; the forces are the first guess. dt: length of the step [s], inf at rest.
-    rotation: (3, 3) of the column at the start, (nb, 3, 3) of several bodies. Contact forces act on the column in the rotation halfway, so that their
+    target: (n_owned, 3) where the column would go without internal forces at the end, but for
+    `memory` [m]. load: (n_owned, 3) effective forces known beforehand, but for `held` [N]. start:
+    (n_owned, 3) first guess of the positions [m]. scale: effective force per contact force. before:
+    (n,) of CONTACT, what the points bring to the stage; the forces are the first guess. dt: length
+    of the step [s], inf at rest. rotation: (3, 3) of the column at the start, (nb, 3, 3) of several
+    bodies. Contact forces act on the column in the rotation halfway, so that their
         work over a turn of the column by t is that of the foot's path up to t^3.
-    velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target, but for `memory` [m/s]; None where nothing is damped.
-    centers: (nb, 3) of mass at the start [m], ties: (nl,) of TIE there; None of a structure without links.
-    memory: (n_owned, 3) acceleration that the start brings [m/s2], None at rest; shares: of it in target [s2] and velocity [s]; held: (n_owned, 3) internal
-        forces that the start brings to the load [N]. turns: whether internal forces and what the start brings turn with the bodies; not in the literal HHT
+    velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target, but for
+    `memory` [m/s]; None where nothing is damped. centers: (nb, 3) of mass at the start [m], ties:
+    (nl,) of TIE there; None of a structure without links. memory: (n_owned, 3) acceleration that
+    the start brings [m/s2], None at rest; shares: of it in target [s2] and velocity [s]; held:
+    (n_owned, 3) internal
+        forces that the start brings to the load [N]. turns: whether internal forces and what the
+            start brings turn with the bodies; not in the literal HHT
         scheme, whose accelerations hold contact forces.
-    place, internal: (n_owned, 3) positions [m] and internal forces [N] at the start; levers: (P, 2, 3) of the points there, as of `Interface.levers`.
-    surface_a, surface_forces: of the State at the start, the first guess of what contact forces do; None: it is found.
+    place, internal: (n_owned, 3) positions [m] and internal forces [N] at the start; levers: (P, 2,
+    3) of the points there, as of `Interface.levers`. surface_a, surface_forces: of the State at the
+    start, the first guess of what contact forces do; None: it is found.
     """
 
     target: np.ndarray
@@ -62,32 +71,84 @@ class Stage:
         if self.turns:
             turn = halfway @ self.rotation.swapaxes(-1, -2)
             memory, held = carried(column, memory, turn), out_of_frames(held, turn, column.rows)
-        return Middle(self.target + way * memory, self.load + held, None if self.velocity is None else self.velocity + rate * memory, memory)
+        return Middle(
+            self.target + way * memory,
+            self.load + held,
+            None if self.velocity is None else self.velocity + rate * memory,
+            memory,
+        )
 
-    def untwisting(self, system, x: np.ndarray, internal: np.ndarray, rotation: np.ndarray, halfway: np.ndarray, forces: np.ndarray, push: np.ndarray):
-        """Accelerations (n_owned, 3) in a step to positions x, or at rest there, that mend moments of second order in the strain; 0 where nothing turns.
+    def untwisting(
+        self,
+        system,
+        x: np.ndarray,
+        internal: np.ndarray,
+        rotation: np.ndarray,
+        halfway: np.ndarray,
+        forces: np.ndarray,
+        push: np.ndarray,
+    ):
+        """Accelerations (n_owned, 3) in a step to positions x, or at rest there, that mend moments
+        of second order in the strain; 0 where nothing turns.
 
-        The first ones take away that of the internal forces: K d at displacements d have the moment sum d x K d, and would turn a body that nothing touches.
-        The others give contact forces (P, 3) the moment that they have about the points' places: `push`, their nodal forces (n_owned, 3), act on nodes
-        that the filter has chosen, and these have moved otherwise.
+        The first ones take away that of the internal forces: K d at displacements d have the moment
+        sum d x K d, and would turn a body that nothing touches. The others give contact forces (P,
+        3) the moment that they have about the points' places: `push`, their nodal forces (n_owned,
+        3), act on nodes that the filter has chosen, and these have moved otherwise.
         """
         if not self.turns:
             return 0.0, 0.0
         column, interface = system.column, system.interface
-        ends = [(x, internal, rotation)] if self.memory is None else [(self.place, self.internal, self.rotation), (x, internal, rotation)]
-        arms, inner = (sum(into_frames(values, R, column.rows) for values, R in each) / len(ends)
-                       for each in zip(*(((arms_of(column, place), R), (force, R)) for place, force, R in ends)))
-        levers = interface.levers() if self.memory is None else (self.levers + interface.levers()) / 2
+        ends = (
+            [(x, internal, rotation)]
+            if self.memory is None
+            else [(self.place, self.internal, self.rotation), (x, internal, rotation)]
+        )
+        arms, inner = (
+            sum(into_frames(values, R, column.rows) for values, R in each) / len(ends)
+            for each in zip(
+                *(((arms_of(column, place), R), (force, R)) for place, force, R in ends)
+            )
+        )
+        levers = (
+            interface.levers() if self.memory is None else (self.levers + interface.levers()) / 2
+        )
         pushed = into_frames(push, halfway, column.rows)
-        products, *moments = (column.sum(np.stack(each)) for each in zip(*(
-            (column.mass_arms[rows].T @ arms[rows], *(np.cross(arms[rows], acting[rows]).sum(axis=0) for acting in (inner, pushed))) for rows in column.rows)))
+        products, *moments = (
+            column.sum(np.stack(each))
+            for each in zip(
+                *(
+                    (
+                        column.mass_arms[rows].T @ arms[rows],
+                        *(
+                            np.cross(arms[rows], acting[rows]).sum(axis=0)
+                            for acting in (inner, pushed)
+                        ),
+                    )
+                    for rows in column.rows
+                )
+            )
+        )
         mended = moments[0], interface.moments(forces, halfway, levers) - moments[1]
-        return tuple(out_of_frames(np.concatenate([np.cross(turn_of(product, moment), column.arms[rows]) for product, moment, rows in zip(products, each, column.rows)]),
-                                   halfway, column.rows) for each in mended)
+        return tuple(
+            out_of_frames(
+                np.concatenate(
+                    [
+                        np.cross(turn_of(product, moment), column.arms[rows])
+                        for product, moment, rows in zip(products, each, column.rows)
+                    ]
+                ),
+                halfway,
+                column.rows,
+            )
+            for each in mended
+        )
 
 
 class Middle(NamedTuple):
-    """Target, load and velocity of a Stage with all that its start brings, and its memory, in the frame halfway."""
+    """Target, load and velocity of a Stage with all that its start brings, and its memory, in the
+    frame halfway.
+    """
 
     target: np.ndarray
     load: np.ndarray
@@ -98,21 +159,29 @@ class Middle(NamedTuple):
 def arms_of(column, x: np.ndarray) -> np.ndarray:
     """Arms (n_owned, 3) [m] of positions x (n_owned, 3) from the centres of mass."""
     centers = column.centers(x)
-    return x - (centers if len(centers) == 1 else np.repeat(centers, [rows.stop - rows.start for rows in column.rows], axis=0))
+    return x - (
+        centers
+        if len(centers) == 1
+        else np.repeat(centers, [rows.stop - rows.start for rows in column.rows], axis=0)
+    )
 
 
 def turn_of(product: np.ndarray, moment: np.ndarray) -> np.ndarray:
-    """nu (3,) [1/s2] with which forces M (nu x X), X the reference arms of a body, have a moment (3,) [N m] at its arms p; product: sum of (M X) p^T.
+    """Nu (3,) [1/s2] with which forces M (nu x X), X the reference arms of a body, have a moment
+    (3,) [N m] at its arms p; product: sum of (M X) p^T.
 
-    No displacement of the body has work against these forces, by `corotated.mean_rotation`: they act on its rigid motion alone.
+    No displacement of the body has work against these forces, by `corotated.mean_rotation`: they
+    act on its rigid motion alone.
     """
     return np.linalg.solve(np.trace(product) * np.eye(3) - product, moment)
 
 
 def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    """Accelerations (n_owned, 3) that internal forces and gravity have brought to bodies, after these turn by `turn` (3, 3) or (nb, 3, 3).
+    """Accelerations (n_owned, 3) that internal forces and gravity have brought to bodies, after
+    these turn by `turn` (3, 3) or (nb, 3, 3).
 
-    Internal forces turn with a body. They have no resultant: the mean is that of gravity and the ground, and stays.
+    Internal forces turn with a body. They have no resultant: the mean is that of gravity and the
+    ground, and stays.
     """
     own = arms_of(column, accelerations)
     return accelerations - own + out_of_frames(own, turn, column.rows)
@@ -120,9 +189,12 @@ def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
 
 @dataclass(slots=True)
 class Outcome:
-    """Positions, internal forces and strain energy of the column, what its points carry now (n,) of CONTACT, the energy `static` [J]
-    of base, foot's static rest, penalty springs and pad, and the record; surface_forces: (N, 3) of the contact forces, as of `Interface.surface_forces`, push: (n_owned, 3) their nodal
-    forces [N] and surface_a: (n_owned, 3) their acceleration [m/s2], as of `Interface.answer`; mends: of `Stage.untwisting`."""
+    """Positions, internal forces and strain energy of the column, what its points carry now (n,) of
+    CONTACT, the energy `static` [J] of base, foot's static rest, penalty springs and pad, and the
+    record; surface_forces: (N, 3) of the contact forces, as of `Interface.surface_forces`, push:
+    (n_owned, 3) their nodal forces [N] and surface_a: (n_owned, 3) their acceleration [m/s2], as of
+    `Interface.answer`; mends: of `Stage.untwisting`.
+    """
 
     stop: Stop
     x: np.ndarray
@@ -144,13 +216,16 @@ class Outcome:
 def equilibrate(system, operators, stage: Stage, tolerance: float, max_iterations: int) -> Outcome:
     """Newton iteration with the factored operators turned into the column's present rotation.
 
-    The strains are small, so that the turned operator is an almost exact tangent: one or two iterations reach the
-    tolerance. A total Lagrangian column whose residual falls too slowly gets its tangent afresh. Within an iteration the column answers contact
-    forces linearly, and the contact problem is solved on the points alone; at its end the laws hold for the exact positions.
+    The strains are small, so that the turned operator is an almost exact tangent: one or two
+    iterations reach the tolerance. A total Lagrangian column whose residual falls too slowly gets
+    its tangent afresh. Within an iteration the column answers contact forces linearly, and the
+    contact problem is solved on the points alone; at its end the laws hold for the exact positions.
 
-    Args:
-        tolerance: largest unbalanced nodal force allowed, relative to the larger of weight and contact forces;
-            never below the rounding of the internal forces.
+    Parameters
+    ----------
+    tolerance
+        largest unbalanced nodal force allowed, relative to the larger of weight and contact forces;
+        never below the rounding of the internal forces.
     """
     interface, column, links, scale = system.interface, system.column, system.links, stage.scale
     x, contact, static = np.array(stage.start), stage.before.copy(), 0.0
@@ -158,13 +233,30 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     first = previous = size = np.inf
 
     def ended(stop, message=""):
-        # a point that is far from the base was found by nothing but its place, and would stick there
+        # a point that is far from the base was found by nothing but its place, and would stick
+        # there
         far = ~contact["located"]
         if iteration and far.any():
             contact["relative"][far] = interface.positions(x, rotation, poses)[far]
             contact["anchor"][far] = contact["relative"][far, :2]
         contact["located"] = True
-        return Outcome(stop, x, internal, strain, rotation, halfway, contact, static, iteration, size, surface_forces, push, surface_a, mends, message)
+        return Outcome(
+            stop,
+            x,
+            internal,
+            strain,
+            rotation,
+            halfway,
+            contact,
+            static,
+            iteration,
+            size,
+            surface_forces,
+            push,
+            surface_a,
+            mends,
+            message,
+        )
 
     for iteration in range(max_iterations + 1):
         rotation, internal, strain = system.kinematics.internal(x)
@@ -172,56 +264,98 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         middle, inner = stage.middle(column, halfway), internal
         acts_halfway = stage.turns and middle.memory is not None
         if middle.velocity is not None:
-            inner = internal + system.damping.force(middle.velocity + operators.rate_factor * (x - middle.target), rotation)
+            inner = internal + system.damping.force(
+                middle.velocity + operators.rate_factor * (x - middle.target), rotation
+            )
         if acts_halfway:
             inner = out_of_frames(inner, halfway @ rotation.swapaxes(-1, -2), column.rows)
         acceleration = operators.mass_factor * (middle.target - x)
         if iteration == 0 and stage.surface_a is not None:
             # nothing large is read for a guess
-            surface_forces, total = stage.surface_forces, scale * column.momentum(out_of_frames(stage.surface_a, halfway, column.rows))
+            surface_forces, total = (
+                stage.surface_forces,
+                scale * column.momentum(out_of_frames(stage.surface_a, halfway, column.rows)),
+            )
         else:
             poses = interface.poses(x, rotation)
-            positions, surface_forces = interface.positions(x, rotation, poses), interface.surface_forces(contact["force"], halfway)
+            positions, surface_forces = (
+                interface.positions(x, rotation, poses),
+                interface.surface_forces(contact["force"], halfway),
+            )
             push, surface_a = interface.answer(surface_forces, halfway)
             mends = stage.untwisting(system, x, internal, rotation, halfway, contact["force"], push)
             acceleration, total = acceleration + scale * sum(mends), scale * push
-        total = total + column.momentum(acceleration) + middle.load - operators.stiffness_factor * inner
+        total = (
+            total + column.momentum(acceleration) + middle.load - operators.stiffness_factor * inner
+        )
         if links:
             total += scale * links.load(links.pulls(stage, x, rotation), halfway)
         reference = max(system.weight, scale * np.abs(contact["force"]).max(initial=0.0))
         size = column.max(np.abs(total).max(initial=0.0)) / reference
         nodal, violation = _nodal(interface, operators, scale), np.inf
         if iteration:
-            stop, violation = interface.solve(nodal, poses, positions, stage.dt, stage.before, contact, 0)
+            stop, violation = interface.solve(
+                nodal, poses, positions, stage.dt, stage.before, contact, 0
+            )
             if stop is not Stop.CONVERGED:
                 return ended(stop)
             static = interface.stored(stage.dt, stage.before, contact)
-            if size <= max(tolerance, system.rounding(operators.mass_factor) / reference) and violation <= 1.0:
+            if (
+                size <= max(tolerance, system.rounding(operators.mass_factor) / reference)
+                and violation <= 1.0
+            ):
                 return ended(Stop.CONVERGED)
         if iteration == max_iterations:
             break
         first = size if iteration == 1 else first
         if not np.isfinite(size) or (iteration > 1 and size > 1e3 * max(first, 1.0)):
             return ended(Stop.DIVERGED)
-        if iteration > 1 and size > 0.3 * previous and size > tolerance and system.kinematics.has_tangent:
+        if (
+            iteration > 1
+            and size > 0.3 * previous
+            and size > tolerance
+            and system.kinematics.has_tangent
+        ):
             operators = system.refresh(operators, x)
             nodal = _nodal(interface, operators, scale)
         previous = size
 
-        # Newton about the present forces, so that a slightly turned compliance does not matter at convergence
+        # Newton about the present forces, so that a slightly turned compliance does not matter at
+        # convergence
         turn = rotation @ operators.rotation.swapaxes(-1, -2)
-        # forces act in the frame halfway: as the body's own they meet the stiffness as it is, by which a turned one would be multiplied
+        # forces act in the frame halfway: as the body's own they meet the stiffness as it is, by
+        # which a turned one would be multiplied
         acts = halfway @ operators.rotation.swapaxes(-1, -2) if acts_halfway else turn
-        x = system.kinematics.moved(x, out_of_frames(operators.factor.solve(into_frames(total, acts, column.rows)), turn, column.rows))
+        x = system.kinematics.moved(
+            x,
+            out_of_frames(
+                operators.factor.solve(into_frames(total, acts, column.rows)), turn, column.rows
+            ),
+        )
         poses = interface.poses(x, rotation)
         positions = interface.positions(x, rotation, poses)
         # the forces act elsewhere now, and in frames that have turned
-        positions += interface.shifts(nodal, interface.surface_forces(contact["force"], halfway) - surface_forces, rotation, poses)
+        positions += interface.shifts(
+            nodal,
+            interface.surface_forces(contact["force"], halfway) - surface_forces,
+            rotation,
+            poses,
+        )
         stop, violation = interface.solve(nodal, poses, positions, stage.dt, stage.before, contact)
         if stop is not Stop.CONVERGED:
-            return ended(stop, "" if stop is Stop.OFF_BASE else f"contact residual {violation:.2e} of what is allowed")
+            return ended(
+                stop,
+                ""
+                if stop is Stop.OFF_BASE
+                else f"contact residual {violation:.2e} of what is allowed",
+            )
         answered = interface.surface_forces(contact["force"], halfway) - surface_forces
-        x = system.kinematics.moved(x, interface.displacement(operators.response, scale, answered, halfway, operators.rotation))
+        x = system.kinematics.moved(
+            x,
+            interface.displacement(
+                operators.response, scale, answered, halfway, operators.rotation
+            ),
+        )
     return ended(Stop.ITERATIONS)
 
 

@@ -1,11 +1,20 @@
-"""Time stepping with contact: HHT-alpha, contact forces at the end of the step, plastic impact when a contact closes."""
+"""Time stepping with contact: HHT-alpha, contact forces at the end of the step, plastic impact when
+a contact closes.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
 from fecolumn._compiled import interpreted
-from fecolumn.contact.impact import LANDS, NOTHING, find_impact, mark_landing, mark_turning, what_happens
+from fecolumn.contact.impact import (
+    LANDS,
+    NOTHING,
+    find_impact,
+    mark_landing,
+    mark_turning,
+    what_happens,
+)
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.pose import frames_at
 from fecolumn.contact.problem import OK
@@ -24,27 +33,43 @@ from fecolumn.fem.rotation import into_frames, out_of_frames
 class Stepper:
     """Advances a system by steps of HHT-alpha.
 
-    impact = "plastic" (default). Contact forces act at the end of the step and are kept out of the accelerations that HHT
-    blends (Kane, Repetto, Ortiz and Marsden 1999):
+    impact = "plastic" (default). Contact forces act at the end of the step and are kept out of the
+    accelerations that HHT blends (Kane, Repetto, Ortiz and Marsden 1999):
 
         x1 = x0 + dt v0 + dt^2 [(1/2 - beta) a0 + beta a1 + w1 / 2],   w = M^-1 U r
         v1 = v0 + dt [(1 - gamma) a0 + gamma a1 + w1],                 M a1 = (1+al) (F1 - f1) - al (F0 - f0)
 
-    For alpha = 0 the contact's work is r1 (g1 - g0) <= 0 exactly, so that contact only takes energy. When a contact closes
-    or slip ends in a step, the velocities are projected at its end: impulses of all touching points are replaced by those
-    of a plastic impact with friction (Moreau 1988), the state of least kinetic energy that non-adhesive impulses reach.
-    This removes the rebound that the trapezoidal rule invents; in the rigid limit it is Housner's impact.
+    For alpha = 0 the contact's work is r1 (g1 - g0) <= 0 exactly, so that contact only takes
+    energy. When a contact closes or slip ends in a step, the velocities are projected at its end:
+    impulses of all touching points are replaced by those of a plastic impact with friction (Moreau
+    1988), the state of least kinetic energy that non-adhesive impulses reach. This removes the
+    rebound that the trapezoidal rule invents; in the rigid limit it is Housner's impact.
 
-    impact = "none" is the literal HHT scheme: contact forces are part of the accelerations, without filter or impact law.
+    impact = "none" is the literal HHT scheme: contact forces are part of the accelerations, without
+    filter or impact law.
 
-    Args:
-        system: bodies, contact, loads.
-        ledger: energy ledger to book into.
-        impact: "plastic" or "none".
-        tolerance, max_iterations, max_cuts, substeps: of the [integration] section of a case.
+    Parameters
+    ----------
+    system
+        bodies, contact, loads.
+    ledger
+        energy ledger to book into.
+    impact
+        "plastic" or "none".
+    tolerance, max_iterations, max_cuts, substeps
+        of the [integration] section of a case.
     """
 
-    def __init__(self, system, ledger, impact="plastic", tolerance=1e-7, max_iterations=20, max_cuts=4, substeps="rolling"):
+    def __init__(
+        self,
+        system,
+        ledger,
+        impact="plastic",
+        tolerance=1e-7,
+        max_iterations=20,
+        max_cuts=4,
+        substeps="rolling",
+    ):
         self.system, self.ledger, self.plastic = system, ledger, impact == "plastic"
         self.tolerance, self.max_iterations, self.max_cuts = tolerance, max_iterations, max_cuts
         self.substeps, self.record = SUBSTEPS.index(substeps), Record()
@@ -52,16 +77,24 @@ class Stepper:
     def step(self, state: State, ground: np.ndarray) -> State:
         """State one dt later, under the ground acceleration `ground` (3,) [m/s2] at that time.
 
-        Raises:
-            StepFailed: no convergence after max_cuts halvings; `state` is unharmed.
+        Raises
+        ------
+        StepFailed
+            no convergence after max_cuts halvings; `state` is unharmed.
         """
         hht, booked, start, part, done = self.system.hht, dict(self.ledger.work), state, 0, 0
         try:
             while done < PARTS:
                 part = part or self._to_make_at_once(state, done)
                 end, held, struck = done + part, dict(self.ledger.work), self.record.impacts
-                target = start.ground + end / PARTS * (np.asarray(ground, float) - start.ground) if end < PARTS else np.asarray(ground, float)
-                after = self._part(state, target, hht if part == PARTS else HHT(hht.dt * part / PARTS, hht.alpha))
+                target = (
+                    start.ground + end / PARTS * (np.asarray(ground, float) - start.ground)
+                    if end < PARTS
+                    else np.asarray(ground, float)
+                )
+                after = self._part(
+                    state, target, hht if part == PARTS else HHT(hht.dt * part / PARTS, hht.alpha)
+                )
                 if self.substeps == IMPACTS and part > 1 and self.record.impacts > struck:
                     self.ledger.work.update(held)
                     self.record.impacts, part = struck, part // 2
@@ -75,30 +108,60 @@ class Stepper:
         return state
 
     def _to_make_at_once(self, state, done) -> int:
-        """As `rolling.part_of_step`, of rims that are followed; else what ends where larger parts do."""
-        interface, kinematics, dt = self.system.interface, self.system.kinematics, self.system.hht.dt
-        if self.substeps != ROLLING or not self.plastic or not interface.interfaces["rim_count"].any():
+        """As `rolling.part_of_step`, of rims that are followed; else what ends where larger parts
+        do.
+        """
+        interface, kinematics, dt = (
+            self.system.interface,
+            self.system.kinematics,
+            self.system.hht.dt,
+        )
+        if (
+            self.substeps != ROLLING
+            or not self.plastic
+            or not interface.interfaces["rim_count"].any()
+        ):
             return done & -done or PARTS
         half = dt / 2
         later = state.x + half * state.v
         downs = interface.ways_down(interface.poses(state.x, state.rotation))
-        rates = (interface.ways_down(interface.poses(later, kinematics.rotation(later))) - downs) / half
-        return min(interpreted(part_of_step)(*down, *rate, dt, done) for down, rate in zip(downs, rates))
+        rates = (
+            interface.ways_down(interface.poses(later, kinematics.rotation(later))) - downs
+        ) / half
+        return min(
+            interpreted(part_of_step)(*down, *rate, dt, done) for down, rate in zip(downs, rates)
+        )
 
     def _part(self, state, ground, hht) -> State:
         """A step of `hht`, in halves where it fails."""
         try:
             return self._hht_step(state, ground, hht)
         except StepFailed as failure:
-            return in_halves(self._hht_step, state, state.ground, ground, hht, self.max_cuts, failure, self._count_cut)
+            return in_halves(
+                self._hht_step,
+                state,
+                state.ground,
+                ground,
+                hht,
+                self.max_cuts,
+                failure,
+                self._count_cut,
+            )
 
     def _count_cut(self) -> None:
         self.record.cuts += 1
 
     def _hht_step(self, start, ground, hht, rolls=True) -> State:
-        system, column, interface, booked = self.system, self.system.column, self.system.interface, dict(self.ledger.work)
+        system, column, interface, booked = (
+            self.system,
+            self.system.column,
+            self.system.interface,
+            dict(self.ledger.work),
+        )
         dt, al, be, ga = hht.dt, hht.alpha, hht.beta, hht.gamma
-        before, rims, rolled = interface.begin_step(start, system.kinematics.rotation(start.x + dt / 2 * start.v), rolls)
+        before, rims, rolled = interface.begin_step(
+            start, system.kinematics.rotation(start.x + dt / 2 * start.v), rolls
+        )
         F0, F1 = system.load(start.ground), system.load(ground)
         damping, resistance, links = system.damping, system.resistance, system.links
         damped = damping.force(start.v, start.rotation) if damping else 0.0
@@ -107,28 +170,65 @@ class Stepper:
         stage = Stage(
             target=start.x + dt * start.v,
             load=(1 + al) * F1 - al * F0 + resisted / (2 * be),
-            start=system.kinematics.predicted(start.x, dt * start.v + dt**2 / 2 * (start.a + start.contact_a)),
-            scale=1 / (2 * be) if self.plastic else 1.0, before=before, dt=dt, rotation=start.rotation,
-            velocity=start.v if damping else None, centers=column.centers(start.x) if links else None, ties=start.ties,
-            memory=start.a, shares=(dt**2 * (0.5 - be), dt * (1 - ga)), held=al * (start.internal + damped), turns=self.plastic,
-            place=start.x, internal=start.internal, levers=interface.levers(), surface_a=start.surface_a, surface_forces=start.surface_forces)
+            start=system.kinematics.predicted(
+                start.x, dt * start.v + dt**2 / 2 * (start.a + start.contact_a)
+            ),
+            scale=1 / (2 * be) if self.plastic else 1.0,
+            before=before,
+            dt=dt,
+            rotation=start.rotation,
+            velocity=start.v if damping else None,
+            centers=column.centers(start.x) if links else None,
+            ties=start.ties,
+            memory=start.a,
+            shares=(dt**2 * (0.5 - be), dt * (1 - ga)),
+            held=al * (start.internal + damped),
+            turns=self.plastic,
+            place=start.x,
+            internal=start.internal,
+            levers=interface.levers(),
+            surface_a=start.surface_a,
+            surface_forces=start.surface_forces,
+        )
         operators = system.of_step(hht)
         outcome = equilibrate(system, operators, stage, self.tolerance, self.max_iterations)
         self.record.iterations += outcome.iterations
         self.record.contact_iterations += interface.spent()
         if outcome.stop is not Stop.CONVERGED:
-            detail = outcome.message or f"residual {outcome.residual:.2e} of the weight after {outcome.iterations} iterations"
+            detail = (
+                outcome.message
+                or f"residual {outcome.residual:.2e} of the weight after "
+                f"{outcome.iterations} iterations"
+            )
             raise StepFailed(outcome.stop, f"{outcome.stop.value}: {detail}")
 
         R, springs = outcome.halfway, springs_of(interface.points, interface.record, dt)
-        move_anchors(interface.points, interface.interfaces, springs, interface.near, before, outcome.contact)
-        after = State(time=start.time + dt, x=outcome.x, v=start.v, a=start.a, contact_a=start.contact_a, internal=outcome.internal, strain=outcome.strain,
-                      rotation=outcome.rotation, contact=outcome.contact, static=outcome.static, ground=np.array(ground, float), rims=rims, ties=start.ties.copy())
+        move_anchors(
+            interface.points, interface.interfaces, springs, interface.near, before, outcome.contact
+        )
+        after = State(
+            time=start.time + dt,
+            x=outcome.x,
+            v=start.v,
+            a=start.a,
+            contact_a=start.contact_a,
+            internal=outcome.internal,
+            strain=outcome.strain,
+            rotation=outcome.rotation,
+            contact=outcome.contact,
+            static=outcome.static,
+            ground=np.array(ground, float),
+            rims=rims,
+            ties=start.ties.copy(),
+        )
         push, (straight, led) = outcome.push, outcome.mends
         if self.plastic:
             w, untwists = outcome.surface_a + turned + straight + led, column.momentum(straight)
             push = push + column.momentum(led)
-            after.surface_a, after.surface_forces = into_frames(outcome.surface_a + straight + led, R, column.rows), outcome.surface_forces
+            after.surface_a, after.surface_forces = (
+                into_frames(outcome.surface_a + straight + led, R, column.rows),
+                outcome.surface_forces,
+            )
             if links:
                 pulls = links.pulls(stage, after.x, after.rotation)
                 push, w = push + links.load(pulls, R), w + links.acceleration(pulls, R)
@@ -143,10 +243,23 @@ class Stepper:
         after.v = start.v + dt * ((1 - ga) * first + ga * last + w)
         ends, drags = [start.internal, after.internal], []
         if damping:
-            # of the velocity without what of the contact's impulse has not moved the column yet; the same at alpha = 0
+            # of the velocity without what of the contact's impulse has not moved the column yet;
+            # the same at alpha = 0
             drags = [damped, damping.force(after.v - dt * al**2 / (4 * be) * w, after.rotation)]
         inner, drag = (self._halfway(forces, start, after, R) for forces in (ends, drags))
-        contact_work = self._book(start, before, after, hht, (first, last), F0 + F1 - inner, untwists, worked, drag, resisted, springs)
+        contact_work = self._book(
+            start,
+            before,
+            after,
+            hht,
+            (first, last),
+            F0 + F1 - inner,
+            untwists,
+            worked,
+            drag,
+            resisted,
+            springs,
+        )
         if self.plastic and rolled and contact_work > CREATED * system.weight * interface.width:
             # several points of the rim carry while it rolls fast: they stay for this step
             self.ledger.work.update(booked)
@@ -160,17 +273,27 @@ class Stepper:
         return after
 
     def _halfway(self, forces, start, after, R):
-        """Sum (n_owned, 3) of internal forces at start and end of a step, as they act in it; 0 of none."""
+        """Sum (n_owned, 3) of internal forces at start and end of a step, as they act in it; 0 of
+        none.
+        """
         if self.plastic:
-            forces = [out_of_frames(force, R @ state.rotation.swapaxes(-1, -2), self.system.column.rows) for force, state in zip(forces, (start, after))]
+            forces = [
+                out_of_frames(force, R @ state.rotation.swapaxes(-1, -2), self.system.column.rows)
+                for force, state in zip(forces, (start, after))
+            ]
         return sum(forces)
 
-    def _book(self, start, before, after, hht, ends, load_sum, untwists, worked, damped, resisted, springs) -> float:
-        """Energy of an HHT step; returns the work of contact [J]. From the identity
-        dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean = (1-ga) a0 + ga a1, push of contact and of what takes the moment of the
-        internal forces away, which does no work but theirs.
+    def _book(
+        self, start, before, after, hht, ends, load_sum, untwists, worked, damped, resisted, springs
+    ) -> float:
+        """Energy of an HHT step; returns the work of contact [J].
 
-        ends: a0 and a1 (n_owned, 3) as they act in the step [m/s2]. load_sum: sum of loads less internal forces at both ends,
+        From the identity dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean =
+        (1-ga) a0 + ga a1, push of contact and of what takes the moment of the internal forces away,
+        which does no work but theirs.
+
+        ends: a0 and a1 (n_owned, 3) as they act in the step [m/s2]. load_sum: sum of loads less
+        internal forces at both ends,
             untwists: what takes the moment of these away, damped: sum of damping forces,
             resisted: rolling resistance, part of `worked`, each (n_owned, 3) [N] or 0.
         """
@@ -185,34 +308,104 @@ class Stepper:
         rolling = column.dot(step, resisted) if self.system.resistance else 0.0
         taken = 0.0
         if self.system.links:
-            tied, taken = end_links(self.system.links.links, frames_at(column.centers(after.x)), after.rotation, start.ties, after.ties, hht.dt)
+            tied, taken = end_links(
+                self.system.links.links,
+                frames_at(column.centers(after.x)),
+                after.rotation,
+                start.ties,
+                after.ties,
+                hht.dt,
+            )
             after.static += tied
         contact = column.dot(step, worked) - rolling + after.static - start.static + taken
-        friction, landed, dashpots = losses(interface.points, interface.interfaces, springs, interface.near, before, after.contact, contact)
-        self.ledger.add(base_work=-np.dot((start.ground + after.ground) / 2, shaken), algorithmic=algorithmic - damping,
-                        friction=friction, impact=landed, contact=contact - friction - landed + dashpots, damping=damping - dashpots, rolling=rolling, links=-taken)
+        friction, landed, dashpots = losses(
+            interface.points,
+            interface.interfaces,
+            springs,
+            interface.near,
+            before,
+            after.contact,
+            contact,
+        )
+        self.ledger.add(
+            base_work=-np.dot((start.ground + after.ground) / 2, shaken),
+            algorithmic=algorithmic - damping,
+            friction=friction,
+            impact=landed,
+            contact=contact - friction - landed + dashpots,
+            damping=damping - dashpots,
+            rolling=rolling,
+            links=-taken,
+        )
         return contact
 
     def _collide(self, start, before, after, hht, springs, contact_work, booked) -> None:
-        """Take the velocities of `after` anew where a point lands or slip ends; booked: works of the ledger at the start of the step.
+        """Take the velocities of `after` anew where a point lands or slip ends; booked: works of
+        the ledger at the start of the step.
 
-        Raises:
-            StepFailed: no impulses were found that obey the laws of impact and friction.
+        Raises
+        ------
+        StepFailed
+            no impulses were found that obey the laws of impact and friction.
         """
-        system, interface, column, R = self.system, self.system.interface, self.system.column, after.rotation
+        system, interface, column, R = (
+            self.system,
+            self.system.interface,
+            self.system.column,
+            after.rotation,
+        )
         landing, turning = np.zeros(interface.size, bool), np.zeros(interface.size, bool)
-        lands = mark_landing(interface.interfaces, interface.points, interface.near, before, after.contact, landing)
-        if not mark_turning(interface.points, interface.near, before, after.contact, turning) and not lands:
+        lands = mark_landing(
+            interface.interfaces, interface.points, interface.near, before, after.contact, landing
+        )
+        if (
+            not mark_turning(interface.points, interface.near, before, after.contact, turning)
+            and not lands
+        ):
             return
-        # each in the frame of its own time: turned by another one a rotation looks like a strain, which the foot's filter takes away
+        # each in the frame of its own time: turned by another one a rotation looks like a strain,
+        # which the foot's filter takes away
         poses = interface.poses(after.x, R)
-        early, late = interface.velocities(start.v, start.rotation, interface.poses(start.x, start.rotation), True), interface.velocities(after.v, R, poses)
-        happens = what_happens(interface.interfaces, interface.points, interface.near, before, after.contact, hht.dt, early, late, landing, turning)
+        early, late = (
+            interface.velocities(
+                start.v, start.rotation, interface.poses(start.x, start.rotation), True
+            ),
+            interface.velocities(after.v, R, poses),
+        )
+        happens = what_happens(
+            interface.interfaces,
+            interface.points,
+            interface.near,
+            before,
+            after.contact,
+            hht.dt,
+            early,
+            late,
+            landing,
+            turning,
+        )
         if happens == NOTHING:
             return
         answer, pushed, impulses = find_impact(
-            interface.bodies, interface.surface, interface.points, interface.interfaces, springs, interface.near, interface.points["arm"].copy(), poses, before,
-            after.contact, early, late, landing, turning, happens == LANDS, hht.dt, contact_work, interface.counts)
+            interface.bodies,
+            interface.surface,
+            interface.points,
+            interface.interfaces,
+            springs,
+            interface.near,
+            interface.points["arm"].copy(),
+            poses,
+            before,
+            after.contact,
+            early,
+            late,
+            landing,
+            turning,
+            happens == LANDS,
+            hht.dt,
+            contact_work,
+            interface.counts,
+        )
         self.record.contact_iterations += interface.spent()
         if answer != OK:
             raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: the impulses of an impact")
@@ -220,9 +413,17 @@ class Stepper:
             return
         jump = interface.acceleration(impulses, R, False)
         gained = column.dot(after.v + jump / 2, column.momentum(jump))
-        names = ("impact", "contact", "friction") if happens == LANDS else ("friction", "contact", "impact")
-        terms = interpreted(book_impulses)(gained, *(self.ledger.work[name] - booked[name] for name in names))
-        self.ledger.work.update({name: booked[name] + float(term) for name, term in zip(names, terms)})
+        names = (
+            ("impact", "contact", "friction")
+            if happens == LANDS
+            else ("friction", "contact", "impact")
+        )
+        terms = interpreted(book_impulses)(
+            gained, *(self.ledger.work[name] - booked[name] for name in names)
+        )
+        self.ledger.work.update(
+            {name: booked[name] + float(term) for name, term in zip(names, terms)}
+        )
         after.v = after.v + jump
         if system.damping:
             after.a = after.a - hht.stiffness_factor * system.damping.acceleration(jump, R)

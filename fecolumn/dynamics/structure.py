@@ -17,35 +17,77 @@ from fecolumn.fem.corotated import Corotated
 DAMPED = 30
 
 
-def structure_system(model, bodies: list, hht: HHT, gravity, filtered: bool = True, nodes: list | None = None, damped: list | None = None) -> System:
+def structure_system(
+    model,
+    bodies: list,
+    hht: HHT,
+    gravity,
+    filtered: bool = True,
+    nodes: list | None = None,
+    damped: list | None = None,
+) -> System:
     """System of a structure with all degrees of freedom of its bodies.
 
-    Args:
-        model: `structures.model.StructureModel`: where its bodies are and what they do to one another; of their own models no more than nodes and surfaces is used.
-        bodies: `fem.body.Body` of each part, copies the same object.
-        nodes: of each, (n,) of the body that are its model's rows; found by their places unless given.
-        damped: of each, lowest elastic modes that are damped; those of its model unless given, or DAMPED where it has none.
-    Raises:
-        ValueError: a link is too stiff for the step; names it and the longest step.
+    Parameters
+    ----------
+    model
+        `structures.model.StructureModel`: where its bodies are and what they do to one another; of
+        their own models no more than nodes and surfaces is used.
+    bodies
+        `fem.body.Body` of each part, copies the same object.
+    nodes
+        of each, (n,) of the body that are its model's rows; found by their places unless given.
+    damped
+        of each, lowest elastic modes that are damped; those of its model unless given, or DAMPED
+        where it has none.
+
+    Raises
+    ------
+    ValueError
+        a link is too stiff for the step; names it and the longest step.
     """
     parts = model.parts
     column = Composite(bodies, [part.center for part in parts], [part.rotation for part in parts])
     if nodes is None:
-        nodes = column.of_each(lambda body, _: body.find_nodes(next(part.model for part, own in zip(parts, bodies) if own is body).reference))
-    ratios = [part.damping_ratio if part.model.damping is None else part.model.damping for part in parts]
+        nodes = column.of_each(
+            lambda body, _: body.find_nodes(
+                next(part.model for part, own in zip(parts, bodies) if own is body).reference
+            )
+        )
+    ratios = [
+        part.damping_ratio if part.model.damping is None else part.model.damping for part in parts
+    ]
     damped = damped or [len(part.model.frequencies) or DAMPED for part in parts]
-    damping = CompositeDamping(column, damped, ratios) if np.any([np.any(ratio) for ratio in ratios]) else None
-    return System(column, CompositeKinematics(column, Corotated), model.base, nodes, joints_of(parts, model.joints), gravity, hht, filtered, damping, links_of(model, hht))
+    damping = (
+        CompositeDamping(column, damped, ratios)
+        if np.any([np.any(ratio) for ratio in ratios])
+        else None
+    )
+    return System(
+        column,
+        CompositeKinematics(column, Corotated),
+        model.base,
+        nodes,
+        joints_of(parts, model.joints),
+        gravity,
+        hht,
+        filtered,
+        damping,
+        links_of(model, hht),
+    )
 
 
 def released(system: System, parts, standing: State | None) -> State:
     """The state that the parts of a StructureModel begin with, as `reduced.start.of_parts`.
 
-    standing: gravity equilibrium that they come from; None: they are unstrained where the parts say, and fall freely.
+    standing: gravity equilibrium that they come from; None: they are unstrained where the parts
+    say, and fall freely.
     """
     column, state = system.column, standing
     if state is None:
-        state = system.unstrained(column.places([part.center for part in parts], [part.rotation for part in parts]))
+        state = system.unstrained(
+            column.places([part.center for part in parts], [part.rotation for part in parts])
+        )
         state = replace(state, a=np.tile(system.gravity, (len(state.x), 1)))
     for part, rows, center in zip(parts, column.rows, column.centers(state.x)):
         state.v[rows] = part.velocity + np.cross(part.spin, state.x[rows] - center)

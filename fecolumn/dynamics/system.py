@@ -14,7 +14,13 @@ from fecolumn.dynamics.interface import Interface, Nodal
 from fecolumn.dynamics.linkage import Linkage
 from fecolumn.dynamics.links import TIE
 from fecolumn.dynamics.resistance import Resistance
-from fecolumn.fem.composite import CompositeFactor, CompositeResponse, factor_of, foot_of, response_of
+from fecolumn.fem.composite import (
+    CompositeFactor,
+    CompositeResponse,
+    factor_of,
+    foot_of,
+    response_of,
+)
 from fecolumn.fem.damping import DampedFactor
 from fecolumn.fem.effective import Factor
 from fecolumn.fem.foot import Response
@@ -24,15 +30,20 @@ from fecolumn.fem.foot import Response
 class State:
     """Everything the next step needs, in the table frame.
 
-    x, v: (n_owned, 3) positions [m] and velocities [m/s] of the column, or of several bodies one below the other.
-    a: (n_owned, 3) acceleration that HHT remembers [m/s2]; with the plastic impact law it is that of all forces but the
+    x, v: (n_owned, 3) positions [m] and velocities [m/s] of the column, or of several bodies one
+    below the other. a: (n_owned, 3) acceleration that HHT remembers [m/s2]; with the plastic impact
+    law it is that of all forces but the
         contact's. contact_a: (n_owned, 3) that of the contact forces.
-    internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (3, 3) mean rotation,
+    internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (3, 3) mean
+    rotation,
         (nb, 3, 3) of several bodies.
-    contact: (P,) of CONTACT, what the points carry. static: strain energy of base, static rest of the bodies, penalty springs, pad and links [J].
-    ground: (3,) acceleration of the base [m/s2]. rims: (ni,) of RIM. ties: (nl,) of TIE.
-    surface_a: (n_owned, 3) acceleration of the contact forces in the last step, with what gives them and internal forces their moments [m/s2], and surface_forces: (N, 3) the forces
-        on the surface nodes that it is of [N], both in the frames of the bodies; None before the first step.
+    contact: (P,) of CONTACT, what the points carry. static: strain energy of base, static rest of
+    the bodies, penalty springs, pad and links [J]. ground: (3,) acceleration of the base [m/s2].
+    rims: (ni,) of RIM. ties: (nl,) of TIE. surface_a: (n_owned, 3) acceleration of the contact
+    forces in the last step, with what gives them and internal forces their moments [m/s2], and
+    surface_forces: (N, 3) the forces
+        on the surface nodes that it is of [N], both in the frames of the bodies; None before the
+            first step.
     """
 
     time: float
@@ -66,14 +77,22 @@ class State:
         """Positions (P, 3) of the points relative to base or master, the third column the gap [m]."""
         return self.contact["relative"]
 
-    def copy(self) -> "State":
-        return replace(self, **{one.name: value.copy() for one in fields(self) if isinstance(value := getattr(self, one.name), np.ndarray)})
+    def copy(self) -> State:
+        return replace(
+            self,
+            **{
+                one.name: value.copy()
+                for one in fields(self)
+                if isinstance(value := getattr(self, one.name), np.ndarray)
+            },
+        )
 
 
 @dataclass(slots=True)
 class Operators:
-    """Factored effective matrix of one stage and what contact forces do in it; `rotation` is the frame of the matrix, `nodal` the compliance of the
-    foot's nodes once it has been asked for."""
+    """Factored effective matrix of one stage and what contact forces do in it; `rotation` is the
+    frame of the matrix, `nodal` the compliance of the foot's nodes once it has been asked for.
+    """
 
     mass_factor: float
     stiffness_factor: float
@@ -85,22 +104,50 @@ class Operators:
 
 
 class System:
-    """Bodies, their kinematics, their contact with the base and one another, and the operators of each step size.
+    """Bodies, their kinematics, their contact with the base and one another, and the operators of
+    each step size.
 
-    Args:
-        column: Body, or Composite of several.
-        kinematics: Corotated or TotalLagrangian of the column, CompositeKinematics of several bodies.
-        base: BasePlate, or what answers as it does.
-        nodes: (n,) surface nodes of the column that may touch; of several bodies a list of each one's.
-        joints: where they touch what.
-        gravity: (3,) [m/s2].
-        hht: time integration whose step decides the filter of the contact.
-        filtered: contact by FilteredFoot, as the plastic impact law needs it, or PlainFoot.
-        damping: ModalDamping of the column, CompositeDamping, or None.
-        links: (nl,) of LINK between several bodies. laws: of the Interface of a single column; its `rolling` is the coefficient of the rim's Resistance [-].
+    Parameters
+    ----------
+    column
+        Body, or Composite of several.
+    kinematics
+        Corotated or TotalLagrangian of the column, CompositeKinematics of several bodies.
+    base
+        BasePlate, or what answers as it does.
+    nodes
+        (n,) surface nodes of the column that may touch; of several bodies a list of each one's.
+    joints
+        where they touch what.
+    gravity
+        (3,) [m/s2].
+    hht
+        time integration whose step decides the filter of the contact.
+    filtered
+        contact by FilteredFoot, as the plastic impact law needs it, or PlainFoot.
+    damping
+        ModalDamping of the column, CompositeDamping, or None.
+    links
+        (nl,) of LINK between several bodies.
+    laws
+        of the Interface of a single column; its `rolling` is the coefficient of the rim's
+        Resistance [-].
     """
 
-    def __init__(self, column, kinematics, base, nodes, joints: Joints, gravity, hht: HHT, filtered=True, damping=None, links=None, laws=None):
+    def __init__(
+        self,
+        column,
+        kinematics,
+        base,
+        nodes,
+        joints: Joints,
+        gravity,
+        hht: HHT,
+        filtered=True,
+        damping=None,
+        links=None,
+        laws=None,
+    ):
         self.column, self.kinematics, self.base, self.damping = column, kinematics, base, damping
         #: Footprint of a single column, its nodes and areas.
         self.footprint = self.foot_nodes = self.areas = None
@@ -112,22 +159,46 @@ class System:
         foot = foot_of(column, nodes, factor, hht.mass_factor, hht.stiffness_factor, filtered)
         self.interface = Interface(column, foot, base, joints, laws)
         self.links = Linkage(column, links) if links is not None and len(links) else None
-        self._add(hht.mass_factor, hht.stiffness_factor, hht.rate_factor, factor, self.column.unturned)
+        self._add(
+            hht.mass_factor, hht.stiffness_factor, hht.rate_factor, factor, self.column.unturned
+        )
         rim, self.rolling = self.interface.rim, (laws or {}).get("rolling", 0.0)
         self.resistance = Resistance(column, rim, self.rolling) if rim and self.rolling else None
 
     def unstrained(self, x: np.ndarray) -> State:
-        """The bodies at rest at positions x (n_owned, 3) to which rigid motions have carried them; nothing touches yet."""
+        """The bodies at rest at positions x (n_owned, 3) to which rigid motions have carried them;
+        nothing touches yet.
+        """
         interface = self.interface
         rotation, internal, strain = self.kinematics.internal(x)
         contact = np.zeros(interface.size, CONTACT)
-        places = interface.start_positions(x, rotation, interface.poses(x, rotation)) if interface.moving else interface.node_positions(x, rotation)[interface.points["node"]]
-        contact["relative"], contact["located"] = places, may_touch(interface.points, interface.interfaces, places)
+        places = (
+            interface.start_positions(x, rotation, interface.poses(x, rotation))
+            if interface.moving
+            else interface.node_positions(x, rotation)[interface.points["node"]]
+        )
+        contact["relative"], contact["located"] = (
+            places,
+            may_touch(interface.points, interface.interfaces, places),
+        )
         contact["anchor"] = contact["relative"][:, :2]
         zero = np.zeros_like(x)
         ties = self.links.ties(self.column.centers(x), rotation) if self.links else np.zeros(0, TIE)
-        state = State(time=0.0, x=x.copy(), v=zero, a=zero.copy(), contact_a=zero.copy(), internal=internal, strain=strain, rotation=rotation, contact=contact,
-                      static=0.0, ground=np.zeros(3), rims=rims_at_rest(len(interface.interfaces)), ties=ties)
+        state = State(
+            time=0.0,
+            x=x.copy(),
+            v=zero,
+            a=zero.copy(),
+            contact_a=zero.copy(),
+            internal=internal,
+            strain=strain,
+            rotation=rotation,
+            contact=contact,
+            static=0.0,
+            ground=np.zeros(3),
+            rims=rims_at_rest(len(interface.interfaces)),
+            ties=ties,
+        )
         state.static = self.links.stored(state) if self.links else 0.0
         return state
 
@@ -138,14 +209,27 @@ class System:
     def _add(self, mass_factor, stiffness_factor, rate_factor, factor, rotation) -> Operators:
         if self.damping and rate_factor:
             factor = self.damping.damped(factor, mass_factor, stiffness_factor, rate_factor)
-        operators = Operators(mass_factor, stiffness_factor, rate_factor, factor, response_of(self.interface.foot, factor), rotation)
+        operators = Operators(
+            mass_factor,
+            stiffness_factor,
+            rate_factor,
+            factor,
+            response_of(self.interface.foot, factor),
+            rotation,
+        )
         self._operators[mass_factor, stiffness_factor, rate_factor] = operators
         return operators
 
-    def operators(self, mass_factor: float, stiffness_factor: float, rate_factor: float = 0.0) -> Operators:
-        """Operators of mass_factor M + stiffness_factor (K + rate_factor C), C the damping, built once."""
+    def operators(
+        self, mass_factor: float, stiffness_factor: float, rate_factor: float = 0.0
+    ) -> Operators:
+        """Operators of mass_factor M + stiffness_factor (K + rate_factor C), C the damping, built
+        once.
+        """
         factors = mass_factor, stiffness_factor, rate_factor
-        return self._operators.get(factors) or self._add(*factors, self._factor(mass_factor, stiffness_factor), self.column.unturned)
+        return self._operators.get(factors) or self._add(
+            *factors, self._factor(mass_factor, stiffness_factor), self.column.unturned
+        )
 
     def of_step(self, hht: HHT | None = None) -> Operators:
         """Operators of a step of `hht`, of a whole one unless given."""
@@ -157,7 +241,9 @@ class System:
         tangent = self.kinematics.tangent(x)
         factors = old.mass_factor, old.stiffness_factor, old.rate_factor
         self.forget(*factors)
-        fresh = self._add(*factors, self._factor(*factors[:2], tangent), self.kinematics.rotation(x))
+        fresh = self._add(
+            *factors, self._factor(*factors[:2], tangent), self.kinematics.rotation(x)
+        )
         tangent.destroy()
         return fresh
 
@@ -166,7 +252,9 @@ class System:
         self._operators.pop((mass_factor, stiffness_factor, rate_factor)).factor.destroy()
 
     def rounding(self, mass_factor: float) -> float:
-        """Nodal force [N] that rounding leaves: internal and inertial forces are matrix times (position - position)."""
+        """Nodal force [N] that rounding leaves: internal and inertial forces are matrix times
+        (position - position).
+        """
         column = self.column
         scale = column.stiffness_scale + mass_factor * column.mass_scale
         return 4 * np.finfo(float).eps * scale * column.extent
@@ -177,14 +265,45 @@ class System:
         return ((self.gravity - ground) @ loads.reshape(3, -1)).reshape(loads.shape[1:])
 
 
-def one_column(column, kinematics, base, foot, friction, law, gravity, hht: HHT, filtered=True, rim=None, damping=None, restitution: float = 0.0,
-               rolling: float = 0.0, pad=None) -> System:
+def one_column(
+    column,
+    kinematics,
+    base,
+    foot,
+    friction,
+    law,
+    gravity,
+    hht: HHT,
+    filtered=True,
+    rim=None,
+    damping=None,
+    restitution: float = 0.0,
+    rolling: float = 0.0,
+    pad=None,
+) -> System:
     """System of a single column on the base.
 
-    Args:
-        foot: Footprint, the column nodes that may touch. friction, law, rim, restitution, rolling, pad: as of `contact.joints.joint_on_base`; the others of System.
+    Parameters
+    ----------
+    foot
+        Footprint, the column nodes that may touch.
+    friction, law, rim, restitution, rolling, pad
+        as of `contact.joints.joint_on_base`; the others of System.
     """
-    laws = dict(friction=friction, law=law, rim=rim, restitution=restitution, rolling=rolling, pad=pad)
-    system = System(column, kinematics, base, foot.nodes, joint_on_base(column.all_X[foot.nodes], **laws), gravity, hht, filtered, damping, laws=laws)
+    laws = dict(
+        friction=friction, law=law, rim=rim, restitution=restitution, rolling=rolling, pad=pad
+    )
+    system = System(
+        column,
+        kinematics,
+        base,
+        foot.nodes,
+        joint_on_base(column.all_X[foot.nodes], **laws),
+        gravity,
+        hht,
+        filtered,
+        damping,
+        laws=laws,
+    )
     system.footprint, system.foot_nodes, system.areas = foot, foot.nodes, foot.areas
     return system

@@ -1,4 +1,6 @@
-"""One elastic body: reference positions, mass, stiffness and kinematic constraints, distributed over the ranks."""
+"""One elastic body: reference positions, mass, stiffness and kinematic constraints, distributed
+over the ranks.
+"""
 
 from __future__ import annotations
 
@@ -18,16 +20,22 @@ from fecolumn.material.kinematics import linear_strain
 class Body:
     """Finite-element operators of one body.
 
-    Arrays named like the physics (`x`, `v`, `f`) hold the owned nodes of this rank, shape (n_owned, 3); a node is a
-    Lagrange point of the element. Positions, velocities and accelerations carry all nodes; forces are reduced: tied
-    and held nodes have passed theirs on and carry zero.
+    Arrays named like the physics (`x`, `v`, `f`) hold the owned nodes of this rank, shape (n_owned,
+    3); a node is a Lagrange point of the element. Positions, velocities and accelerations carry all
+    nodes; forces are reduced: tied and held nodes have passed theirs on and carry zero.
 
-    Args:
-        comm: MPI communicator.
-        bricks: BrickMesh, read on every rank.
-        material: object with youngs_modulus, poissons_ratio and density in SI units.
-        order: polynomial order of the elements.
-        constrain: function of this body that returns the constraint; see `fecolumn.mesh.tie` for ties.
+    Parameters
+    ----------
+    comm
+        MPI communicator.
+    bricks
+        BrickMesh, read on every rank.
+    material
+        object with youngs_modulus, poissons_ratio and density in SI units.
+    order
+        polynomial order of the elements.
+    constrain
+        function of this body that returns the constraint; see `fecolumn.mesh.tie` for ties.
     """
 
     def __init__(self, comm, bricks, material, order: int = 1, constrain=None):
@@ -43,32 +51,54 @@ class Body:
         self.all_part = np.concatenate(comm.allgather(self._node_parts()))
 
         u, w = ufl.TrialFunction(self.space), ufl.TestFunction(self.space)
-        stress = isotropic_stress(linear_strain(u), material.youngs_modulus_pa, material.poissons_ratio)
+        stress = isotropic_stress(
+            linear_strain(u), material.youngs_modulus_pa, material.poissons_ratio
+        )
         mass = _dolfinx.assemble_matrix(material.density_kg_m3 * ufl.inner(u, w) * ufl.dx)
         stiffness = _dolfinx.assemble_matrix(ufl.inner(stress, linear_strain(w)) * ufl.dx)
         self.work = mass.createVecs()
         self.constraint = Constraint(self, *(constrain(self) if constrain else ({}, ())))
         self.mass, self.stiffness = self.constraint.reduce(mass), self.constraint.reduce(stiffness)
         mass.destroy(), stiffness.destroy()
-        # the consistent mass joins no two axes and is the same along each: a ninth of its entries serves all three
+        # the consistent mass joins no two axes and is the same along each: a ninth of its entries
+        # serves all three
         one_axis = PETSc.IS().createStride(self.n_owned, 3 * self.first, 3, comm)
         self._mass_of_axis = self.mass.createSubMatrix(one_axis, one_axis)
         self._motion = PETSc.Mat().createDense(((self.n_owned, None), (None, 3)), comm=comm)
         self._motion.setUp(), self._motion.assemble(), one_axis.destroy()
         self._momentum = self._mass_of_axis.matMult(self._motion)
         tie = self.constraint.projection
-        _dolfinx.release_with(self, self.mass, self.stiffness, self._mass_of_axis, self._motion, self._momentum, *self.work, *([] if tie is None else [tie]))
+        _dolfinx.release_with(
+            self,
+            self.mass,
+            self.stiffness,
+            self._mass_of_axis,
+            self._motion,
+            self._momentum,
+            *self.work,
+            *([] if tie is None else [tie]),
+        )
         #: Largest diagonal entries of stiffness [N/m] and mass [kg].
-        self.stiffness_scale, self.mass_scale = (matrix.getDiagonal().max()[1] for matrix in (self.stiffness, self.mass))
-        self.unit_loads = np.stack([self.apply(self.mass, np.tile(e, (self.n_owned, 1))) for e in np.eye(3)])
+        self.stiffness_scale, self.mass_scale = (
+            matrix.getDiagonal().max()[1] for matrix in (self.stiffness, self.mass)
+        )
+        self.unit_loads = np.stack(
+            [self.apply(self.mass, np.tile(e, (self.n_owned, 1))) for e in np.eye(3)]
+        )
         self.node_mass = self.unit_loads[2, :, 2]
         self.total_mass = self.sum(self.node_mass.sum())
         self.center = self.sum(self.node_mass @ self.X) / self.total_mass
-        #: Positions (n_owned, 3) from the centre of mass [m], and the mass matrix times them [kg m].
+        #: Positions (n_owned, 3) from the centre of mass [m], and the mass matrix times them [kg
+        #: m].
         self.arms = self.X - self.center
         self.mass_arms = self.momentum(self.arms)
         #: As of `fem.composite.Composite`: one body, all rows its own, where it is drawn.
-        self.rows, self.placed, self.extent, self.unturned = [slice(0, self.n_owned)], self.X, np.ptp(self.all_X, axis=0).max(), np.eye(3)
+        self.rows, self.placed, self.extent, self.unturned = (
+            [slice(0, self.n_owned)],
+            self.X,
+            np.ptp(self.all_X, axis=0).max(),
+            np.eye(3),
+        )
 
     @property
     def parts(self) -> list:
@@ -76,7 +106,9 @@ class Body:
         return [self]
 
     def centers(self, values: np.ndarray) -> np.ndarray:
-        """As of `fem.composite.Composite`: mean (1, 3) over the mass of an owned array (n_owned, 3)."""
+        """As of `fem.composite.Composite`: mean (1, 3) over the mass of an owned array (n_owned,
+        3).
+        """
         return self.sum(self.node_mass @ values)[None] / self.total_mass
 
     def _node_parts(self) -> np.ndarray:
@@ -90,11 +122,16 @@ class Body:
 
     def find_nodes(self, points, part=None) -> np.ndarray:
         """Numbers (n,) of the nodes at `points` (n, 3) [m], of one part if given."""
-        among = np.flatnonzero(self.all_part == part) if part is not None else np.arange(self.n_nodes)
+        among = (
+            np.flatnonzero(self.all_part == part) if part is not None else np.arange(self.n_nodes)
+        )
         distance, nearest = cKDTree(self.all_X[among]).query(points)
         size = np.ptp(self.all_X, axis=0).max()
         if np.any(distance > 1e-9 * size):
-            raise RuntimeError(f"no node at {points[np.argmax(distance)]} m: nearest is {distance.max():.3g} m away")
+            raise RuntimeError(
+                f"no node at {points[np.argmax(distance)]} m: nearest is "
+                f"{distance.max():.3g} m away"
+            )
         return among[nearest]
 
     def owned(self, nodes) -> tuple[np.ndarray, np.ndarray]:
@@ -121,16 +158,22 @@ class Body:
         return result
 
     def apply(self, matrix: PETSc.Mat, values: np.ndarray) -> np.ndarray:
-        """Product of a matrix with an owned array (n_owned, 3), or with (k, n_owned, 3) of k copies at once, for which the matrix is read once."""
+        """Product of a matrix with an owned array (n_owned, 3), or with (k, n_owned, 3) of k copies
+        at once, for which the matrix is read once.
+        """
         if values.ndim == 3:
-            return self.apply_many(matrix, values.reshape(len(values), -1).T).T.reshape(values.shape)
+            return self.apply_many(matrix, values.reshape(len(values), -1).T).T.reshape(
+                values.shape
+            )
         source, target = self.work
         source.array[:] = values.reshape(-1)
         matrix.mult(source, target)
         return target.array.reshape(-1, 3).copy()
 
     def momentum(self, values: np.ndarray) -> np.ndarray:
-        """Product of the mass with an owned array (n_owned, 3), or with those of copies (k, n_owned, 3)."""
+        """Product of the mass with an owned array (n_owned, 3), or with those of copies (k,
+        n_owned, 3).
+        """
         if values.ndim == 3:
             return np.stack([self.momentum(one) for one in values])
         self._motion.getDenseArray()[:] = values
@@ -165,10 +208,14 @@ class Body:
 class Constraint:
     """Ties and supports as a projection P: all nodes = P (free nodes).
 
-    Args:
-        body: the body.
-        ties: {slave node: (master nodes, weights)}.
-        held: nodes without displacement.
+    Parameters
+    ----------
+    body
+        the body.
+    ties
+        {slave node: (master nodes, weights)}.
+    held
+        nodes without displacement.
     """
 
     def __init__(self, body: Body, ties: dict, held):

@@ -1,6 +1,8 @@
-"""Several bodies that answer as one: whatever is asked of a body is asked of each, rows of one below those of the other.
+"""Several bodies that answer as one: whatever is asked of a body is asked of each, rows of one
+below those of the other.
 
-Copies of a body are the same `fem.body.Body` object. What is made of it, a factor, the filter of its surface, is made once for all of them.
+Copies of a body are the same `fem.body.Body` object. What is made of it, a factor, the filter of
+its surface, is made once for all of them.
 """
 
 from __future__ import annotations
@@ -17,43 +19,76 @@ class Composite:
 
     Owned arrays (n_owned, 3) hold the owned nodes of this rank, body by body.
 
-    Args:
-        parts: of Body, copies the same object. centers: (nb, 3) [m] their centres of mass, rotations: (nb, 3, 3) their turns, in the table frame, unstrained.
+    Parameters
+    ----------
+    parts
+        of Body, copies the same object.
+    centers
+        (nb, 3) [m] their centres of mass, rotations: (nb, 3, 3) their turns, in the table frame,
+        unstrained.
     """
 
     def __init__(self, parts: list, centers: np.ndarray, rotations: np.ndarray):
         self.parts, self.comm = list(parts), parts[0].comm
         self.rows = slices([part.n_owned for part in parts])
-        self.n_owned, self.n_nodes = (sum(getattr(part, name) for part in parts) for name in ("n_owned", "n_nodes"))
-        self.X, self.arms, self.mass_arms = (np.concatenate([getattr(part, name) for part in parts]) for name in ("X", "arms", "mass_arms"))
+        self.n_owned, self.n_nodes = (
+            sum(getattr(part, name) for part in parts) for name in ("n_owned", "n_nodes")
+        )
+        self.X, self.arms, self.mass_arms = (
+            np.concatenate([getattr(part, name) for part in parts])
+            for name in ("X", "arms", "mass_arms")
+        )
         self.unturned = np.tile(np.eye(3), (len(parts), 1, 1))
         #: Unstrained positions (n_owned, 3) in the table frame [m].
         self.placed = self.places(centers, rotations)
-        places = np.concatenate([center + (part.all_X - part.center) @ R.T for part, center, R in zip(parts, centers, rotations)])
+        places = np.concatenate(
+            [
+                center + (part.all_X - part.center) @ R.T
+                for part, center, R in zip(parts, centers, rotations)
+            ]
+        )
         #: Largest extent along an axis [m].
         self.extent = np.ptp(places, axis=0).max()
         self.stiffness = [part.stiffness for part in parts]
-        self.stiffness_scale, self.mass_scale = (max(getattr(part, name) for part in parts) for name in ("stiffness_scale", "mass_scale"))
+        self.stiffness_scale, self.mass_scale = (
+            max(getattr(part, name) for part in parts) for name in ("stiffness_scale", "mass_scale")
+        )
         self.unit_loads = np.concatenate([part.unit_loads for part in parts], axis=1)
         self.node_mass = np.concatenate([part.node_mass for part in parts])
         self.total_mass = sum(part.total_mass for part in parts)
         self.sum, self.max, self.dot = parts[0].sum, parts[0].max, parts[0].dot
 
     def places(self, centers, rotations) -> np.ndarray:
-        """Positions (n_owned, 3) [m] of the unstrained bodies with centres of mass (nb, 3), turned by (nb, 3, 3)."""
-        return np.concatenate([center + (part.X - part.center) @ R.T for part, center, R in zip(self.parts, centers, rotations)])
+        """Positions (n_owned, 3) [m] of the unstrained bodies with centres of mass (nb, 3), turned
+        by (nb, 3, 3).
+        """
+        return np.concatenate(
+            [
+                center + (part.X - part.center) @ R.T
+                for part, center, R in zip(self.parts, centers, rotations)
+            ]
+        )
 
     def apply(self, matrices, values: np.ndarray) -> np.ndarray:
         """Product of each body's matrix with its rows of an owned array (n_owned, 3)."""
-        return np.concatenate([part.apply(matrix, values[rows]) for part, matrix, rows in zip(self.parts, matrices, self.rows)])
+        return np.concatenate(
+            [
+                part.apply(matrix, values[rows])
+                for part, matrix, rows in zip(self.parts, matrices, self.rows)
+            ]
+        )
 
     def momentum(self, values: np.ndarray) -> np.ndarray:
         """Product of each body's mass with its rows of an owned array (n_owned, 3)."""
-        return np.concatenate([part.momentum(values[rows]) for part, rows in zip(self.parts, self.rows)])
+        return np.concatenate(
+            [part.momentum(values[rows]) for part, rows in zip(self.parts, self.rows)]
+        )
 
     def centers(self, x: np.ndarray) -> np.ndarray:
         """Centres of mass (nb, 3) of positions x (n_owned, 3) [m]."""
-        return self.sum(np.stack([part.node_mass @ x[rows] for part, rows in zip(self.parts, self.rows)])) / np.array([[part.total_mass] for part in self.parts])
+        return self.sum(
+            np.stack([part.node_mass @ x[rows] for part, rows in zip(self.parts, self.rows)])
+        ) / np.array([[part.total_mass] for part in self.parts])
 
     def of_each(self, make) -> list:
         """What `make` gives of each body (and its first rows), made once for all copies."""
@@ -77,10 +112,16 @@ def copies_of(each: list):
 
 
 def of_copies(each: list, rows: list, values: np.ndarray, name: str) -> np.ndarray:
-    """What the methods `name` of `each` give of rows of values (n, 3), one below the other; copies are asked at once, so that what is large is read once."""
+    """What the methods `name` of `each` give of rows of values (n, 3), one below the other; copies
+    are asked at once, so that what is large is read once.
+    """
     found = {}
     for one, mine in copies_of(each):
-        given = values[rows[mine[0]]] if len(mine) == 1 else np.stack([values[rows[place]] for place in mine])
+        given = (
+            values[rows[mine[0]]]
+            if len(mine) == 1
+            else np.stack([values[rows[place]] for place in mine])
+        )
         found |= zip(mine, getattr(one, name)(given).reshape(len(mine), -1, 3))
     return np.concatenate([found[place] for place in range(len(each))])
 
@@ -88,8 +129,12 @@ def of_copies(each: list, rows: list, values: np.ndarray, name: str) -> np.ndarr
 class CompositeKinematics:
     """Kinematics of each body by itself.
 
-    Args:
-        column: Composite. make: function of a Body that returns its kinematics.
+    Parameters
+    ----------
+    column
+        Composite.
+    make
+        function of a Body that returns its kinematics.
     """
 
     #: The stiffness of the reference serves, turned with each body.
@@ -100,14 +145,21 @@ class CompositeKinematics:
         self.name = self.each[0].name
 
     def _rowwise(self, name: str, *arrays) -> np.ndarray:
-        return np.concatenate([getattr(one, name)(*(array[rows] for array in arrays)) for one, rows in zip(self.each, self._rows)])
+        return np.concatenate(
+            [
+                getattr(one, name)(*(array[rows] for array in arrays))
+                for one, rows in zip(self.each, self._rows)
+            ]
+        )
 
     def rotation(self, x: np.ndarray) -> np.ndarray:
         """(nb, 3, 3)."""
         return np.stack([one.rotation(x[rows]) for one, rows in zip(self.each, self._rows)])
 
     def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-        """Rotations (nb, 3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions x."""
+        """Rotations (nb, 3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions
+        x.
+        """
         found = {}
         for one, mine in copies_of(self.each):
             found |= zip(mine, one.internal_of_copies([x[self._rows[place]] for place in mine]))
@@ -142,10 +194,13 @@ class CompositeFactor:
 class CompositeFoot:
     """Surface nodes of all bodies: `fem.foot` of each, found once for all copies.
 
-    `static` and `mobility` are lists of each body's: nothing is ever made of the size of all together.
+    `static` and `mobility` are lists of each body's: nothing is ever made of the size of all
+    together.
 
-    Args:
-        nodes: of each body, node numbers (n,) of its surfaces; those of the first serve all copies.
+    Parameters
+    ----------
+    nodes
+        of each body, node numbers (n,) of its surfaces; those of the first serve all copies.
     """
 
     def __init__(self, column: Composite, nodes: list, make):
@@ -185,16 +240,28 @@ class CompositeResponse:
 class CompositeDamping:
     """Modal damping of each body, with a ratio of its own.
 
-    Args:
-        counts: of each body, modes that are damped, the lowest. ratios: of each body, a number or one of each mode; copies the same.
+    Parameters
+    ----------
+    counts
+        of each body, modes that are damped, the lowest.
+    ratios
+        of each body, a number or one of each mode; copies the same.
     """
 
     def __init__(self, column: Composite, counts, ratios):
         known = dict(zip(column.parts, zip(counts, ratios)))
-        self._rows, self.each = column.rows, column.of_each(lambda part, _: ModalDamping(part, *known[part]))
+        self._rows, self.each = (
+            column.rows,
+            column.of_each(lambda part, _: ModalDamping(part, *known[part])),
+        )
 
     def _rowwise(self, name, velocity, rotation) -> np.ndarray:
-        return np.concatenate([getattr(one, name)(velocity[rows], R) for one, rows, R in zip(self.each, self._rows, rotation)])
+        return np.concatenate(
+            [
+                getattr(one, name)(velocity[rows], R)
+                for one, rows, R in zip(self.each, self._rows, rotation)
+            ]
+        )
 
     def force(self, velocity, rotation):
         return self._rowwise("force", velocity, rotation)
@@ -213,14 +280,22 @@ class CompositeDamping:
 def factor_of(column, mass_factor: float, stiffness_factor: float, tangent=None):
     """`effective_factor` of a body, or of each of a Composite."""
     if isinstance(column, Composite):
-        return CompositeFactor(column, column.of_each(lambda part, _: effective_factor(part, mass_factor, stiffness_factor)))
+        return CompositeFactor(
+            column,
+            column.of_each(lambda part, _: effective_factor(part, mass_factor, stiffness_factor)),
+        )
     return effective_factor(column, mass_factor, stiffness_factor, tangent)
 
 
 def foot_of(column, nodes, factor, mass_factor: float, stiffness_factor: float, filtered: bool):
     """Contact of the surface nodes of a body, or of those (list) of each of a Composite."""
+
     def make(body, own, its_factor):
-        return FilteredFoot(body, own, its_factor, mass_factor, stiffness_factor) if filtered else PlainFoot(body, own)
+        return (
+            FilteredFoot(body, own, its_factor, mass_factor, stiffness_factor)
+            if filtered
+            else PlainFoot(body, own)
+        )
 
     if isinstance(column, Composite):
         of_body = dict(zip(column.parts, factor.each))
@@ -230,4 +305,8 @@ def foot_of(column, nodes, factor, mass_factor: float, stiffness_factor: float, 
 
 def response_of(foot, factor):
     """`fem.foot.Response` of a body, or of each of a Composite."""
-    return CompositeResponse(foot, factor) if isinstance(foot, CompositeFoot) else Response(foot, factor)
+    return (
+        CompositeResponse(foot, factor)
+        if isinstance(foot, CompositeFoot)
+        else Response(foot, factor)
+    )

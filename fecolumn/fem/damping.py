@@ -8,19 +8,30 @@ from fecolumn.fem.modes import elastic_modes
 
 
 class ModalDamping:
-    """Viscous forces f = R sum M phi 2 zeta w (M phi . R^T v) of a body turned by R, phi its elastic modes of unit modal mass.
+    """Viscous forces f = R sum M phi 2 zeta w (M phi .
 
-    The modes are M-orthogonal to every rigid motion, so that translation, rotation and their impacts lose nothing. They diagonalise the
-    effective matrix, too, so that its factor serves with a correction in each mode.
+    R^T v) of a body turned by R, phi its elastic modes of unit modal mass.
 
-    Args:
-        body: Body. count: elastic modes that are damped, the lowest. ratio: zeta, of each.
+    The modes are M-orthogonal to every rigid motion, so that translation, rotation and their
+    impacts lose nothing. They diagonalise the effective matrix, too, so that its factor serves with
+    a correction in each mode.
+
+    Parameters
+    ----------
+    body
+        Body.
+    count
+        elastic modes that are damped, the lowest.
+    ratio
+        zeta, of each.
     """
 
     def __init__(self, body, count: int, ratio: float):
         self.body, self.ratio = body, ratio
         self.frequencies, self.shapes = elastic_modes(body, count)
-        self._momenta = np.array([body.apply(body.mass, shape) for shape in self.shapes]).reshape(self.shapes.shape)
+        self._momenta = np.array([body.apply(body.mass, shape) for shape in self.shapes]).reshape(
+            self.shapes.shape
+        )
         self._rates = 2 * ratio * self.frequencies
 
     def _modal(self, velocity, rotation) -> np.ndarray:
@@ -28,21 +39,31 @@ class ModalDamping:
         return self._rates * self.body.sum(np.tensordot(self._momenta, velocity @ rotation, axes=2))
 
     def force(self, velocity: np.ndarray, rotation: np.ndarray) -> np.ndarray:
-        """Nodal forces (n_owned, 3) [N] that velocities (n_owned, 3) [m/s] need, in the sense of internal forces."""
+        """Nodal forces (n_owned, 3) [N] that velocities (n_owned, 3) [m/s] need, in the sense of
+        internal forces.
+        """
         return np.tensordot(self._modal(velocity, rotation), self._momenta, axes=1) @ rotation.T
 
     def acceleration(self, velocity: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """M^-1 of `force`."""
         return np.tensordot(self._modal(velocity, rotation), self.shapes, axes=1) @ rotation.T
 
-    def damped(self, factor, mass_factor: float, stiffness_factor: float, rate_factor: float) -> DampedFactor:
-        """Factor of mass_factor M + stiffness_factor (K + rate_factor C) from that of mass_factor M + stiffness_factor K."""
+    def damped(
+        self, factor, mass_factor: float, stiffness_factor: float, rate_factor: float
+    ) -> DampedFactor:
+        """Factor of mass_factor M + stiffness_factor (K + rate_factor C) from that of mass_factor M
+        + stiffness_factor K.
+        """
         own = mass_factor + stiffness_factor * self.frequencies**2
-        return DampedFactor(factor, self.shapes, 1 / (own + stiffness_factor * rate_factor * self._rates) - 1 / own)
+        return DampedFactor(
+            factor, self.shapes, 1 / (own + stiffness_factor * rate_factor * self._rates) - 1 / own
+        )
 
 
 class DampedFactor:
-    """A `fem.effective.Factor` and what damping changes of its inverse: `change` (m,) times phi phi^T of each mode."""
+    """A `fem.effective.Factor` and what damping changes of its inverse: `change` (m,) times phi
+    phi^T of each mode.
+    """
 
     def __init__(self, factor, shapes: np.ndarray, change: np.ndarray):
         self._factor, self._change = factor, change

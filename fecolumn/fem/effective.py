@@ -1,4 +1,6 @@
-"""Effective matrices of implicit time integration, factored once, and responses to many loads at once."""
+"""Effective matrices of implicit time integration, factored once, and responses to many loads at
+once.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,6 @@ from petsc4py import PETSc
 
 from fecolumn import _dolfinx
 
-
 #: Solves with one load in less than half the time of MUMPS, but on a single rank alone
 _OF_ONE_RANK = "cholmod" if PETSc.Sys.hasExternalPackage("suitesparse") else "mumps"
 # Messages of CHOLMOD
@@ -15,18 +16,24 @@ _SAYS = "mat_cholmod_print"
 
 
 class Factor:
-    """Factor of a symmetric matrix of a body, which is taken over: Cholesky by CHOLMOD, on several ranks by MUMPS.
+    """Factor of a symmetric matrix of a body, which is taken over: Cholesky by CHOLMOD, on several
+    ranks by MUMPS.
 
-    Args:
-        definite: whether the matrix is positive definite beyond doubt. That of a strained body need not be, where an iteration is far from its answer: it is factored
-            as L D L^T by MUMPS where Cholesky fails, and at once on several ranks.
+    Parameters
+    ----------
+    definite
+        whether the matrix is positive definite beyond doubt. That of a strained body need not be,
+        where an iteration is far from its answer: it is factored as L D L^T by MUMPS where Cholesky
+        fails, and at once on several ranks.
     """
 
     def __init__(self, body, matrix: PETSc.Mat, definite: bool = True):
         self.body, self._matrix = body, body.constraint.pinned(matrix)
         alone = body.comm.size == 1
         try:
-            self._solver = _solver(self._matrix, _OF_ONE_RANK if alone else "mumps", definite or alone)
+            self._solver = _solver(
+                self._matrix, _OF_ONE_RANK if alone else "mumps", definite or alone
+            )
         except PETSc.Error:
             if definite:
                 raise
@@ -34,7 +41,9 @@ class Factor:
         self._release = _dolfinx.release_with(self, self._solver, self._matrix)
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
-        """Displacements (n_owned, 3) of all nodes from reduced forces (n_owned, 3); (k, n_owned, 3) of k copies at once, for which the factor is read once."""
+        """Displacements (n_owned, 3) of all nodes from reduced forces (n_owned, 3); (k, n_owned, 3)
+        of k copies at once, for which the factor is read once.
+        """
         if forces.ndim == 3:
             return self.solve_many(forces.reshape(len(forces), -1).T).T.reshape(forces.shape)
         source, target = self.body.work
@@ -43,9 +52,13 @@ class Factor:
         return self.body.constraint.expand(target.array.reshape(-1, 3).copy())
 
     def solve_many(self, forces: np.ndarray) -> np.ndarray:
-        """Displacements (3 n_owned, m) of all nodes from m columns of reduced forces (3 n_owned, m)."""
+        """Displacements (3 n_owned, m) of all nodes from m columns of reduced forces (3 n_owned,
+        m).
+        """
         sizes = (3 * self.body.n_owned, None), (None, forces.shape[1])
-        source = PETSc.Mat().createDense(sizes, array=np.asfortranarray(forces), comm=self.body.comm)
+        source = PETSc.Mat().createDense(
+            sizes, array=np.asfortranarray(forces), comm=self.body.comm
+        )
         target = PETSc.Mat().createDense(sizes, comm=self.body.comm)
         for matrix in (source, target):
             matrix.setUp()
@@ -85,8 +98,12 @@ def _solver(matrix: PETSc.Mat, package: str, definite: bool) -> PETSc.KSP:
     return solver
 
 
-def effective_factor(body, mass_factor: float, stiffness_factor: float, stiffness: PETSc.Mat | None = None) -> Factor:
-    """Factor of mass_factor M + stiffness_factor K, with the body's reference stiffness unless another is given."""
+def effective_factor(
+    body, mass_factor: float, stiffness_factor: float, stiffness: PETSc.Mat | None = None
+) -> Factor:
+    """Factor of mass_factor M + stiffness_factor K, with the body's reference stiffness unless
+    another is given.
+    """
     matrix = (stiffness or body.stiffness).copy()
     matrix.scale(stiffness_factor)
     if mass_factor:

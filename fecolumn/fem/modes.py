@@ -11,8 +11,8 @@ from scipy.linalg import eigh
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rayleigh import spectral_shift
 
-# Shift of the spectrum over the bound of the first elastic frequency's square: K + s M can be factored, and 1 / (w^2 + s) still
-# tells the rigid modes from the first elastic ones
+# Shift of the spectrum over the bound of the first elastic frequency's square: K + s M can be
+# factored, and 1 / (w^2 + s) still tells the rigid modes from the first elastic ones
 _SHARE = 0.01
 
 
@@ -20,7 +20,8 @@ _SHARE = 0.01
 class Modes:
     """Frequencies (m,) [Hz], rising, and shapes (m, n_owned, 3) with unit modal mass [1/sqrt(kg)].
 
-    A frequency below zero is one whose eigenvalue came out negative by rounding: -sqrt(|w^2|) / 2 pi.
+    A frequency below zero is one whose eigenvalue came out negative by rounding: -sqrt(|w^2|) / 2
+    pi.
     """
 
     frequencies: np.ndarray
@@ -30,16 +31,21 @@ class Modes:
 def free_modes(body, count: int, tolerance: float = 1e-10) -> Modes:
     """The `count` lowest modes of K x = w^2 M x, rigid ones included, ties as in the body.
 
-    The six rigid ones are known, and Ritz's method among them tells their frequencies. The elastic ones are sought beside them: six equal
-    eigenvalues are not all found by a Krylov method, and one that is missed would make the first elastic mode a rigid one.
-    Krylov-Schur with shift-invert (SLEPc), the shifted matrix factored by MUMPS. Constrained nodes carry neither mass nor
+    The six rigid ones are known, and Ritz's method among them tells their frequencies. The elastic
+    ones are sought beside them: six equal eigenvalues are not all found by a Krylov method, and one
+    that is missed would make the first elastic mode a rigid one. Krylov-Schur with shift-invert
+    (SLEPc), the shifted matrix factored by MUMPS. Constrained nodes carry neither mass nor
     stiffness in the reduced matrices; they are pinned far above the wanted frequencies.
 
-    Args:
-        count: at least 6.
+    Parameters
+    ----------
+    count
+        at least 6.
 
-    Raises:
-        RuntimeError: fewer modes converged than asked for.
+    Raises
+    ------
+    RuntimeError
+        fewer modes converged than asked for.
     """
     from slepc4py import SLEPc
 
@@ -77,7 +83,10 @@ def free_modes(body, count: int, tolerance: float = 1e-10) -> Modes:
     for k in range(count - 6):
         values.append(solver.getEigenpair(k, shape).real)
         field = body.constraint.expand(shape.array.reshape(-1, 3).copy())
-        shapes.append(field / np.sqrt(body.dot(shape.array.reshape(-1, 3), body.apply(body.mass, shape.array))))
+        shapes.append(
+            field
+            / np.sqrt(body.dot(shape.array.reshape(-1, 3), body.apply(body.mass, shape.array)))
+        )
     for one in (solver, stiffness, shape, *known):
         one.destroy()
     order = np.argsort(values)
@@ -90,7 +99,9 @@ def _hertz(values: np.ndarray) -> np.ndarray:
 
 
 def elastic_modes(body, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies (m,) [rad/s] and shapes (m, n_owned, 3) of unit modal mass of the lowest elastic modes: `count` of them, or all there are."""
+    """Frequencies (m,) [rad/s] and shapes (m, n_owned, 3) of unit modal mass of the lowest elastic
+    modes: `count` of them, or all there are.
+    """
     count = min(count, 3 * (body.n_nodes - len(body.constraint.nodes)) - 6)
     if count <= 0:
         return np.zeros(0), np.zeros((0, body.n_owned, 3))

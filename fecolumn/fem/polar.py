@@ -8,15 +8,18 @@ import numpy as np
 
 from fecolumn._compiled import njit
 
-#: Change of an iterate [-] at which the next one is exact to rounding: Newton's iteration squares it
+#: Change of an iterate [-] at which the next one is exact to rounding: Newton's iteration squares
+#: it
 _CHANGE = 1e-9
 _ITERATIONS = 40
 
 
 @njit(alone=True)
 def polar_of(moment, rotation):
-    """Fill in the rotation (3, 3) nearest to `moment` (3, 3), by Newton's iteration with scaling (Higham 1986); whether it was found: not of one whose determinant is
-    not positive, or vanishes beside its entries."""
+    """Fill in the rotation (3, 3) nearest to `moment` (3, 3), by Newton's iteration with scaling
+    (Higham 1986); whether it was found: not of one whose determinant is not positive, or vanishes
+    beside its entries.
+    """
     rotation[:] = moment
     cofactor = np.empty((3, 3))
     for _ in range(_ITERATIONS):
@@ -24,7 +27,11 @@ def polar_of(moment, rotation):
             for j in range(3):
                 k, m, p, q = (i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3
                 cofactor[i, j] = rotation[k, p] * rotation[m, q] - rotation[k, q] * rotation[m, p]
-        determinant = rotation[0, 0] * cofactor[0, 0] + rotation[0, 1] * cofactor[0, 1] + rotation[0, 2] * cofactor[0, 2]
+        determinant = (
+            rotation[0, 0] * cofactor[0, 0]
+            + rotation[0, 1] * cofactor[0, 1]
+            + rotation[0, 2] * cofactor[0, 2]
+        )
         size, other = math.sqrt((rotation**2).sum()), math.sqrt((cofactor**2).sum())
         if not determinant > 1e-12 * size**3:
             return False

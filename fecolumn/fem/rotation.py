@@ -11,7 +11,9 @@ def rotation_matrix(vector) -> np.ndarray:
     """Rotation (3, 3) of the rotation vector (3,) [rad], by Rodrigues' formula."""
     vector = np.asarray(vector, float)
     angle = np.linalg.norm(vector)
-    spin = np.array([[0, -vector[2], vector[1]], [vector[2], 0, -vector[0]], [-vector[1], vector[0], 0]])
+    spin = np.array(
+        [[0, -vector[2], vector[1]], [vector[2], 0, -vector[0]], [-vector[1], vector[0], 0]]
+    )
     # sinc-like quotients stay exact at small angles
     a = np.sinc(angle / np.pi)
     b = 0.5 * np.sinc(angle / (2 * np.pi)) ** 2
@@ -19,7 +21,9 @@ def rotation_matrix(vector) -> np.ndarray:
 
 
 def polar_rotation(moment: np.ndarray) -> np.ndarray:
-    """Rotation R (3, 3) nearest to `moment` = sum m x X^T, so that x ~ R X in the mass-weighted mean; (nb, 3, 3) of as many moments."""
+    """Rotation R (3, 3) nearest to `moment` = sum m x X^T, so that x ~ R X in the mass-weighted
+    mean; (nb, 3, 3) of as many moments.
+    """
     if moment.ndim == 3:
         return np.stack([polar_rotation(one) for one in moment])
     rotation = np.empty((3, 3))
@@ -42,8 +46,10 @@ def twist_angle(rotation: np.ndarray) -> float:
 def into_frames(values: np.ndarray, rotation: np.ndarray, rows=None) -> np.ndarray:
     """Vectors (n, 3) in the table frame as vectors in the frame of their body.
 
-    Args:
-        rotation: (3, 3) body to table; or (nb, 3, 3) of several bodies, whose rows are the slices `rows`.
+    Parameters
+    ----------
+    rotation
+        (3, 3) body to table; or (nb, 3, 3) of several bodies, whose rows are the slices `rows`.
     """
     if rotation.ndim == 2:
         return values @ rotation
@@ -51,5 +57,7 @@ def into_frames(values: np.ndarray, rotation: np.ndarray, rows=None) -> np.ndarr
 
 
 def out_of_frames(values: np.ndarray, rotation: np.ndarray, rows=None) -> np.ndarray:
-    """Vectors (n, 3) in the frame of their body as vectors in the table frame; arguments as of `into_frames`."""
+    """Vectors (n, 3) in the frame of their body as vectors in the table frame; arguments as of
+    `into_frames`.
+    """
     return into_frames(values, rotation.swapaxes(-1, -2), rows)

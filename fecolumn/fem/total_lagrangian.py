@@ -15,17 +15,23 @@ from fecolumn.material.kinematics import green_lagrange_strain
 
 
 class TotalLagrangian:
-    """Internal forces as the derivative of the St. Venant-Kirchhoff energy, its tangent by `ufl.derivative`."""
+    """Internal forces as the derivative of the St.
+
+    Venant-Kirchhoff energy, its tangent by `ufl.derivative`.
+    """
 
     name = "total_lagrangian"
-    #: Whether `tangent` gives the stiffness at strained positions; else that of the reference serves, turned.
+    #: Whether `tangent` gives the stiffness at strained positions; else that of the reference
+    #: serves, turned.
     has_tangent = True
 
     def __init__(self, body):
         self.body = body
         self.u = fem.Function(body.space)
         strain = green_lagrange_strain(self.u)
-        stress = isotropic_stress(strain, body.material.youngs_modulus_pa, body.material.poissons_ratio)
+        stress = isotropic_stress(
+            strain, body.material.youngs_modulus_pa, body.material.poissons_ratio
+        )
         energy = 0.5 * ufl.inner(stress, strain) * ufl.dx
         residual = ufl.derivative(energy, self.u, ufl.TestFunction(body.space))
         self._energy, self._residual = fem.form(energy), fem.form(residual)
@@ -39,7 +45,9 @@ class TotalLagrangian:
         return mean_rotation(self.body, x)
 
     def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-        """Mean rotation (3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions x."""
+        """Mean rotation (3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions
+        x.
+        """
         self._set(x)
         vector = fem.petsc.assemble_vector(self._residual)
         vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
@@ -57,9 +65,11 @@ class TotalLagrangian:
         return reduced
 
     def moved(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Positions after an increment (n_owned, 3) [m] of an iteration, its rigid part made a rotation.
+        """Positions after an increment (n_owned, 3) [m] of an iteration, its rigid part made a
+        rotation.
 
-        A turn by w taken straight would stretch the body by w^2 / 2: at dt = 0.02 s that is a thousand times its strains.
+        A turn by w taken straight would stretch the body by w^2 / 2: at dt = 0.02 s that is a
+        thousand times its strains.
         """
         rigid, linear = self._rigid_parts(x, step)
         return rigid + step - linear
@@ -67,7 +77,8 @@ class TotalLagrangian:
     def predicted(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
         """First guess after a time step's increment (n_owned, 3) [m]: only its rigid part.
 
-        Elastic velocities that the step does not resolve would carry the guess far outside small strains.
+        Elastic velocities that the step does not resolve would carry the guess far outside small
+        strains.
         """
         return self._rigid_parts(x, step)[0]
 
@@ -75,7 +86,10 @@ class TotalLagrangian:
         """Positions moved by the rigid part of an increment, and that part taken straight."""
         body = self.body
         mass = body.node_mass[:, None]
-        centre, shift = body.sum((mass * x).sum(axis=0)) / body.total_mass, body.sum((mass * step).sum(axis=0)) / body.total_mass
+        centre, shift = (
+            body.sum((mass * x).sum(axis=0)) / body.total_mass,
+            body.sum((mass * step).sum(axis=0)) / body.total_mass,
+        )
         turn = self.rotation(x + step) @ self.rotation(x).T
         # the straight increment whose rotation is `turn`: of length tan(w) about the same axis
         skew = (turn - turn.T) / (np.trace(turn) - 1)

@@ -6,19 +6,42 @@ from pathlib import Path
 
 FOLDER = Path(__file__).parent
 # in the order of reading
-TOPICS = ("quick-start", "cases", "keys", "motions", "studies", "statistics", "outputs", "pictures", "examples", "python", "clusters", "structures", "rocking", "rocking-structures", "theory", "algorithm", "contributing", "changelog")
+TOPICS = (
+    "quick-start",
+    "cases",
+    "keys",
+    "motions",
+    "studies",
+    "statistics",
+    "outputs",
+    "pictures",
+    "examples",
+    "python",
+    "clusters",
+    "structures",
+    "rocking",
+    "rocking-structures",
+    "theory",
+    "algorithm",
+    "contributing",
+    "changelog",
+)
 
 
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn help`."""
-    parser.add_argument("topic", nargs="?", default="", metavar="TOPIC", help="a topic; without one: all topics")
+    parser.add_argument(
+        "topic", nargs="?", default="", metavar="TOPIC", help="a topic; without one: all topics"
+    )
 
 
 def main(args) -> int:
     """Print a topic, or what there is; returns 0.
 
-    Raises:
-        InputError: no such topic.
+    Raises
+    ------
+    InputError
+        no such topic.
     """
     print(page(args.topic) if args.topic else contents())
     return 0
@@ -27,8 +50,10 @@ def main(args) -> int:
 def page(topic: str) -> str:
     """The Markdown of a topic; the beginning of its name is enough.
 
-    Raises:
-        InputError: no such topic.
+    Raises
+    ------
+    InputError
+        no such topic.
     """
     from fecolumn.schema import InputError
 
@@ -40,8 +65,18 @@ def page(topic: str) -> str:
 
 def contents() -> str:
     """Topics with their titles."""
-    lines = [f"  {name:12} {_text(name).partition(chr(10))[0].removeprefix('# ')}" for name in TOPICS]
-    return "\n".join(["fecolumn help TOPIC, of:", *lines, "", f"The same as files: {FOLDER}", "Options of a command: fecolumn COMMAND --help"])
+    lines = [
+        f"  {name:12} {_text(name).partition(chr(10))[0].removeprefix('# ')}" for name in TOPICS
+    ]
+    return "\n".join(
+        [
+            "fecolumn help TOPIC, of:",
+            *lines,
+            "",
+            f"The same as files: {FOLDER}",
+            "Options of a command: fecolumn COMMAND --help",
+        ]
+    )
 
 
 def _text(name: str) -> str:

@@ -14,7 +14,8 @@ def lame(youngs_modulus: float, poissons_ratio: float) -> tuple[float, float]:
 def isotropic_stress(strain, youngs_modulus: float, poissons_ratio: float):
     """Stress of Hooke's law for a strain tensor (3, 3).
 
-    With the Green-Lagrange strain this is the second Piola-Kirchhoff stress of the St. Venant-Kirchhoff material.
+    With the Green-Lagrange strain this is the second Piola-Kirchhoff stress of the St.
+    Venant-Kirchhoff material.
     """
     first, shear = lame(youngs_modulus, poissons_ratio)
     return first * ufl.tr(strain) * ufl.Identity(3) + 2 * shear * strain

@@ -19,21 +19,26 @@ GROWTH = 1.5  # largest ratio of neighbouring bricks
 def base_mesh(case: Case) -> BrickMesh:
     """Rectangular plate centred on the axis, its top at z = 0.
 
-    Squares of `fine_size_m` cover the footprint and the slide allowance; outside and downwards the bricks grow
-    geometrically to `base_size_m`. Contact finds the brick below a point from the grid lines alone, so the mesh is
-    a strict tensor-product grid (see `swept_grid` for its numbering). A base without edges has no bricks.
+    Squares of `fine_size_m` cover the footprint and the slide allowance; outside and downwards the
+    bricks grow geometrically to `base_size_m`. Contact finds the brick below a point from the grid
+    lines alone, so the mesh is a strict tensor-product grid (see `swept_grid` for its numbering). A
+    base without edges has no bricks.
     """
     if case.base.kind != "plate":
         return BrickMesh(np.zeros((0, 3)), np.zeros((0, 8), np.int64), np.zeros(0, np.int8))
     base, fine, largest = case.base, case.mesh.fine_size_m, case.mesh.base_size_m
-    x, y = (_symmetric_line(side + 2 * base.slide_allowance_m, length, fine, largest)
-            for side, length in zip(foot_sides(case), (base.length_m, base.width_m)))
+    x, y = (
+        _symmetric_line(side + 2 * base.slide_allowance_m, length, fine, largest)
+        for side, length in zip(foot_sides(case), (base.length_m, base.width_m))
+    )
     return swept_grid(x, y, levels(case)[::-1], BASE)
 
 
 def levels(case: Case) -> np.ndarray:
     """Levels (n,) of the base's nodes from 0 at the top, falling [m]."""
-    return -_growing_line(case.mesh.fine_size_m, case.base.thickness_m, case.mesh.fine_size_m, case.mesh.base_size_m)
+    return -_growing_line(
+        case.mesh.fine_size_m, case.base.thickness_m, case.mesh.fine_size_m, case.mesh.base_size_m
+    )
 
 
 def base_counts(case: Case) -> tuple[int, int, int] | None:
@@ -41,8 +46,10 @@ def base_counts(case: Case) -> tuple[int, int, int] | None:
     if case.base.kind != "plate":
         return None
     base, fine, largest = case.base, case.mesh.fine_size_m, case.mesh.base_size_m
-    x, y = (_symmetric_count(side + 2 * base.slide_allowance_m, length, fine, largest)
-            for side, length in zip(foot_sides(case), (base.length_m, base.width_m)))
+    x, y = (
+        _symmetric_count(side + 2 * base.slide_allowance_m, length, fine, largest)
+        for side, length in zip(foot_sides(case), (base.length_m, base.width_m))
+    )
     below = base.thickness_m - fine
     return x, y, 1 if below < fine / 2 else 1 + growing_count(below, fine, largest)
 
@@ -50,8 +57,10 @@ def base_counts(case: Case) -> tuple[int, int, int] | None:
 def grid_lines(mesh: BrickMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Grid lines x, y, z [m] of a tensor-product grid.
 
-    Raises:
-        ValueError: the points are not the product of the lines in the order of `swept_grid`.
+    Raises
+    ------
+    ValueError
+        the points are not the product of the lines in the order of `swept_grid`.
     """
     x, y, z = (np.unique(coordinate) for coordinate in mesh.points.T)
     product = np.stack(np.meshgrid(z, y, x, indexing="ij")[::-1], axis=-1).reshape(-1, 3)
@@ -86,7 +95,9 @@ def _growing_line(first, length, fine, largest) -> np.ndarray:
     """Grid line from 0 to `length`: one step `first`, then growing ones."""
     if length - first < fine / 2:
         return np.array([0.0, length])
-    line = np.concatenate([[0.0, first], first + np.cumsum(growing_steps(length - first, fine, largest))])
+    line = np.concatenate(
+        [[0.0, first], first + np.cumsum(growing_steps(length - first, fine, largest))]
+    )
     line[-1] = length
     return line
 
@@ -94,15 +105,18 @@ def _growing_line(first, length, fine, largest) -> np.ndarray:
 def growing_steps(length: float, fine: float, largest: float) -> np.ndarray:
     """Steps that fill `length`, each at most GROWTH times the one before, none above `largest` [m].
 
-    With n steps, step k is min(fine g^k, largest), k = 1..n; n is the smallest number that reaches the length
-    with g = GROWTH, and g is then lowered until the steps fit.
+    With n steps, step k is min(fine g^k, largest), k = 1..n; n is the smallest number that reaches
+    the length with g = GROWTH, and g is then lowered until the steps fit.
     """
+
     def steps(growth, n):
         return np.minimum(fine * growth ** np.arange(1.0, n + 1), largest)
 
     n = growing_count(length, fine, largest)
     if steps(1.0, n).sum() < length < steps(GROWTH, n).sum():
-        found = steps(brentq(lambda growth: steps(growth, n).sum() - length, 1.0, GROWTH, xtol=1e-14), n)
+        found = steps(
+            brentq(lambda growth: steps(growth, n).sum() - length, 1.0, GROWTH, xtol=1e-14), n
+        )
     else:
         found = steps(1.0, n)
     return found * (length / found.sum())

@@ -7,10 +7,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 LOWER, UPPER, CAP, BASE, FLANGE = 1, 2, 3, 4, 5
-PART_NAMES = {LOWER: "lower column", UPPER: "upper column", CAP: "cap", BASE: "base", FLANGE: "flange"}
+PART_NAMES = {
+    LOWER: "lower column",
+    UPPER: "upper column",
+    CAP: "cap",
+    BASE: "base",
+    FLANGE: "flange",
+}
 
 # Faces of the VTK hexahedron and tetrahedron, seen from outside counter-clockwise.
-FACES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+FACES = np.array(
+    [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+)
 TETRAHEDRON_FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 
 
@@ -18,10 +26,14 @@ TETRAHEDRON_FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 class BrickMesh:
     """Bricks of one or several parts; or the tetrahedra of a user's column.
 
-    Attributes:
-        points: (n_points, 3) [m].
-        cells: (n_cells, 8) point numbers in VTK hexahedron order, or (n_cells, 4) of tetrahedra.
-        part: (n_cells,) part of each element: FLANGE, LOWER, UPPER, CAP or BASE.
+    Attributes
+    ----------
+    points
+        (n_points, 3) [m].
+    cells
+        (n_cells, 8) point numbers in VTK hexahedron order, or (n_cells, 4) of tetrahedra.
+    part
+        (n_cells,) part of each element: FLANGE, LOWER, UPPER, CAP or BASE.
     """
 
     points: np.ndarray
@@ -59,10 +71,15 @@ class BrickMesh:
 def brick_mesh(points, cells, part: int) -> BrickMesh:
     """Mesh of one part, its elements turned to positive volume.
 
-    Args:
-        points: (n_points, 3) [m].
-        cells: (n_cells, 8) point numbers; bottom and top face may be exchanged. Or (n_cells, 4) of tetrahedra.
-        part: part of all elements.
+    Parameters
+    ----------
+    points
+        (n_points, 3) [m].
+    cells
+        (n_cells, 8) point numbers; bottom and top face may be exchanged. Or (n_cells, 4) of
+        tetrahedra.
+    part
+        part of all elements.
     """
     points = np.ascontiguousarray(points, dtype=np.float64)
     cells = np.array(cells, dtype=np.int64, order="C")
@@ -72,8 +89,13 @@ def brick_mesh(points, cells, part: int) -> BrickMesh:
         inverted = np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0
         cells[inverted] = cells[inverted][:, [0, 2, 1, 3]]
         return BrickMesh(points, cells, np.full(len(cells), part, dtype=np.int8))
-    edges = np.stack([corners[:, face].sum(axis=1) - corners[:, opposite].sum(axis=1)
-                      for face, opposite in ((FACES[3], FACES[5]), (FACES[4], FACES[2]), (FACES[1], FACES[0]))], axis=1)
+    edges = np.stack(
+        [
+            corners[:, face].sum(axis=1) - corners[:, opposite].sum(axis=1)
+            for face, opposite in ((FACES[3], FACES[5]), (FACES[4], FACES[2]), (FACES[1], FACES[0]))
+        ],
+        axis=1,
+    )
     inverted = np.linalg.det(edges) < 0
     cells[inverted] = cells[inverted][:, [4, 5, 6, 7, 0, 1, 2, 3]]
     return BrickMesh(points, cells, np.full(len(cells), part, dtype=np.int8))
@@ -83,42 +105,61 @@ def merge(meshes) -> BrickMesh:
     """One mesh of several; coincident points stay apart, so the parts stay disconnected."""
     meshes = list(meshes)
     offsets = np.cumsum([0] + [len(m.points) for m in meshes[:-1]])
-    return BrickMesh(np.concatenate([m.points for m in meshes]),
-                     np.concatenate([m.cells + offset for m, offset in zip(meshes, offsets)]),
-                     np.concatenate([m.part for m in meshes]))
+    return BrickMesh(
+        np.concatenate([m.points for m in meshes]),
+        np.concatenate([m.cells + offset for m, offset in zip(meshes, offsets)]),
+        np.concatenate([m.part for m in meshes]),
+    )
 
 
 def outer_faces(mesh: BrickMesh, part: int) -> np.ndarray:
-    """(n_faces, 4) faces of `part` that no two of its elements share, counter-clockwise seen from outside; (n_faces, 3) of tetrahedra."""
+    """(n_faces, 4) faces of `part` that no two of its elements share, counter-clockwise seen from
+    outside; (n_faces, 3) of tetrahedra.
+    """
     of_cell = TETRAHEDRON_FACES if mesh.is_tetrahedral else FACES
     faces = mesh.cells[mesh.part == part][:, of_cell].reshape(-1, of_cell.shape[1])
-    _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
+    _, first, count = np.unique(
+        np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True
+    )
     return faces[np.sort(first[count == 1])]
 
 
 def boundary_faces(mesh: BrickMesh, part: int, z: float, tolerance: float) -> np.ndarray:
     """Outer faces of `part` that lie in a horizontal plane.
 
-    Args:
-        mesh: bricks or tetrahedra.
-        part: the part whose faces are sought.
-        z: height of the plane [m].
-        tolerance: largest distance of a corner from the plane [m].
+    Parameters
+    ----------
+    mesh
+        bricks or tetrahedra.
+    part
+        the part whose faces are sought.
+    z
+        height of the plane [m].
+    tolerance
+        largest distance of a corner from the plane [m].
 
-    Returns:
-        (n_faces, 4 or 3) point numbers, counter-clockwise in plan (seen from +z).
+    Returns
+    -------
+    (n_faces, 4 or 3) point numbers, counter-clockwise in plan (seen from +z).
     """
     faces = outer_faces(mesh, part)
     faces = faces[np.all(np.abs(mesh.points[faces, 2] - z) <= tolerance, axis=1)]
     # the diagonals of a quadrilateral, two sides of a triangle
-    first, second = (mesh.points[faces[:, end], :2] - mesh.points[faces[:, start], :2] for start, end in ((0, 2), (1, -1)))
+    first, second = (
+        mesh.points[faces[:, end], :2] - mesh.points[faces[:, start], :2]
+        for start, end in ((0, 2), (1, -1))
+    )
     clockwise = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0
     faces[clockwise] = faces[clockwise][:, ::-1]
     return faces
 
 
 def outline_edges(faces: np.ndarray) -> np.ndarray:
-    """(n, 2) point numbers of the edges that no two of the faces (n_faces, 4 or 3) share: the outlines of the surface that they make."""
+    """(n, 2) point numbers of the edges that no two of the faces (n_faces, 4 or 3) share: the
+    outlines of the surface that they make.
+    """
     edges = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
-    _, first, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
+    _, first, count = np.unique(
+        np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True
+    )
     return edges[np.sort(first[count == 1])]

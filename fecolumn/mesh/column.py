@@ -1,4 +1,6 @@
-"""Bricks of the column: a finely meshed lower and a coarser upper part, and a flange; not connected to each other."""
+"""Bricks of the column: a finely meshed lower and a coarser upper part, and a flange; not connected
+to each other.
+"""
 
 from __future__ import annotations
 
@@ -13,15 +15,18 @@ from fecolumn.mesh.section import Annulus, Disc, Rectangle
 
 
 def column_mesh(case: Case) -> BrickMesh:
-    """Tube, solid cylinder or block, on its flange if it has one; its foot at z = 0 and its axis on z.
+    """Tube, solid cylinder or block, on its flange if it has one; its foot at z = 0 and its axis on
+    z.
 
-    The number of bricks around is a multiple of 4, so the mesh has the column's symmetry about the planes x = 0
-    and y = 0 and prefers no direction of fall. The lower part has a multiple of the upper part's bricks
-    around, so that every corner of the upper part's lower ring is near a point of the lower part's upper ring.
+    The number of bricks around is a multiple of 4, so the mesh has the column's symmetry about the
+    planes x = 0 and y = 0 and prefers no direction of fall. The lower part has a multiple of the
+    upper part's bricks around, so that every corner of the upper part's lower ring is near a point
+    of the lower part's upper ring.
 
-    Round sections are polygons of the true area, so that mass, inertia and bending stiffness are those of the circle at
-    any brick size. Only the foot's own nodes lie on the true circles, since the column rolls on them and its critical tilt is
-    theirs; the part above makes up for what its lowest layer lacks. Where the lower part meets the upper one it takes its polygon.
+    Round sections are polygons of the true area, so that mass, inertia and bending stiffness are
+    those of the circle at any brick size. Only the foot's own nodes lie on the true circles, since
+    the column rolls on them and its critical tilt is theirs; the part above makes up for what its
+    lowest layer lacks. Where the lower part meets the upper one it takes its polygon.
     """
     parts, layout = [], part_layers(case)
     for place, (part, bottom, height, layers) in enumerate(layout):
@@ -29,7 +34,9 @@ def column_mesh(case: Case) -> BrickMesh:
         mesh = extruded(plane, bottom, height, layers, part)
         z, corners = mesh.points[:, 2], plane.equal_area
         meets = part == LOWER and place + 1 < len(layout)
-        factor = np.full(len(z), corners if place else _spread(corners, layers, corners if meets else None))
+        factor = np.full(
+            len(z), corners if place else _spread(corners, layers, corners if meets else None)
+        )
         if not place:
             factor[z == 0] = 1.0
         if meets:
@@ -60,9 +67,11 @@ def part_layers(case: Case) -> list[tuple[int, float, float, int]]:
 
 
 def _spread(equal_area: float, layers: int, top: float | None) -> float:
-    """Factor s on the radii between foot and top of a part by which its volume is that of the circle, the foot's factor being 1.
+    """Factor s on the radii between foot and top of a part by which its volume is that of the
+    circle, the foot's factor being 1.
 
-    Each layer has the mean (p^2 + p q + q^2) / 3 of the factors p, q of its ends; the top's is s too unless it is given.
+    Each layer has the mean (p^2 + p q + q^2) / 3 of the factors p, q of its ends; the top's is s
+    too unless it is given.
     """
     if top is None:
         a, b, c = layers - 2 / 3, 1 / 3, 1 / 3 - layers * equal_area**2
@@ -75,7 +84,10 @@ def _spread(equal_area: float, layers: int, top: float | None) -> float:
 
 def is_solid(case: Case) -> bool:
     """Whether the round section has no hole."""
-    return case.column.shape == "solid" or case.column.wall_m >= case.column.outer_diameter_m / 2 * (1 - 1e-6)
+    return (
+        case.column.shape == "solid"
+        or case.column.wall_m >= case.column.outer_diameter_m / 2 * (1 - 1e-6)
+    )
 
 
 def section(case: Case, part: int) -> Annulus | Disc | Rectangle:
@@ -84,11 +96,18 @@ def section(case: Case, part: int) -> Annulus | Disc | Rectangle:
     if part == FLANGE:
         outer, inner = case.flange.outer_diameter_m / 2, case.flange.inner_diameter_m / 2
         n_around = 4 * max(2, round(2 * math.pi * outer / (4 * fine)))
-        return Annulus(inner, outer, n_around, divisions(outer - inner, fine)) if inner else Disc(outer, n_around, divisions(outer / 2, fine))
+        return (
+            Annulus(inner, outer, n_around, divisions(outer - inner, fine))
+            if inner
+            else Disc(outer, n_around, divisions(outer / 2, fine))
+        )
     if column.shape == "block":
         counts = [divisions(side, coarse) for side in (column.length_m, column.width_m)]
         if part == LOWER:
-            counts = [n * divisions(side / n, fine) for side, n in zip((column.length_m, column.width_m), counts)]
+            counts = [
+                n * divisions(side / n, fine)
+                for side, n in zip((column.length_m, column.width_m), counts)
+            ]
         return Rectangle(column.length_m, column.width_m, *counts)
     radius = column.outer_diameter_m / 2
     solid = is_solid(case)

@@ -14,24 +14,32 @@ from fecolumn.mesh.column import divisions, part_layers, section
 from fecolumn.mesh.imported import own_mesh
 from fecolumn.schema import InputError
 
-# Rough. MUMPS' factors of the reference specimen (13,302 degrees of freedom without base) and of a marble drum (5,031) have 6 and 16
-# n^(4/3) numbers, and the full-order engine then took 0.64 and 0.54 GB and 25 to 50 ms a step, on one core of a busy and of a free machine.
-# Numbers of a factor of n degrees of freedom, FILL n^(4/3); seconds of its making, FACTOR n^2; of a solve for each number of it, SOLVE,
-# and for one of many right-hand sides, MANY.
+# Rough. MUMPS' factors of the reference specimen (13,302 degrees of freedom without base) and of a
+# marble drum (5,031) have 6 and 16 n^(4/3) numbers, and the full-order engine then took 0.64 and
+# 0.54 GB and 25 to 50 ms a step, on one core of a busy and of a free machine. Numbers of a factor
+# of n degrees of freedom, FILL n^(4/3); seconds of its making, FACTOR n^2; of a solve for each
+# number of it, SOLVE, and for one of many right-hand sides, MANY.
 FILL, FACTOR, SOLVE, MANY = 13.0, 6e-10, 1.7e-9, 0.6e-9
 # Bytes of program and libraries
 PROGRAM = 300e6
 # Size keys, and the parts that they make large
-_KEYS = {"mesh.fine_size_m": (FLANGE, LOWER, BASE), "mesh.coarse_size_m": (UPPER,), "mesh.cap_size_m": (CAP,), "mesh.base_size_m": (BASE,)}
+_KEYS = {
+    "mesh.fine_size_m": (FLANGE, LOWER, BASE),
+    "mesh.coarse_size_m": (UPPER,),
+    "mesh.cap_size_m": (CAP,),
+    "mesh.base_size_m": (BASE,),
+}
 # The largest size that a key takes [m]
 _HUGE = 10.0
 
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """bricks, dofs: {part: number} of elements and of degrees of freedom. foot_points: nodes of the foot. engine: of the case.
+    """bricks, dofs: {part: number} of elements and of degrees of freedom. foot_points: nodes of the
+    foot. engine: of the case.
 
-    Numbers of bricks and degrees of freedom of a built column are exact; memory and times are rough.
+    Numbers of bricks and degrees of freedom of a built column are exact; memory and times are
+    rough.
     """
 
     bricks: dict[int, int]
@@ -59,7 +67,8 @@ class Estimate:
     def memory(self) -> float:
         """Most memory [bytes] of the analysis, or of the making of its reduced model."""
         column, base = self._bodies
-        # matrices have 81 numbers a row for bricks, twice (mass, stiffness) and a copy to factor, 12 bytes a number
+        # matrices have 81 numbers a row for bricks, twice (mass, stiffness) and a copy to factor,
+        # 12 bytes a number
         operators = 12 * 81 * 3 * (column + base) + 8 * FILL * (column ** (4 / 3) + base ** (4 / 3))
         columns = 3 * self.foot_points
         wide = 5 * columns if self.engine == "full" else 4 * 120
@@ -71,7 +80,12 @@ class Estimate:
         column, base = self._bodies
         factors = 2 if self.engine == "full" else 3
         solves = 3 * self.foot_points * (3 if self.engine == "full" else 4)
-        return 2 + 1e-4 * (column + base) + factors * FACTOR * (column**2 + base**2) + MANY * FILL * (solves * column ** (4 / 3) + 3 * self.foot_points * base ** (4 / 3))
+        return (
+            2
+            + 1e-4 * (column + base)
+            + factors * FACTOR * (column**2 + base**2)
+            + MANY * FILL * (solves * column ** (4 / 3) + 3 * self.foot_points * base ** (4 / 3))
+        )
 
     @property
     def step(self) -> float:
@@ -84,13 +98,23 @@ class Estimate:
 
     def __str__(self) -> str:
         parts = ", ".join(f"{PART_NAMES[part]} {n:,}" for part, n in sorted(self.bricks.items()))
-        return (f"{self.all_bricks:,} elements ({parts}), {self.all_dofs:,} degrees of freedom, {self.foot_points:,} nodes in the foot; "
-                f"about {self.memory / 1e9:.1f} GB, {_span(self.setup)} to start and {1e3 * self.step:.2g} ms a step with the "
-                f"{self.engine} engine")
+        return (
+            f"{self.all_bricks:,} elements ({parts}), {self.all_dofs:,} degrees of "
+            f"freedom, {self.foot_points:,} nodes in the foot; "
+            f"about {self.memory / 1e9:.1f} GB, {_span(self.setup)} to start and "
+            f"{1e3 * self.step:.2g} ms a step with the "
+            f"{self.engine} engine"
+        )
 
 
 def _span(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.0f} h"
+    return (
+        f"{seconds:.0f} s"
+        if seconds < 120
+        else f"{seconds / 60:.0f} min"
+        if seconds < 7200
+        else f"{seconds / 3600:.0f} h"
+    )
 
 
 def estimate(case: Case) -> Estimate:
@@ -104,39 +128,76 @@ def estimate(case: Case) -> Estimate:
     else:
         for place, (part, _, _, layers) in enumerate(part_layers(case)):
             plane = section(case, part)
-            bricks[part], nodes[part] = plane.n_cells * layers, plane.n_nodes(order) * (order * layers + 1)
+            bricks[part], nodes[part] = (
+                plane.n_cells * layers,
+                plane.n_nodes(order) * (order * layers + 1),
+            )
             if place == 0:
                 foot = plane.n_nodes(order)
     for part, counts, degree in ((CAP, _cap_counts(case), order), (BASE, base_counts(case), 1)):
         if counts:
             bricks[part], nodes[part] = math.prod(counts), math.prod(degree * n + 1 for n in counts)
-    return Estimate(bricks, {part: 3 * n for part, n in nodes.items()}, foot, case.integration.engine)
+    return Estimate(
+        bricks, {part: 3 * n for part, n in nodes.items()}, foot, case.integration.engine
+    )
 
 
 def _cap_counts(case: Case):
     cap, size = case.cap, case.mesh.cap_size_m
-    return cap and tuple(divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m))
+    return cap and tuple(
+        divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m)
+    )
 
 
 def refuse_too_large(case: Case, file) -> None:
-    """Refuse a case of more degrees of freedom than `mesh.limit_dofs`, naming the size that makes it so and one that would fit."""
+    """Refuse a case of more degrees of freedom than `mesh.limit_dofs`, naming the size that makes
+    it so and one that would fit.
+    """
     found, limit = estimate(case), case.mesh.limit_dofs
     if found.all_dofs <= limit:
         return
-    too_many = f"the meshes would have {found.all_dofs:,} degrees of freedom ({found.all_bricks:,} elements), mesh.limit_dofs allows {limit:,}"
-    dofs = {key: sum(found.dofs.get(part, 0) for part in parts) for key, parts in _KEYS.items() if not (case.column.mesh_file and UPPER in parts)}
+    too_many = (
+        f"the meshes would have {found.all_dofs:,} degrees of freedom ({found.all_bricks:,} "
+        f"elements), mesh.limit_dofs allows {limit:,}"
+    )
+    dofs = {
+        key: sum(found.dofs.get(part, 0) for part in parts)
+        for key, parts in _KEYS.items()
+        if not (case.column.mesh_file and UPPER in parts)
+    }
     if case.column.mesh_file and found.dofs[UPPER] > max(dofs.values()):
-        raise InputError(file, "column.mesh_file", case.column.mesh_file, f"{too_many}; take a coarser mesh, or a higher mesh.limit_dofs")
+        raise InputError(
+            file,
+            "column.mesh_file",
+            case.column.mesh_file,
+            f"{too_many}; take a coarser mesh, or a higher mesh.limit_dofs",
+        )
     sizes = {key: (getattr(case.mesh, key.partition(".")[2]), _HUGE) for key in dofs}
-    refuse_sizes(file, sizes, lambda key, value: _with(case, key, value).all_dofs, limit, too_many, "all sizes of [mesh]")
+    refuse_sizes(
+        file,
+        sizes,
+        lambda key, value: _with(case, key, value).all_dofs,
+        limit,
+        too_many,
+        "all sizes of [mesh]",
+    )
 
 
-def refuse_sizes(file, sizes: dict[str, tuple[float, float]], dofs_with, limit: int, too_many: str, others: str) -> NoReturn:
+def refuse_sizes(
+    file, sizes: dict[str, tuple[float, float]], dofs_with, limit: int, too_many: str, others: str
+) -> NoReturn:
     """Refuse a mesh, naming the size that makes it too large and one that would fit.
 
-    Args:
-        sizes: by key the size that is taken and the largest that may be [m]. dofs_with: function of a key and its size that returns degrees of freedom.
-        too_many: how many there are, in words. others: what else is to be made larger where no size of one key fits.
+    Parameters
+    ----------
+    sizes
+        by key the size that is taken and the largest that may be [m].
+    dofs_with
+        function of a key and its size that returns degrees of freedom.
+    too_many
+        how many there are, in words.
+    others
+        what else is to be made larger where no size of one key fits.
     """
     # the key whose elements, made larger, take most away
     key = min(sizes, key=lambda key: dofs_with(key, sizes[key][1]))
@@ -148,18 +209,32 @@ def refuse_sizes(file, sizes: dict[str, tuple[float, float]], dofs_with, limit: 
         middle = math.sqrt(low * high)
         low, high = (low, middle) if dofs_with(key, middle) <= limit else (middle, high)
     unit = 10 ** (2 - math.floor(math.log10(high)))
-    raise InputError(file, key, stated, f"{too_many}; {min(math.ceil(high * unit) / unit, sizes[key][1]):g} m would fit, or raise mesh.limit_dofs")
+    raise InputError(
+        file,
+        key,
+        stated,
+        f"{too_many}; {min(math.ceil(high * unit) / unit, sizes[key][1]):g} m would "
+        "fit, or raise mesh.limit_dofs",
+    )
 
 
 def _with(case: Case, key: str, value: float) -> Estimate:
     name = key.partition(".")[2]
     mesh = case.mesh
-    sizes = {one: max(getattr(mesh, one), value) for one in ("coarse_size_m", "base_size_m")} if name == "fine_size_m" else {}
-    return estimate(dataclasses.replace(case, mesh=dataclasses.replace(mesh, **sizes | {name: value})))
+    sizes = (
+        {one: max(getattr(mesh, one), value) for one in ("coarse_size_m", "base_size_m")}
+        if name == "fine_size_m"
+        else {}
+    )
+    return estimate(
+        dataclasses.replace(case, mesh=dataclasses.replace(mesh, **sizes | {name: value}))
+    )
 
 
 def estimate_of_all(cases) -> str:
     """What a study says of its meshes: how many there are, and the estimate of the largest."""
     different = {(case.column, case.flange, case.cap, case.base, case.mesh): case for case in cases}
     largest = max((estimate(case) for case in different.values()), key=lambda one: one.all_dofs)
-    return f"{len(different)} meshes, the largest of {largest}" if len(different) > 1 else str(largest)
+    return (
+        f"{len(different)} meshes, the largest of {largest}" if len(different) > 1 else str(largest)
+    )

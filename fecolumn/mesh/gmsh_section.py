@@ -12,7 +12,12 @@ import numpy as np
 from fecolumn.mesh.bricks import BrickMesh, brick_mesh
 from fecolumn.mesh.section import Annulus, Disc, Rectangle
 
-_OPTIONS = {"General.Terminal": 0, "Mesh.ElementOrder": 1, "Mesh.SubdivisionAlgorithm": 0, "Mesh.SaveAll": 0}
+_OPTIONS = {
+    "General.Terminal": 0,
+    "Mesh.ElementOrder": 1,
+    "Mesh.SubdivisionAlgorithm": 0,
+    "Mesh.SaveAll": 0,
+}
 _HEXAHEDRON = 5  # Gmsh's element type of the 8-node brick, whose node order is VTK's
 
 
@@ -20,7 +25,8 @@ _HEXAHEDRON = 5  # Gmsh's element type of the 8-node brick, whose node order is 
 def gmsh_model():
     """The gmsh module with an empty model, leaving a caller's Gmsh session as it was.
 
-    Gmsh is imported here and not at the top: an analysis of an imported mesh can then run without it.
+    Gmsh is imported here and not at the top: an analysis of an imported mesh can then run without
+    it.
     """
     # Gmsh 4.8 takes Ctrl-C away from Python on import; a study must stay interruptible.
     in_main_thread = threading.current_thread() is threading.main_thread()
@@ -32,7 +38,9 @@ def gmsh_model():
     running = _is_running(gmsh)
     if not running:
         interruptible = "interruptible" in inspect.signature(gmsh.initialize).parameters
-        gmsh.initialize(readConfigFiles=False, **({"interruptible": False} if interruptible else {}))
+        gmsh.initialize(
+            readConfigFiles=False, **({"interruptible": False} if interruptible else {})
+        )
     before = {key: gmsh.option.getNumber(key) for key in _OPTIONS}
     callers_model = gmsh.model.getCurrent()
     try:
@@ -55,7 +63,9 @@ def gmsh_model():
 
 @contextlib.contextmanager
 def _signals_left_alone():
-    """Keep Gmsh from setting signal handlers: in another thread than the main one, such as a dask worker's, Python refuses to."""
+    """Keep Gmsh from setting signal handlers: in another thread than the main one, such as a dask
+    worker's, Python refuses to.
+    """
     setter, signal.signal = signal.signal, lambda number, handler: signal.getsignal(number)
     try:
         yield
@@ -68,21 +78,30 @@ def _is_running(gmsh) -> bool:
     if hasattr(gmsh, "isInitialized"):
         return bool(gmsh.isInitialized())
     try:
-        # Before the first session the list is empty, in a session it is not, and after one the question is an error.
+        # Before the first session the list is empty, in a session it is not, and after one the
+        # question is an error.
         return bool(gmsh.model.list())
     except Exception:  # Gmsh raises no narrower class
         return False
 
 
-def extruded(section: Annulus | Disc | Rectangle, bottom: float, height: float, n_layers: int, part: int) -> BrickMesh:
+def extruded(
+    section: Annulus | Disc | Rectangle, bottom: float, height: float, n_layers: int, part: int
+) -> BrickMesh:
     """Bricks of a section extruded upwards in equal layers.
 
-    Args:
-        section: what is extruded.
-        bottom: height of the lowest points [m].
-        height: extruded length [m].
-        n_layers: bricks along the height.
-        part: part of the bricks.
+    Parameters
+    ----------
+    section
+        what is extruded.
+    bottom
+        height of the lowest points [m].
+    height
+        extruded length [m].
+    n_layers
+        bricks along the height.
+    part
+        part of the bricks.
     """
     if isinstance(section, Rectangle):
         return swept_grid(*section.lines, np.linspace(bottom, bottom + height, n_layers + 1), part)
@@ -98,12 +117,17 @@ def extruded(section: Annulus | Disc | Rectangle, bottom: float, height: float, 
 def swept_grid(x, y, z, part: int) -> BrickMesh:
     """Tensor-product grid: a point swept along x, the line along y, the rectangle along z.
 
-    Args:
-        x, y, z: rising grid lines [m].
-        part: part of the bricks.
+    Parameters
+    ----------
+    x, y, z
+        rising grid lines [m].
+    part
+        part of the bricks.
 
-    Returns:
-        Bricks whose points lie exactly on the lines; point (i, j, k) has the number i + n_x (j + n_y k).
+    Returns
+    -------
+    Bricks whose points lie exactly on the lines; point (i, j, k) has the number i + n_x (j +
+        n_y k).
     """
     lines = [np.asarray(line, dtype=float) for line in (x, y, z)]
     with gmsh_model() as gmsh:
@@ -113,12 +137,19 @@ def swept_grid(x, y, z, part: int) -> BrickMesh:
             length = line[-1] - line[0]
             along = np.eye(3)[axis] * length
             # Gmsh returns the far end first, then what was swept.
-            swept = geo.extrude([swept], *along, numElements=[1] * (len(line) - 1),
-                                heights=list((line[1:] - line[0]) / length), recombine=True)[1]
+            swept = geo.extrude(
+                [swept],
+                *along,
+                numElements=[1] * (len(line) - 1),
+                heights=list((line[1:] - line[0]) / length),
+                recombine=True,
+            )[1]
         points, cells = _generated(gmsh)
     places = [_nearest(line, points[:, axis]) for axis, line in enumerate(lines)]
     number = places[0] + len(lines[0]) * (places[1] + len(lines[1]) * places[2])
-    if len(np.unique(number)) != len(number) or len(number) != np.prod([len(line) for line in lines]):
+    if len(np.unique(number)) != len(number) or len(number) != np.prod(
+        [len(line) for line in lines]
+    ):
         raise RuntimeError("Gmsh did not return a tensor-product grid")
     grid = np.empty_like(points)
     grid[number] = np.stack([line[place] for line, place in zip(lines, places)], axis=1)
@@ -136,7 +167,9 @@ def _generated(gmsh) -> tuple[np.ndarray, np.ndarray]:
     gmsh.model.mesh.generate(3)
     kinds, _, nodes = gmsh.model.mesh.getElements(3)
     if list(kinds) != [_HEXAHEDRON]:
-        raise RuntimeError(f"Gmsh returned the element types {list(kinds)}, not 8-node bricks alone")
+        raise RuntimeError(
+            f"Gmsh returned the element types {list(kinds)}, not 8-node bricks alone"
+        )
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     used, cells = np.unique(nodes[0], return_inverse=True)
     order = np.argsort(tags)

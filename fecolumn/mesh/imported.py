@@ -20,18 +20,31 @@ from fecolumn.mesh.jacobian import corner_jacobians
 from fecolumn.schema import InputError
 
 _DIMENSION_TOLERANCE = 0.01
-_BELOW_THREE_DIMENSIONS = {"vertex", "line", "line3", "triangle", "triangle6", "quad", "quad8", "quad9"}
-# solids that are read, and their corners; the curved sides of second-order tetrahedra are taken as straight
+_BELOW_THREE_DIMENSIONS = {
+    "vertex",
+    "line",
+    "line3",
+    "triangle",
+    "triangle6",
+    "quad",
+    "quad8",
+    "quad9",
+}
+# solids that are read, and their corners; the curved sides of second-order tetrahedra are taken as
+# straight
 _CORNERS = {"hexahedron": 8, "tetra": 4, "tetra10": 4}
 # corners at the ends of the edges of tetrahedra and bricks
 _EDGES = np.array([[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]])
-_BRICK_EDGES = np.array([[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]])
+_BRICK_EDGES = np.array(
+    [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]]
+)
 
 
 @dataclass(frozen=True, slots=True)
 class OwnMesh:
-    """A column's mesh and its measures: height [m]; foot: length along x and width along y of the rectangle around its foot [m];
-    foot_edge: mean edge of the foot's faces [m]."""
+    """A column's mesh and its measures: height [m]; foot: length along x and width along y of the
+    rectangle around its foot [m]; foot_edge: mean edge of the foot's faces [m].
+    """
 
     mesh: BrickMesh
     height: float
@@ -49,9 +62,13 @@ class OwnMesh:
         if order == 1:
             return len(self.mesh.points), len(np.unique(faces))
         if self.is_tetrahedral:
-            return len(self.mesh.points) + _count(cells[:, _EDGES]), len(np.unique(faces)) + _count(np.stack([faces, np.roll(faces, 1, axis=1)], axis=2))
+            return len(self.mesh.points) + _count(cells[:, _EDGES]), len(np.unique(faces)) + _count(
+                np.stack([faces, np.roll(faces, 1, axis=1)], axis=2)
+            )
         between = _count(cells[:, _BRICK_EDGES]) + _count(cells[:, FACES]) + len(cells)
-        return len(self.mesh.points) + between, len(np.unique(faces)) + _count(np.stack([faces, np.roll(faces, 1, axis=1)], axis=2)) + len(faces)
+        return len(self.mesh.points) + between, len(np.unique(faces)) + _count(
+            np.stack([faces, np.roll(faces, 1, axis=1)], axis=2)
+        ) + len(faces)
 
 
 def _count(groups) -> int:
@@ -62,30 +79,46 @@ def _count(groups) -> int:
 def own_mesh(path: str) -> OwnMesh:
     """The mesh of a file, the foot's middle shifted to the origin, all elements in the part UPPER.
 
-    The axis must be parallel to z, lengths must be in metres. The foot is what lies in the lowest horizontal plane. Shells,
-    lines and points beside the solids are left out; elements of negative volume are turned.
+    The axis must be parallel to z, lengths must be in metres. The foot is what lies in the lowest
+    horizontal plane. Shells, lines and points beside the solids are left out; elements of negative
+    volume are turned.
 
-    Raises:
-        InputError: the file cannot be read, holds other solids than 8-node bricks or tetrahedra, or is broken.
+    Raises
+    ------
+    InputError
+        the file cannot be read, holds other solids than 8-node bricks or tetrahedra, or is broken.
     """
     return _own_mesh(path, content(path))
 
 
 def imported_column(case: Case) -> BrickMesh:
-    """Column of `case.column.mesh_file`; its height and outer diameter must agree with the case within 1 %, where it has them.
+    """Column of `case.column.mesh_file`; its height and outer diameter must agree with the case
+    within 1 %, where it has them.
 
-    Raises:
-        InputError: as of `own_mesh`, or the mesh does not fit the case.
+    Raises
+    ------
+    InputError
+        as of `own_mesh`, or the mesh does not fit the case.
     """
+
     def refuse(value, allowed):
         raise InputError(case.column.mesh_file, "column.mesh_file", value, allowed)
 
     own = own_mesh(case.column.mesh_file)
     _check_dimensions(own, case, refuse)
     if own.is_tetrahedral and case.cap:
-        refuse(f"{len(own.mesh.cells)} tetrahedra", "cannot carry a [cap], which has bricks: take the cap into the mesh, or mesh the column with bricks")
+        refuse(
+            f"{len(own.mesh.cells)} tetrahedra",
+            "cannot carry a [cap], which has bricks: take the cap into the mesh, or "
+            "mesh the column with bricks",
+        )
     if own.is_tetrahedral and case.mesh.element_order != 2:
-        raise InputError(case.column.mesh_file, "mesh.element_order", case.mesh.element_order, "must be 2 for tetrahedra: those of first order are far too stiff in bending")
+        raise InputError(
+            case.column.mesh_file,
+            "mesh.element_order",
+            case.mesh.element_order,
+            "must be 2 for tetrahedra: those of first order are far too stiff in bending",
+        )
     return own.mesh
 
 
@@ -99,22 +132,44 @@ def _own_mesh(path: str, mesh_content: str) -> OwnMesh:
     for block in found.cells:
         if len(block.data):
             solids[block.type] += len(block.data)
-    others = {kind: n for kind, n in solids.items() if kind not in _CORNERS and kind not in _BELOW_THREE_DIMENSIONS}
+    others = {
+        kind: n
+        for kind, n in solids.items()
+        if kind not in _CORNERS and kind not in _BELOW_THREE_DIMENSIONS
+    }
     kinds = {_CORNERS[kind] for kind in solids if kind in _CORNERS}
     if others or len(kinds) != 1:
-        listed = ", ".join(f"{n} x {kind}" for kind, n in (others or solids).items()) or "no elements"
-        refuse(listed, "must hold 8-node bricks (Abaqus C3D8, Gmsh and VTK hexahedron) or tetrahedra (C3D4, C3D10) as its only solids")
+        listed = (
+            ", ".join(f"{n} x {kind}" for kind, n in (others or solids).items()) or "no elements"
+        )
+        refuse(
+            listed,
+            "must hold 8-node bricks (Abaqus C3D8, Gmsh and VTK hexahedron) or "
+            "tetrahedra (C3D4, C3D10) as its only solids",
+        )
     corners = kinds.pop()
-    cells = np.concatenate([block.data[:, :corners] for block in found.cells if block.type in _CORNERS and len(block.data)]).astype(np.int64)
+    cells = np.concatenate(
+        [
+            block.data[:, :corners]
+            for block in found.cells
+            if block.type in _CORNERS and len(block.data)
+        ]
+    ).astype(np.int64)
     points = np.asarray(found.points, dtype=float)
     if points.ndim != 2 or points.shape[1] != 3:
         refuse(f"points of shape {points.shape}", "must have three coordinates a point")
     if cells.min() < 0 or cells.max() >= len(points):
-        refuse(f"element refers to point {cells.max()} of {len(points)}", "every element's points must be in the file")
+        refuse(
+            f"element refers to point {cells.max()} of {len(points)}",
+            "every element's points must be in the file",
+        )
     used, cells = np.unique(cells, return_inverse=True)
     points, cells = points[used], cells.reshape(-1, corners)
     if not np.all(np.isfinite(points)):
-        refuse(f"{int(np.sum(~np.isfinite(points).all(axis=1)))} points", "coordinates must be finite numbers")
+        refuse(
+            f"{int(np.sum(~np.isfinite(points).all(axis=1)))} points",
+            "coordinates must be finite numbers",
+        )
 
     height = float(np.ptp(points[:, 2]))
     points = points - [0.0, 0.0, points[:, 2].min()]
@@ -122,7 +177,9 @@ def _own_mesh(path: str, mesh_content: str) -> OwnMesh:
     _check_elements(mesh, height, refuse)
     faces = boundary_faces(mesh, UPPER, 0.0, 1e-6 * height)
     if not len(faces):
-        refuse(None, "must stand on a flat foot: no element has a face in the lowest horizontal plane")
+        refuse(
+            None, "must stand on a flat foot: no element has a face in the lowest horizontal plane"
+        )
     foot = points[faces]
     low, high = foot[:, :, :2].min(axis=(0, 1)), foot[:, :, :2].max(axis=(0, 1))
     middle = (low + high) / 2
@@ -133,22 +190,34 @@ def _own_mesh(path: str, mesh_content: str) -> OwnMesh:
 
 
 def _read(path: Path, refuse):
-    """meshio's mesh of a file."""
+    """Meshio's mesh of a file."""
     import meshio
 
     if path.stat().st_size == 0:
         refuse("0 bytes", "the file is empty")
     if path.suffix.lower() == ".inp":
-        # meshio keeps the last *NODE block only and would connect the other parts' bricks to its points.
-        blocks = len(re.findall(r"^\*\s*node\s*(?:,|$)", path.read_text(errors="replace"), re.IGNORECASE | re.MULTILINE))
+        # meshio keeps the last *NODE block only and would connect the other parts' bricks to its
+        # points.
+        blocks = len(
+            re.findall(
+                r"^\*\s*node\s*(?:,|$)",
+                path.read_text(errors="replace"),
+                re.IGNORECASE | re.MULTILINE,
+            )
+        )
         if blocks != 1:
-            refuse(f"{blocks} *NODE blocks", "must hold one *NODE block: export the column as one part")
+            refuse(
+                f"{blocks} *NODE blocks", "must hold one *NODE block: export the column as one part"
+            )
     try:
         # meshio prints to the console and exits where a file is of no known or of a broken format.
         with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(out):
             return meshio.read(path)
     except KeyError as error:
-        refuse(None, f"cannot be read: an element refers to {error.args[0]}, which the file does not define")
+        refuse(
+            None,
+            f"cannot be read: an element refers to {error.args[0]}, which the file does not define",
+        )
     except (SystemExit, Exception) as error:  # the readers raise whatever their parsing meets
         said = str(error) if not isinstance(error, SystemExit) else " ".join(out.getvalue().split())
         refuse(None, f"cannot be read as a mesh by meshio: {said or type(error).__name__}")
@@ -157,14 +226,20 @@ def _read(path: Path, refuse):
 def _check_dimensions(own: OwnMesh, case: Case, refuse) -> None:
     column = case.column
     diameter = np.ptp(own.mesh.points[:, :2], axis=0).mean()
-    for key, value, wanted in (("height_m", own.height, column.height_m), ("outer_diameter_m", diameter, column.outer_diameter_m)):
+    for key, value, wanted in (
+        ("height_m", own.height, column.height_m),
+        ("outer_diameter_m", diameter, column.outer_diameter_m),
+    ):
         if wanted is None or abs(value / wanted - 1) <= _DIMENSION_TOLERANCE:
             continue
         hint = ""
         for unit, factor in (("millimetres", 1e3), ("centimetres", 1e2), ("inches", 1 / 0.0254)):
             if abs(value / (wanted * factor) - 1) < 0.1:
                 hint = f"; the file seems to be in {unit}, lengths must be in metres"
-        refuse(f"{value:g} m", f"must agree with column.{key} = {wanted:g} m within {_DIMENSION_TOLERANCE:.0%}{hint}")
+        refuse(
+            f"{value:g} m",
+            f"must agree with column.{key} = {wanted:g} m within {_DIMENSION_TOLERANCE:.0%}{hint}",
+        )
     if own.height > 1000:
         refuse(f"{own.height:g} m high", "must be at most 1000 m high: lengths must be in metres")
 
@@ -173,10 +248,18 @@ def _check_elements(mesh: BrickMesh, height: float, refuse) -> None:
     bad = np.flatnonzero(corner_jacobians(mesh).min(axis=1) <= 0)
     if len(bad):
         x, y, z = mesh.points[mesh.cells[bad[0]]].mean(axis=0)
-        refuse(f"{len(bad)} of {len(mesh.cells)} elements",
-               f"must not be folded or flat (positive Jacobian at every corner); first one at x = {x:g}, y = {y:g}, z = {z:g} m")
+        refuse(
+            f"{len(bad)} of {len(mesh.cells)} elements",
+            "must not be folded or flat (positive Jacobian at every corner); first one "
+            f"at x = {x:g}, y = {y:g}, z = {z:g} m",
+        )
     n = len(mesh.points)
     edges = np.stack([mesh.cells, np.roll(mesh.cells, 1, axis=1)]).reshape(2, -1)
-    pieces, _ = connected_components(coo_array((np.ones(edges.shape[1], np.int8), edges), shape=(n, n)), directed=False)
+    pieces, _ = connected_components(
+        coo_array((np.ones(edges.shape[1], np.int8), edges), shape=(n, n)), directed=False
+    )
     if pieces > 1:
-        refuse(f"{pieces} unconnected pieces", "must be one connected body: merge coincident points before export")
+        refuse(
+            f"{pieces} unconnected pieces",
+            "must be one connected body: merge coincident points before export",
+        )

@@ -7,11 +7,14 @@ import numpy as np
 from fecolumn.mesh.bricks import BrickMesh
 
 # Neighbours of each corner of the VTK hexahedron in right-handed order.
-_NEIGHBOURS = np.array([[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]])
+_NEIGHBOURS = np.array(
+    [[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]]
+)
 
 
 def corner_jacobians(mesh: BrickMesh) -> np.ndarray:
-    """(n_cells, 8) Jacobian determinant at the corners, mapped from [-1, 1]^3 [m3]; a folded brick has one <= 0.
+    """(n_cells, 8) Jacobian determinant at the corners, mapped from [-1, 1]^3 [m3]; a folded brick
+    has one <= 0.
 
     (n_cells, 1) of tetrahedra: six times their volume.
     """
@@ -21,10 +24,11 @@ def corner_jacobians(mesh: BrickMesh) -> np.ndarray:
 
 
 def scaled_jacobian(mesh: BrickMesh) -> np.ndarray:
-    """(n_cells,) smallest corner Jacobian over the product of the three edge lengths; 1 for a cuboid [-].
+    """(n_cells,) smallest corner Jacobian over the product of the three edge lengths; 1 for a
+    cuboid [-].
 
-    The corner part of the Verdict library's metric (Stimpson et al. 2007, section 6.13). Of a tetrahedron, sqrt(2) times it: 1 where
-    it is regular (section 5.10 there).
+    The corner part of the Verdict library's metric (Stimpson et al. 2007, section 6.13). Of a
+    tetrahedron, sqrt(2) times it: 1 where it is regular (section 5.10 there).
     """
     if mesh.is_tetrahedral:
         a, b, c = _spokes(mesh).transpose(1, 0, 2)

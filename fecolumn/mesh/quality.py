@@ -1,4 +1,6 @@
-"""How well a mesh represents the specimen: mass properties against closed forms, and the smallest Jacobians."""
+"""How well a mesh represents the specimen: mass properties against closed forms, and the smallest
+Jacobians.
+"""
 
 from __future__ import annotations
 
@@ -16,17 +18,34 @@ from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
 from fecolumn.mesh.specimen import SpecimenMesh
 
 # Corner signs of the VTK hexahedron.
-_SIGNS = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
+_SIGNS = np.array(
+    [
+        [-1, -1, -1],
+        [1, -1, -1],
+        [1, 1, -1],
+        [-1, 1, -1],
+        [-1, -1, 1],
+        [1, -1, 1],
+        [1, 1, 1],
+        [-1, 1, 1],
+    ]
+)
 
 
 @dataclass(frozen=True, slots=True)
 class MassProperties:
     """Volume, mass and inertia of a body.
 
-    Attributes:
-        volume: [m3]; mass: [kg].
-        centre: (3,) centre of mass [m].
-        inertia: (3, 3) inertia tensor about the centre of mass [kg m2].
+    Attributes
+    ----------
+    volume
+        [m3]
+    mass
+        [kg].
+    centre
+        (3,) centre of mass [m].
+    inertia
+        (3, 3) inertia tensor about the centre of mass [kg m2].
     """
 
     volume: float
@@ -37,13 +56,17 @@ class MassProperties:
     def __add__(self, other: MassProperties) -> MassProperties:
         mass = self.mass + other.mass
         centre = (self.mass * self.centre + other.mass * other.centre) / mass
-        inertia = sum(one.inertia + one.mass * _steiner(one.centre - centre) for one in (self, other))
+        inertia = sum(
+            one.inertia + one.mass * _steiner(one.centre - centre) for one in (self, other)
+        )
         return MassProperties(self.volume + other.volume, mass, centre, inertia)
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One line of the quality table; `exact` and `difference` (relative) are None where there is no closed form."""
+    """One line of the quality table; `exact` and `difference` (relative) are None where there is no
+    closed form.
+    """
 
     name: str
     unit: str
@@ -59,17 +82,24 @@ class Row:
 def mass_properties(mesh: BrickMesh, density: float) -> MassProperties:
     """Mass properties of trilinear bricks, or of tetrahedra.
 
-    Three Gauss points a direction are exact for bricks: the Jacobian is quadratic and x_i x_j quadratic in each local coordinate.
-    A tetrahedron of volume V has the integral V (4 c_i c_j + sum over corners x_i x_j / 4) / 5 of x_i x_j, c its middle.
+    Three Gauss points a direction are exact for bricks: the Jacobian is quadratic and x_i x_j
+    quadratic in each local coordinate. A tetrahedron of volume V has the integral V (4 c_i c_j +
+    sum over corners x_i x_j / 4) / 5 of x_i x_j, c its middle.
 
-    Args:
-        mesh: bricks or tetrahedra.
-        density: [kg/m3].
+    Parameters
+    ----------
+    mesh
+        bricks or tetrahedra.
+    density
+        [kg/m3].
     """
     if mesh.is_tetrahedral:
         corners, weight = mesh.points[mesh.cells], corner_jacobians(mesh)[:, 0] / 6
         middle = corners.mean(axis=1)
-        second = (4 * np.einsum("c,ci,cj->ij", weight, middle, middle) + np.einsum("c,cai,caj->ij", weight, corners, corners) / 4) / 5
+        second = (
+            4 * np.einsum("c,ci,cj->ij", weight, middle, middle)
+            + np.einsum("c,cai,caj->ij", weight, corners, corners) / 4
+        ) / 5
         return _from_moments(weight.sum(), weight @ middle, second, density)
     abscissae, weights = np.polynomial.legendre.leggauss(3)
     corners = mesh.points[mesh.cells]
@@ -77,7 +107,9 @@ def mass_properties(mesh: BrickMesh, density: float) -> MassProperties:
     for i, j, k in np.ndindex(3, 3, 3):
         factors = 1 + _SIGNS * abscissae[[i, j, k]]
         shape = factors.prod(axis=1) / 8
-        slope = np.stack([_SIGNS[:, a] * np.delete(factors, a, axis=1).prod(axis=1) / 8 for a in range(3)])
+        slope = np.stack(
+            [_SIGNS[:, a] * np.delete(factors, a, axis=1).prod(axis=1) / 8 for a in range(3)]
+        )
         weight = np.linalg.det(slope @ corners) * (weights[i] * weights[j] * weights[k])
         x = np.einsum("a,cai->ci", shape, corners)
         volume += weight.sum()
@@ -100,19 +132,37 @@ def exact_column(case: Case) -> MassProperties:
     if column.shape == "block":
         return _box(column.length_m, column.width_m, column.height_m, case.seat_m, density)
     outer = column.outer_diameter_m / 2
-    return _ring(outer, 0.0 if is_solid(case) else outer - column.wall_m, column.height_m, case.seat_m, density)
+    return _ring(
+        outer,
+        0.0 if is_solid(case) else outer - column.wall_m,
+        column.height_m,
+        case.seat_m,
+        density,
+    )
 
 
 def exact_flange(case: Case) -> MassProperties:
     """Closed form of the flange."""
     flange = case.flange
-    return _ring(flange.outer_diameter_m / 2, flange.inner_diameter_m / 2, flange.thickness_m, 0.0, case.material.density_kg_m3)
+    return _ring(
+        flange.outer_diameter_m / 2,
+        flange.inner_diameter_m / 2,
+        flange.thickness_m,
+        0.0,
+        case.material.density_kg_m3,
+    )
 
 
 def exact_cap(case: Case) -> MassProperties:
     """Closed form of the cap plate."""
     cap = case.cap
-    return _box(cap.length_m, cap.width_m, cap.thickness_m, case.seat_m + case.column.height_m, case.material.density_kg_m3)
+    return _box(
+        cap.length_m,
+        cap.width_m,
+        cap.thickness_m,
+        case.seat_m + case.column.height_m,
+        case.material.density_kg_m3,
+    )
 
 
 def _ring(outer, inner, height, bottom, density) -> MassProperties:
@@ -120,7 +170,12 @@ def _ring(outer, inner, height, bottom, density) -> MassProperties:
     volume = math.pi * (outer**2 - inner**2) * height
     mass = density * volume
     across = mass * (3 * squares + height**2) / 12
-    return MassProperties(volume, mass, np.array([0, 0, bottom + height / 2]), np.diag([across, across, mass * squares / 2]))
+    return MassProperties(
+        volume,
+        mass,
+        np.array([0, 0, bottom + height / 2]),
+        np.diag([across, across, mass * squares / 2]),
+    )
 
 
 def _box(a, b, c, bottom, density) -> MassProperties:
@@ -130,19 +185,27 @@ def _box(a, b, c, bottom, density) -> MassProperties:
 
 
 def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
-    """Jacobians, and mass properties of flange, column, cap and their assembly, against closed forms where the column is a built one.
+    """Jacobians, and mass properties of flange, column, cap and their assembly, against closed
+    forms where the column is a built one.
 
-    Of a user's mesh there is no other form than the mesh itself: it is told as it is, with the tilt at which its centre of mass
-    stands over the nearest edge of the rectangle around its foot.
+    Of a user's mesh there is no other form than the mesh itself: it is told as it is, with the tilt
+    at which its centre of mass stands over the nearest edge of the rectangle around its foot.
     """
     body, base = specimen.body, specimen.base
     density, own = case.material.density_kg_m3, bool(case.column.mesh_file)
-    kept = {"flange": body.part == FLANGE, "column": (body.part == LOWER) | (body.part == UPPER), "cap": body.part == CAP}
+    kept = {
+        "flange": body.part == FLANGE,
+        "column": (body.part == LOWER) | (body.part == UPPER),
+        "cap": body.part == CAP,
+    }
     parts = {name: _part(body, mask) for name, mask in kept.items() if mask.any()}
     exact = {"flange": exact_flange, "column": exact_column, "cap": exact_cap}
     rows = [Row("smallest Jacobian of the body", "m3", float(corner_jacobians(body).min()))]
     shown = {**parts, "base": base} if len(base.cells) else parts
-    rows += [Row(f"smallest scaled Jacobian of the {name}", "-", float(scaled_jacobian(mesh).min())) for name, mesh in shown.items()]
+    rows += [
+        Row(f"smallest scaled Jacobian of the {name}", "-", float(scaled_jacobian(mesh).min()))
+        for name, mesh in shown.items()
+    ]
 
     found = {name: mass_properties(mesh, density) for name, mesh in parts.items()}
     closed = {name: None if own and name == "column" else exact[name](case) for name in parts}
@@ -150,26 +213,53 @@ def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
         rows += _mass_rows(name, found[name], closed[name])
     whole = functools.reduce(operator.add, found.values())
     if len(parts) > 1:
-        rows += _mass_rows(" with ".join(sorted(parts, key=list(("column", "flange", "cap")).index)), whole,
-                           None if own else functools.reduce(operator.add, closed.values()))
+        rows += _mass_rows(
+            " with ".join(sorted(parts, key=list(("column", "flange", "cap")).index)),
+            whole,
+            None if own else functools.reduce(operator.add, closed.values()),
+        )
     if own:
         foot = body.points[specimen.foot_nodes, :2] - whole.centre[:2]
         reach = min(foot.max(axis=0).min(), -foot.min(axis=0).max())
-        rows += [Row("tilt with the centre of mass over the foot's nearest side", "rad", float(np.arctan2(reach, whole.centre[2])))]
+        rows += [
+            Row(
+                "tilt with the centre of mass over the foot's nearest side",
+                "rad",
+                float(np.arctan2(reach, whole.centre[2])),
+            )
+        ]
     plate = case.base
     if len(base.cells):
-        rows += [Row("base: volume", "m3", mass_properties(base, plate.density_kg_m3).volume,
-                     plate.length_m * plate.width_m * plate.thickness_m)]
+        rows += [
+            Row(
+                "base: volume",
+                "m3",
+                mass_properties(base, plate.density_kg_m3).volume,
+                plate.length_m * plate.width_m * plate.thickness_m,
+            )
+        ]
     return tuple(rows)
 
 
 def _mass_rows(name, found, exact):
     def row(what, unit, of):
-        return Row(f"{name}: {what}", unit, float(of(found)), None if exact is None else float(of(exact)))
+        return Row(
+            f"{name}: {what}", unit, float(of(found)), None if exact is None else float(of(exact))
+        )
 
-    rows = [row("volume", "m3", lambda one: one.volume), row("mass", "kg", lambda one: one.mass),
-            row("height of the centre of mass", "m", lambda one: one.centre[2])]
-    return rows + [row(f"inertia I_{axis}{axis} about the centre of mass", "kg m2", lambda one, i=i: one.inertia[i, i]) for i, axis in enumerate("xyz")]
+    rows = [
+        row("volume", "m3", lambda one: one.volume),
+        row("mass", "kg", lambda one: one.mass),
+        row("height of the centre of mass", "m", lambda one: one.centre[2]),
+    ]
+    return rows + [
+        row(
+            f"inertia I_{axis}{axis} about the centre of mass",
+            "kg m2",
+            lambda one, i=i: one.inertia[i, i],
+        )
+        for i, axis in enumerate("xyz")
+    ]
 
 
 def _part(mesh, kept) -> BrickMesh:

@@ -14,10 +14,14 @@ _SQUARE_CORNER = 0.6  # O-grid: the inner square's corners, as a fraction of the
 class Annulus:
     """Ring of quadrilaterals with corners exactly on both circles, centred at the origin.
 
-    Attributes:
-        inner_radius, outer_radius: [m].
-        n_around: quadrilaterals around.
-        n_wall: quadrilaterals through the wall.
+    Attributes
+    ----------
+    inner_radius, outer_radius
+        [m].
+    n_around
+        quadrilaterals around.
+    n_wall
+        quadrilaterals through the wall.
     """
 
     inner_radius: float
@@ -40,34 +44,46 @@ class Annulus:
         return equal_area(self.n_around)
 
     def outline(self, points) -> np.ndarray:
-        """Distance (n,) of the polygon of its nodes from the middle at `points` (n, 2 or more) [m], over that of its corners."""
+        """Distance (n,) of the polygon of its nodes from the middle at `points` (n, 2 or more) [m],
+        over that of its corners.
+        """
         return _polygon(points, self.n_around, 0.0)
 
     def draw(self, geo) -> list[int]:
         """Tags of the four surfaces drawn in a `gmsh.model.geo`."""
-        # An arc of Gmsh is shorter than pi, so four arcs share the bricks even where n_around is no multiple of 4.
+        # An arc of Gmsh is shorter than pi, so four arcs share the bricks even where n_around is no
+        # multiple of 4.
         split = np.arange(5) * self.n_around // 4
         angles = 2 * np.pi * split[:4] / self.n_around
         centre = geo.addPoint(0, 0, 0)
-        inner, outer = ([geo.addPoint(r * np.cos(a), r * np.sin(a), 0) for a in angles]
-                        for r in (self.inner_radius, self.outer_radius))
+        inner, outer = (
+            [geo.addPoint(r * np.cos(a), r * np.sin(a), 0) for a in angles]
+            for r in (self.inner_radius, self.outer_radius)
+        )
         return _ring(geo, centre, inner, outer, np.diff(split), self.n_wall, curved_inside=True)
 
     def evened(self, points) -> np.ndarray:
         """(n, 2) points [m] at exactly equal angles and radii."""
         radius, thickness = np.hypot(*points.T), self.outer_radius - self.inner_radius
         ring = np.round((radius - self.inner_radius) / thickness * self.n_wall)
-        return _polar(self.inner_radius + ring / self.n_wall * thickness, _even_angle(points, self.n_around, 0.0))
+        return _polar(
+            self.inner_radius + ring / self.n_wall * thickness,
+            _even_angle(points, self.n_around, 0.0),
+        )
 
 
 @dataclass(frozen=True, slots=True)
 class Disc:
     """O-grid of five blocks: a square in the middle and four blocks up to the circle.
 
-    Attributes:
-        radius: [m].
-        n_around: quadrilaterals around, a multiple of 4.
-        n_ring: quadrilaterals from the square to the circle.
+    Attributes
+    ----------
+    radius
+        [m].
+    n_around
+        quadrilaterals around, a multiple of 4.
+    n_ring
+        quadrilaterals from the square to the circle.
     """
 
     radius: float
@@ -98,10 +114,21 @@ class Disc:
         n_side = self.n_around // 4
         angles = np.pi / 4 + np.arange(4) * np.pi / 2
         centre = geo.addPoint(0, 0, 0)
-        square, circle = ([geo.addPoint(r * np.cos(a), r * np.sin(a), 0) for a in angles]
-                          for r in (_SQUARE_CORNER * self.radius, self.radius))
+        square, circle = (
+            [geo.addPoint(r * np.cos(a), r * np.sin(a), 0) for a in angles]
+            for r in (_SQUARE_CORNER * self.radius, self.radius)
+        )
         sides = []
-        blocks = _ring(geo, centre, square, circle, [n_side] * 4, self.n_ring, curved_inside=False, inner_curves=sides)
+        blocks = _ring(
+            geo,
+            centre,
+            square,
+            circle,
+            [n_side] * 4,
+            self.n_ring,
+            curved_inside=False,
+            inner_curves=sides,
+        )
         return blocks + [_quadrilateral(geo, sides, square)]
 
     def evened(self, points) -> np.ndarray:
@@ -115,9 +142,12 @@ class Disc:
 class Rectangle:
     """Grid of equal quadrilaterals, centred at the origin.
 
-    Attributes:
-        length, width: along x and y [m].
-        n_x, n_y: quadrilaterals along them.
+    Attributes
+    ----------
+    length, width
+        along x and y [m].
+    n_x, n_y
+        quadrilaterals along them.
     """
 
     length: float
@@ -137,7 +167,10 @@ class Rectangle:
     @property
     def lines(self) -> tuple[np.ndarray, np.ndarray]:
         """Grid lines along x and y [m]."""
-        return tuple(np.linspace(-side / 2, side / 2, n + 1) for side, n in ((self.length, self.n_x), (self.width, self.n_y)))
+        return tuple(
+            np.linspace(-side / 2, side / 2, n + 1)
+            for side, n in ((self.length, self.n_x), (self.width, self.n_y))
+        )
 
     @property
     def equal_area(self) -> float:
@@ -150,23 +183,29 @@ class Rectangle:
 
 
 def _polygon(points, n_around, first):
-    """Distance of the sides of a regular polygon from its middle, in the direction of `points`, over that of its corners."""
+    """Distance of the sides of a regular polygon from its middle, in the direction of `points`,
+    over that of its corners.
+    """
     step = 2 * np.pi / n_around
     past = np.mod(np.arctan2(points[:, 1], points[:, 0]) - first, step)
     return np.cos(step / 2) / np.cos(past - step / 2)
 
 
 def equal_area(n_around: int) -> float:
-    """Factor on the radius of a regular polygon of n corners inscribed in a circle that gives it the circle's area.
+    """Factor on the radius of a regular polygon of n corners inscribed in a circle that gives it
+    the circle's area.
 
-    Its second moment of area is then that of the circle up to (2 pi / n)^4 / 180: 1.3e-4 at 16 corners.
+    Its second moment of area is then that of the circle up to (2 pi / n)^4 / 180: 1.3e-4 at 16
+    corners.
     """
     step = 2 * math.pi / n_around
     return math.sqrt(step / math.sin(step))
 
 
 def _even_angle(points, n_around, first):
-    """Nearest of `n_around` equal angles; Gmsh spaces the points of an arc to 1e-9 rad only, which breaks the symmetry."""
+    """Nearest of `n_around` equal angles; Gmsh spaces the points of an arc to 1e-9 rad only, which
+    breaks the symmetry.
+    """
     step = 2 * np.pi / n_around
     return first + step * np.round((np.arctan2(points[:, 1], points[:, 0]) - first) / step)
 
@@ -175,8 +214,11 @@ def _polar(radius, angle):
     return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
 
 
-def _ring(geo, centre, inner, outer, n_arcs, n_radial, *, curved_inside, inner_curves=None) -> list[int]:
+def _ring(
+    geo, centre, inner, outer, n_arcs, n_radial, *, curved_inside, inner_curves=None
+) -> list[int]:
     """Surfaces of four blocks between four inner and four outer points."""
+
     def curve(start, end, curved, n):
         tag = geo.addCircleArc(start, centre, end) if curved else geo.addLine(start, end)
         geo.mesh.setTransfiniteCurve(tag, int(n) + 1)
@@ -188,8 +230,14 @@ def _ring(geo, centre, inner, outer, n_arcs, n_radial, *, curved_inside, inner_c
     spokes = [curve(inner[i], outer[i], False, n_radial) for i in range(4)]
     if inner_curves is not None:
         inner_curves.extend(insides)
-    return [_quadrilateral(geo, [spokes[i], outsides[i], -spokes[follow[i]], -insides[i]],
-                           [inner[i], outer[i], outer[follow[i]], inner[follow[i]]]) for i in range(4)]
+    return [
+        _quadrilateral(
+            geo,
+            [spokes[i], outsides[i], -spokes[follow[i]], -insides[i]],
+            [inner[i], outer[i], outer[follow[i]], inner[follow[i]]],
+        )
+        for i in range(4)
+    ]
 
 
 def _quadrilateral(geo, curves, corners) -> int:

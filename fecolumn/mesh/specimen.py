@@ -20,11 +20,18 @@ from fecolumn.mesh.tie import Tie, adjust, tie
 class SpecimenMesh:
     """What the solver stands on.
 
-    Attributes:
-        body: flange, lower column, upper column and cap in one mesh, slaves already on their master surfaces.
-        base: base plate, a tensor-product grid with its top at z = 0; without bricks where the base has no edges.
-        ties: slaves and masters, as point numbers of the body.
-        foot_nodes: (n_foot,) point numbers of the body in the plane z = 0, sorted.
+    Attributes
+    ----------
+    body
+        flange, lower column, upper column and cap in one mesh, slaves already on their master
+        surfaces.
+    base
+        base plate, a tensor-product grid with its top at z = 0; without bricks where the base has
+        no edges.
+    ties
+        slaves and masters, as point numbers of the body.
+    foot_nodes
+        (n_foot,) point numbers of the body in the plane z = 0, sorted.
     """
 
     body: BrickMesh
@@ -36,8 +43,10 @@ class SpecimenMesh:
 def specimen_mesh(case: Case) -> SpecimenMesh:
     """Meshes of a case, built or imported.
 
-    Raises:
-        InputError: the imported mesh does not fit the case, or parts cannot be tied.
+    Raises
+    ------
+    InputError
+        the imported mesh does not fit the case, or parts cannot be tied.
     """
     column = imported_column(case) if case.column.mesh_file else column_mesh(case)
     cap = cap_mesh(case)
@@ -61,7 +70,12 @@ def _joints(case: Case, column: BrickMesh, height: float):
     if column.has_part(FLANGE):
         yield lowest, FLANGE, case.seat_m, "flange, column"
     if column.has_part(LOWER) and column.has_part(UPPER):
-        yield LOWER, UPPER, case.seat_m + case.column.fine_height_m, "mesh.fine_size_m, mesh.coarse_size_m"
+        yield (
+            LOWER,
+            UPPER,
+            case.seat_m + case.column.fine_height_m,
+            "mesh.fine_size_m, mesh.coarse_size_m",
+        )
     if case.cap:
         yield column.top_part, CAP, height, "column.height_m, cap"
 
@@ -70,7 +84,13 @@ def _reach(case: Case) -> float:
     """How far a slave may be moved [m]: the sagitta of a brick's chord and a tenth of a fine brick."""
     if case.column.mesh_file or case.column.shape == "block":
         return 0.1 * case.mesh.fine_size_m
-    sagitta = case.column.outer_diameter_m / 2 * (1 - math.cos(math.pi / section(case, UPPER).n_around))
+    sagitta = (
+        case.column.outer_diameter_m / 2 * (1 - math.cos(math.pi / section(case, UPPER).n_around))
+    )
     if case.flange:
-        sagitta += case.flange.outer_diameter_m / 2 * (1 - math.cos(math.pi / section(case, FLANGE).n_around))
+        sagitta += (
+            case.flange.outer_diameter_m
+            / 2
+            * (1 - math.cos(math.pi / section(case, FLANGE).n_around))
+        )
     return sagitta + 0.1 * case.mesh.fine_size_m

@@ -1,1 +1,3 @@
-"""Ground motions: recorded acceleration histories, read, checked, and brought to the step of the analysis."""
+"""Ground motions: recorded acceleration histories, read, checked, and brought to the step of the
+analysis.
+"""

@@ -14,13 +14,22 @@ _SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends includ
 
 
 def chosen_motions(source, key: str, file) -> list:
-    """Every motion of ensemble.h5#* or lick:*, those of lick:1-40 or ensemble.h5#1-40; any other value as it is.
+    """Every motion of ensemble.h5#* or lick:*, those of lick:1-40 or ensemble.h5#1-40; any other
+    value as it is.
 
-    Args:
-        source: as in motion.source. key: that it stands under, for messages. file: that states it; relative paths are taken from its folder.
+    Parameters
+    ----------
+    source
+        as in motion.source.
+    key
+        that it stands under, for messages.
+    file
+        that states it; relative paths are taken from its folder.
 
-    Raises:
-        InputError: no such ensemble or numbers.
+    Raises
+    ------
+    InputError
+        no such ensemble or numbers.
     """
     if not isinstance(source, str):
         return [source]
@@ -33,7 +42,11 @@ def chosen_motions(source, key: str, file) -> list:
     if wanted != ALL and not span:
         return [source]
     try:
-        count = len(members(str(Path(file).resolve().parent / f"{place}#{ALL}"))) if place else lick.COUNT
+        count = (
+            len(members(str(Path(file).resolve().parent / f"{place}#{ALL}")))
+            if place
+            else lick.COUNT
+        )
     except UnusableRecord as error:
         raise InputError(file, key, source, str(error)) from None
     first, last = map(int, span.groups()) if span else (1, count)

@@ -10,11 +10,18 @@ import numpy as np
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import number, read_text, uniform_step, unit_named
 
-_NAMES = {"time": ("time", "t"), "x": ("ax", "a_x", "acc_x", "x"), "y": ("ay", "a_y", "acc_y", "y"),
-          "z": ("az", "a_z", "acc_z", "z"), "": ("a", "acc", "accel", "acceleration")}
+_NAMES = {
+    "time": ("time", "t"),
+    "x": ("ax", "a_x", "acc_x", "x"),
+    "y": ("ay", "a_y", "acc_y", "y"),
+    "z": ("az", "a_z", "acc_z", "z"),
+    "": ("a", "acc", "accel", "acceleration"),
+}
 _MEANING = {name: meaning for meaning, names in _NAMES.items() for name in names}
 _SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "seconds": 1.0, "ms": 1e-3}
-_CELL = re.compile(r"""["']?\s*(?P<name>[^\[\](),;\t"']*?)\s*(?:[\[(]\s*(?P<unit>[^\])]*?)\s*[\])])?\s*["']?""")
+_CELL = re.compile(
+    r"""["']?\s*(?P<name>[^\[\](),;\t"']*?)\s*(?:[\[(]\s*(?P<unit>[^\])]*?)\s*[\])])?\s*["']?"""
+)
 _SPACED_CELL = re.compile(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?")
 _EXAMPLE = "a header row such as: time [s], ax [g], ay [g]"
 
@@ -22,20 +29,28 @@ _EXAMPLE = "a header row such as: time [s], ax [g], ay [g]"
 def read_columns(path, dt_s: float) -> Recording:
     """Recording of a text file with one row a sample.
 
-    A header row (also as a comment, as numpy.savetxt writes it) names the columns time, ax, ay, az with their units in
-    brackets. Without a header two columns are time [s] and acceleration, one column is acceleration. Columns are parted
-    by commas, semicolons, tabs or spaces; with semicolons or tabs a decimal comma is understood.
+    A header row (also as a comment, as numpy.savetxt writes it) names the columns time, ax, ay, az
+    with their units in brackets. Without a header two columns are time [s] and acceleration, one
+    column is acceleration. Columns are parted by commas, semicolons, tabs or spaces; with
+    semicolons or tabs a decimal comma is understood.
 
-    Args:
-        path: the file; lines that start with # are comments.
-        dt_s: sampling step stated by the case [s], 0 if none.
+    Parameters
+    ----------
+    path
+        the file; lines that start with # are comments.
+    dt_s
+        sampling step stated by the case [s], 0 if none.
 
-    Raises:
-        UnusableRecord: unknown columns or units, rows of different length, no number, no even time.
+    Raises
+    ------
+    UnusableRecord
+        unknown columns or units, rows of different length, no number, no even time.
     """
     header, comments, rows = _split(read_text(path))
     if len(rows) < 2:
-        raise UnusableRecord(f"holds {len(rows)} sample{'s' * (len(rows) != 1)}; at least 2 are needed")
+        raise UnusableRecord(
+            f"holds {len(rows)} sample{'s' * (len(rows) != 1)}; at least 2 are needed"
+        )
     lines = [row for row, _ in rows]
     table = _table(rows)
     meanings, units = _columns(header, comments, table.shape[1])
@@ -48,8 +63,14 @@ def read_columns(path, dt_s: float) -> Recording:
     if "time" in meanings:
         time = meanings.index("time")
         dt = uniform_step(table[:, time] * _SECONDS[units[time].lower()], lines, dt_s)
-    return Recording(table[:, accelerations], tuple(meanings[i] for i in accelerations), dt, stated.pop(),
-                     Path(path).name, "; ".join(comments) or Path(path).name)
+    return Recording(
+        table[:, accelerations],
+        tuple(meanings[i] for i in accelerations),
+        dt,
+        stated.pop(),
+        Path(path).name,
+        "; ".join(comments) or Path(path).name,
+    )
 
 
 def _split(text: str):
@@ -93,14 +114,23 @@ def _table(rows) -> np.ndarray:
             except ValueError:
                 raise UnusableRecord(f"line {row}: {cell[:40]!r} is not a number") from None
             if not np.isfinite(values[i, j]):
-                raise UnusableRecord(f"line {row}: {cell} in column {j + 1}; every value must be finite")
+                raise UnusableRecord(
+                    f"line {row}: {cell} in column {j + 1}; every value must be finite"
+                )
     return values
 
 
 def _header_cells(line: str) -> list[tuple[str, str]]:
-    cells = re.split(r"[,;\t]", line.rstrip(",;")) if re.search(r"[,;\t]", line) else _SPACED_CELL.findall(line)
+    cells = (
+        re.split(r"[,;\t]", line.rstrip(",;"))
+        if re.search(r"[,;\t]", line)
+        else _SPACED_CELL.findall(line)
+    )
     found = [_CELL.fullmatch(cell.strip()) for cell in cells]
-    return [(cell["name"].lower(), cell["unit"] or "") if cell else (text.strip(), "") for cell, text in zip(found, cells)]
+    return [
+        (cell["name"].lower(), cell["unit"] or "") if cell else (text.strip(), "")
+        for cell, text in zip(found, cells)
+    ]
 
 
 def _columns(header: str, comments: list[str], width: int):
@@ -108,7 +138,11 @@ def _columns(header: str, comments: list[str], width: int):
     cells = _header_cells(header) if header else []
     if not header and comments:
         commented = _header_cells(comments[-1])
-        cells = commented if len(commented) == width and all(name in _MEANING for name, _ in commented) else []
+        cells = (
+            commented
+            if len(commented) == width and all(name in _MEANING for name, _ in commented)
+            else []
+        )
     if not cells:
         if width > 2:
             raise UnusableRecord(f"{width} columns need {_EXAMPLE}")
@@ -119,13 +153,17 @@ def _columns(header: str, comments: list[str], width: int):
     for name, unit in cells:
         meaning = _MEANING.get(name)
         if meaning is None:
-            raise UnusableRecord(f"column {name!r} is not known; must be one of time, ax, ay, az, in {_EXAMPLE}")
+            raise UnusableRecord(
+                f"column {name!r} is not known; must be one of time, ax, ay, az, in {_EXAMPLE}"
+            )
         if meaning in meanings:
             raise UnusableRecord(f"column {name!r}: there are two of its kind; needs {_EXAMPLE}")
         if meaning == "time" and unit.lower() not in _SECONDS:
             raise UnusableRecord(f"time in {unit!r} is not known; must be s or ms")
         if meaning != "time" and unit and not unit_named(unit):
-            raise UnusableRecord(f"unit {unit!r} of column {name!r} is not known; must be g, m/s2, cm/s2 or mm/s2")
+            raise UnusableRecord(
+                f"unit {unit!r} of column {name!r} is not known; must be g, m/s2, cm/s2 or mm/s2"
+            )
         meanings.append(meaning)
         units.append(unit)
     if meanings == ["time"]:

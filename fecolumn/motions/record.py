@@ -9,7 +9,8 @@ import numpy as np
 
 from fecolumn.case import GRAVITY
 
-# Samples of a motion [-], its step [s] and acceleration [m/s2]: beyond them a file is damaged or its unit is wrong
+# Samples of a motion [-], its step [s] and acceleration [m/s2]: beyond them a file is damaged or
+# its unit is wrong
 MOST_SAMPLES, STEPS_S, LARGEST = 10_000_000, (1e-6, 10.0), 1e5
 METRES_PER_S2 = {"g": GRAVITY, "m/s2": 1.0, "cm/s2": 1e-2, "mm/s2": 1e-3}
 
@@ -22,11 +23,16 @@ class UnusableRecord(ValueError):
 class GroundMotion:
     """Acceleration of the ground, sampled evenly from t = 0.
 
-    Attributes:
-        acceleration: (n_steps, 3) along x, y and z (up), read-only [m/s2].
-        dt: sampling step [s].
-        name: short name for figures and tables.
-        source: where the motion comes from, to be cited.
+    Attributes
+    ----------
+    acceleration
+        (n_steps, 3) along x, y and z (up), read-only [m/s2].
+    dt
+        sampling step [s].
+    name
+        short name for figures and tables.
+    source
+        where the motion comes from, to be cited.
     """
 
     acceleration: np.ndarray
@@ -62,13 +68,20 @@ class GroundMotion:
 def sound(motion: GroundMotion) -> GroundMotion:
     """The motion itself.
 
-    Raises:
-        UnusableRecord: its step or an acceleration is none that a ground motion has.
+    Raises
+    ------
+    UnusableRecord
+        its step or an acceleration is none that a ground motion has.
     """
     if not STEPS_S[0] <= motion.dt <= STEPS_S[1]:
-        raise UnusableRecord(f"is sampled at {motion.dt:g} s; must be in [{STEPS_S[0]:g}, {STEPS_S[1]:g}] s")
+        raise UnusableRecord(
+            f"is sampled at {motion.dt:g} s; must be in [{STEPS_S[0]:g}, {STEPS_S[1]:g}] s"
+        )
     if not motion.pga.max() <= LARGEST:  # not so for nan
-        raise UnusableRecord(f"holds an acceleration of {motion.pga.max():g} m/s2; must be finite and at most {LARGEST:g}")
+        raise UnusableRecord(
+            f"holds an acceleration of {motion.pga.max():g} m/s2; must be finite and at "
+            f"most {LARGEST:g}"
+        )
     return motion
 
 
@@ -83,13 +96,20 @@ def motion_hash(motion: GroundMotion) -> str:
 class Recording:
     """What one file says.
 
-    Attributes:
-        values: (n_steps, n_components) [units].
-        axes: axis of each component, "x", "y" or "z"; "" where the file does not say.
-        dt: sampling step [s], None where the file does not say.
-        units: a key of METRES_PER_S2, "" where the file does not say.
-        name: short name.
-        source: what the file says about its origin.
+    Attributes
+    ----------
+    values
+        (n_steps, n_components) [units].
+    axes
+        axis of each component, "x", "y" or "z"; "" where the file does not say.
+    dt
+        sampling step [s], None where the file does not say.
+    units
+        a key of METRES_PER_S2, "" where the file does not say.
+    name
+        short name.
+    source
+        what the file says about its origin.
     """
 
     values: np.ndarray

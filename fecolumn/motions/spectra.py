@@ -14,26 +14,37 @@ _SAMPLES_PER_PERIOD = 24  # the peak between samples is then missed by 0.9 % at 
 _SIGHTS = 8
 
 
-def rotd_spectrum(motion: GroundMotion, periods, damping: float = 0.05, percentiles=(50.0, 100.0)) -> np.ndarray:
-    """Pseudo-acceleration of the horizontal motion, as a percentile over all directions (Boore 2010).
+def rotd_spectrum(
+    motion: GroundMotion, periods, damping: float = 0.05, percentiles=(50.0, 100.0)
+) -> np.ndarray:
+    """Pseudo-acceleration of the horizontal motion, as a percentile over all directions (Boore
+    2010).
 
-    The linear oscillator is solved exactly for an acceleration that is piecewise linear between the samples (Nigam and
-    Jennings 1969) and followed by rest for half a period. Peaks are sought at no fewer than 24 points a period.
+    The linear oscillator is solved exactly for an acceleration that is piecewise linear between the
+    samples (Nigam and Jennings 1969) and followed by rest for half a period. Peaks are sought at no
+    fewer than 24 points a period.
 
-    Args:
-        motion: its vertical component does not count.
-        periods: (n_periods,) natural periods [s], greater than 0.
-        damping: fraction of critical damping, in [0, 1).
-        percentiles: (n_percentiles,) over directions; 50 is RotD50, 100 is RotD100.
+    Parameters
+    ----------
+    motion
+        its vertical component does not count.
+    periods
+        (n_periods,) natural periods [s], greater than 0.
+    damping
+        fraction of critical damping, in [0, 1).
+    percentiles
+        (n_percentiles,) over directions; 50 is RotD50, 100 is RotD100.
 
-    Returns:
-        (n_percentiles, n_periods) [m/s2].
+    Returns
+    -------
+    (n_percentiles, n_periods) [m/s2].
     """
     return np.percentile(_peaks_over_directions(motion, periods, damping), percentiles, axis=0)
 
 
 def horizontal_spectrum(motion: GroundMotion, periods, damping: float = 0.05) -> np.ndarray:
-    """Pseudo-acceleration (n_periods,) [m/s2]: RotD50, or the spectrum of the only component of a motion along x or y alone.
+    """Pseudo-acceleration (n_periods,) [m/s2]: RotD50, or the spectrum of the only component of a
+    motion along x or y alone.
 
     RotD50 of one component would be cos 45 degrees of it. Arguments as in rotd_spectrum.
     """
@@ -43,15 +54,25 @@ def horizontal_spectrum(motion: GroundMotion, periods, damping: float = 0.05) ->
 
 
 def component_spectra(motion: GroundMotion, periods, damping: float = 0.05) -> np.ndarray:
-    """Pseudo-acceleration along x, y and z, (3, n_periods) [m/s2]; oscillator and arguments as in rotd_spectrum."""
+    """Pseudo-acceleration along x, y and z, (3, n_periods) [m/s2]; oscillator and arguments as in
+    rotd_spectrum.
+    """
     horizontal = _peaks_over_directions(motion, periods, damping)
     upright = np.zeros((len(motion.acceleration), 2))
     upright[:, 0] = motion.acceleration[:, 2]
-    return np.array([horizontal[0], horizontal[N_ANGLES // 2], _peaks(upright, motion.dt, *_oscillators(periods, damping))[0]])
+    return np.array(
+        [
+            horizontal[0],
+            horizontal[N_ANGLES // 2],
+            _peaks(upright, motion.dt, *_oscillators(periods, damping))[0],
+        ]
+    )
 
 
 def rotated_peaks(history: np.ndarray) -> np.ndarray:
-    """Peak absolute value of a horizontal history (n_steps, 2) along each of 180 directions, a degree apart, from x towards y."""
+    """Peak absolute value of a horizontal history (n_steps, 2) along each of 180 directions, a
+    degree apart, from x towards y.
+    """
     history = np.ascontiguousarray(history, dtype=np.float64)
     peaks = np.zeros(N_ANGLES)
     _directional_peaks(history[:, 0].copy(), history[:, 1].copy(), len(history), peaks)
@@ -68,7 +89,9 @@ def _oscillators(periods, damping: float) -> tuple[np.ndarray, float]:
 
 
 def _peaks_over_directions(motion: GroundMotion, periods, damping: float) -> np.ndarray:
-    return _peaks(np.ascontiguousarray(motion.acceleration[:, :2]), motion.dt, *_oscillators(periods, damping))
+    return _peaks(
+        np.ascontiguousarray(motion.acceleration[:, :2]), motion.dt, *_oscillators(periods, damping)
+    )
 
 
 @numba.njit(cache=True)
@@ -84,13 +107,15 @@ def _peaks(acceleration, dt, periods, damping):
         ux, uy = np.zeros(n_states), np.zeros(n_states)
         _oscillate(acceleration, pieces, step, 2 * math.pi / period, damping, ux, uy)
         _directional_peaks(ux, uy, n_states, directions)
-        result[:, number] = directions * (2 * math.pi / period)**2
+        result[:, number] = directions * (2 * math.pi / period) ** 2
     return result
 
 
 @numba.njit(cache=True)
 def _oscillate(acceleration, pieces, step, omega, damping, ux, uy):
-    """Relative displacements of two equal oscillators from rest, after Nigam and Jennings (1969), equation 2.7."""
+    """Relative displacements of two equal oscillators from rest, after Nigam and Jennings (1969),
+    equation 2.7.
+    """
     root = math.sqrt(1 - damping**2)
     damped = omega * root
     decay = math.exp(-damping * omega * step)
@@ -104,9 +129,13 @@ def _oscillate(acceleration, pieces, step, omega, damping, ux, uy):
     rise, fall = sine / damped, damping / root * sine
     b11 = decay * ((first + damping / omega) * rise + (second + 1 / omega**2) * cosine) - second
     b12 = -decay * (first * rise + second * cosine) - 1 / omega**2 + second
-    b21 = decay * ((first + damping / omega) * (cosine - fall) - (second + 1 / omega**2) * (damped * sine + damping * omega * cosine)) \
-        + 1 / (omega**2 * step)
-    b22 = -decay * (first * (cosine - fall) - second * (damped * sine + damping * omega * cosine)) - 1 / (omega**2 * step)
+    b21 = decay * (
+        (first + damping / omega) * (cosine - fall)
+        - (second + 1 / omega**2) * (damped * sine + damping * omega * cosine)
+    ) + 1 / (omega**2 * step)
+    b22 = -decay * (
+        first * (cosine - fall) - second * (damped * sine + damping * omega * cosine)
+    ) - 1 / (omega**2 * step)
     x, y, vx, vy = 0.0, 0.0, 0.0, 0.0
     ax, ay = acceleration[0, 0], acceleration[0, 1]
     state, samples = 0, len(acceleration)
@@ -116,8 +145,14 @@ def _oscillate(acceleration, pieces, step, omega, damping, ux, uy):
         slope_y = ((0.0 if rest else acceleration[sample + 1, 1]) - ay) / pieces
         for _ in range(pieces):
             bx, by = ax + slope_x, ay + slope_y
-            x, vx = a11 * x + a12 * vx + b11 * ax + b12 * bx, a21 * x + a22 * vx + b21 * ax + b22 * bx
-            y, vy = a11 * y + a12 * vy + b11 * ay + b12 * by, a21 * y + a22 * vy + b21 * ay + b22 * by
+            x, vx = (
+                a11 * x + a12 * vx + b11 * ax + b12 * bx,
+                a21 * x + a22 * vx + b21 * ax + b22 * bx,
+            )
+            y, vy = (
+                a11 * y + a12 * vy + b11 * ay + b12 * by,
+                a21 * y + a22 * vy + b21 * ay + b22 * by,
+            )
             ax, ay = bx, by
             state += 1
             ux[state], uy[state] = x, y
@@ -129,12 +164,15 @@ def _oscillate(acceleration, pieces, step, omega, damping, ux, uy):
 def _directional_peaks(x, y, n_states, peaks):
     """Peaks (180,) of |x cos + y sin|.
 
-    Peaks along eight sights bound the peaks along all directions from below; states nearer to rest than the least of these
-    bounds cannot be a peak in any direction, and few states remain.
+    Peaks along eight sights bound the peaks along all directions from below; states nearer to rest
+    than the least of these bounds cannot be a peak in any direction, and few states remain.
     """
     cosines, sines = np.empty(N_ANGLES), np.empty(N_ANGLES)
     for angle in range(N_ANGLES):
-        cosines[angle], sines[angle] = math.cos(math.pi * angle / N_ANGLES), math.sin(math.pi * angle / N_ANGLES)
+        cosines[angle], sines[angle] = (
+            math.cos(math.pi * angle / N_ANGLES),
+            math.sin(math.pi * angle / N_ANGLES),
+        )
     peaks[:] = 0.0
     for sight in range(_SIGHTS):
         cos, sin = math.cos(math.pi * sight / _SIGHTS), math.sin(math.pi * sight / _SIGHTS)
@@ -144,9 +182,13 @@ def _directional_peaks(x, y, n_states, peaks):
             if reach > farthest:
                 farthest, where = reach, state
         for angle in range(N_ANGLES):
-            peaks[angle] = max(peaks[angle], abs(cosines[angle] * x[where] + sines[angle] * y[where]))
-    bound = peaks.min()**2
+            peaks[angle] = max(
+                peaks[angle], abs(cosines[angle] * x[where] + sines[angle] * y[where])
+            )
+    bound = peaks.min() ** 2
     for state in range(n_states):
-        if x[state]**2 + y[state]**2 >= bound:
+        if x[state] ** 2 + y[state] ** 2 >= bound:
             for angle in range(N_ANGLES):
-                peaks[angle] = max(peaks[angle], abs(cosines[angle] * x[state] + sines[angle] * y[state]))
+                peaks[angle] = max(
+                    peaks[angle], abs(cosines[angle] * x[state] + sines[angle] * y[state])
+                )

@@ -9,11 +9,14 @@ import numpy as np
 from fecolumn.files import Unreadable, read_bytes
 from fecolumn.motions.record import UnusableRecord
 
-_SPELLINGS = {"g": ("g", "g's"),
-              "m/s2": ("m/s2", "m/s/s"),
-              "cm/s2": ("cm/s2", "cm/s/s", "gal", "gals"),
-              "mm/s2": ("mm/s2", "mm/s/s")}
-# Times since 1970 are below it [s]; and what numbers of their size may be rounded by, as a share of a step
+_SPELLINGS = {
+    "g": ("g", "g's"),
+    "m/s2": ("m/s2", "m/s/s"),
+    "cm/s2": ("cm/s2", "cm/s/s", "gal", "gals"),
+    "mm/s2": ("mm/s2", "mm/s/s"),
+}
+# Times since 1970 are below it [s]; and what numbers of their size may be rounded by, as a share of
+# a step
 _LATEST_S, _RESOLVED = 1e13, 1e-4
 _UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
 
@@ -21,8 +24,10 @@ _UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling 
 def read_text(path) -> str:
     """Text of a file in UTF-8, or else Latin-1 as in older headers; without byte order mark.
 
-    Raises:
-        UnusableRecord: there is no such file, it may not be read, is empty, or is not text.
+    Raises
+    ------
+    UnusableRecord
+        there is no such file, it may not be read, is empty, or is not text.
     """
     try:
         data = read_bytes(path)
@@ -43,8 +48,10 @@ def read_text(path) -> str:
 def number(word: str) -> float:
     """Value of a number such as `-.1234E-02` or `.1D+01`.
 
-    Raises:
-        ValueError: not a number.
+    Raises
+    ------
+    ValueError
+        not a number.
     """
     try:
         return float(word)
@@ -54,41 +61,63 @@ def number(word: str) -> float:
 
 def unit_named(text: str) -> str:
     """Unit of acceleration by any of its spellings, such as CM/SEC**2; "" for none of ours."""
-    word = text.strip().lower().replace("²", "2").replace("**", "").replace("^", "").replace(" ", "")
+    word = (
+        text.strip().lower().replace("²", "2").replace("**", "").replace("^", "").replace(" ", "")
+    )
     return _UNITS.get(word.replace("sec", "s"), "")
 
 
 def uniform_step(time: np.ndarray, lines: list[int], dt_s: float) -> float:
     """Sampling step of a column of times [s].
 
-    No sample may lie further than a twentieth of a step from an even grid. Times rounded more coarsely are accepted
-    once the case states the step: then none may lie further than half a step from its grid, and no gap can hide.
+    No sample may lie further than a twentieth of a step from an even grid. Times rounded more
+    coarsely are accepted once the case states the step: then none may lie further than half a step
+    from its grid, and no gap can hide.
 
-    Args:
-        time: (n_steps,) [s].
-        lines: line of the file each time stands in.
-        dt_s: step stated by the case [s], 0 if none.
+    Parameters
+    ----------
+    time
+        (n_steps,) [s].
+    lines
+        line of the file each time stands in.
+    dt_s
+        step stated by the case [s], 0 if none.
 
-    Raises:
-        UnusableRecord: times fall, repeat, or are not even.
+    Raises
+    ------
+    UnusableRecord
+        times fall, repeat, or are not even.
     """
     latest = float(np.abs(time).max())
     if latest > _LATEST_S:
-        raise UnusableRecord(f"line {lines[int(np.argmax(np.abs(time)))]}: t = {latest:g} s; times must be at most {_LATEST_S:g} s")
+        raise UnusableRecord(
+            f"line {lines[int(np.argmax(np.abs(time)))]}: t = {latest:g} s; times must "
+            f"be at most {_LATEST_S:g} s"
+        )
     steps = np.diff(time)
     dt = (time[-1] - time[0]) / len(steps)
     if np.spacing(latest) > _RESOLVED * dt > 0:
-        raise UnusableRecord(f"times around {latest:g} s do not tell steps of {dt:.3g} s apart: subtract the first one")
+        raise UnusableRecord(
+            f"times around {latest:g} s do not tell steps of {dt:.3g} s apart: subtract "
+            "the first one"
+        )
     rounded = dt_s > 0 and abs(dt - dt_s) * len(steps) < 0.5 * dt_s
     worst = int(np.argmin(steps))
     if steps[worst] < 0 or (steps[worst] == 0 and not rounded):
         what = "falls" if steps[worst] < 0 else "repeats"
-        raise UnusableRecord(f"line {lines[worst + 1]}: time {what}, t = {time[worst + 1]:g} s after {time[worst]:g} s; "
-                             "it must rise evenly")
+        raise UnusableRecord(
+            f"line {lines[worst + 1]}: time {what}, t = {time[worst + 1]:g} s after "
+            f"{time[worst]:g} s; "
+            "it must rise evenly"
+        )
     grid, tolerance = (dt_s, 0.5) if rounded else (dt, 0.05)
     if np.abs(time - time[0] - grid * np.arange(len(time))).max() > tolerance * grid:
         usual = float(np.median(steps))
         worst = int(np.argmax(np.abs(steps - usual)))
-        raise UnusableRecord(f"line {lines[worst + 1]}: step of {steps[worst]:g} s before t = {time[worst + 1]:g} s where {usual:g} s "
-                             "is usual; samples must be even, without gaps (where times are only rounded, state motion.dt_s)")
+        raise UnusableRecord(
+            f"line {lines[worst + 1]}: step of {steps[worst]:g} s before t = "
+            f"{time[worst + 1]:g} s where {usual:g} s "
+            "is usual; samples must be even, without gaps (where times are only "
+            "rounded, state motion.dt_s)"
+        )
     return grid

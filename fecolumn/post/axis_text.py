@@ -10,10 +10,17 @@ from fecolumn.rocking.model import TABLES, model_class
 from fecolumn.structures.case import NAMED
 from fecolumn.structures.keys import KINDS
 
-_SYMBOLS = {"integration.dt_s": r"$\Delta t$", "integration.alpha_hht": r"$\alpha$", "contact.friction_coefficient": r"$\mu$",
-            "material.youngs_modulus_pa": "$E$"}
+_SYMBOLS = {
+    "integration.dt_s": r"$\Delta t$",
+    "integration.alpha_hht": r"$\alpha$",
+    "contact.friction_coefficient": r"$\mu$",
+    "material.youngs_modulus_pa": "$E$",
+}
 _NAMED = ("base", "cap")  # parts whose keys other parts have, too
-_WORDS = {"podium.impact": "law of impact", "podium.storeys": "number of storeys"}  # of keys that are no words for their values
+_WORDS = {
+    "podium.impact": "law of impact",
+    "podium.storeys": "number of storeys",
+}  # of keys that are no words for their values
 
 
 def axis_text(key: str, value) -> str:
@@ -21,7 +28,9 @@ def axis_text(key: str, value) -> str:
     if isinstance(value, dict):
         return ", ".join(axis_text(f"{key}.{inner}", item) for inner, item in value.items())
     unit = axis_unit(key)
-    return f"{_SYMBOLS.get(key) or axis_words(key)} = {level_number(value)}" + (f" {unit}" if unit != "-" else "")
+    return f"{_SYMBOLS.get(key) or axis_words(key)} = {level_number(value)}" + (
+        f" {unit}" if unit != "-" else ""
+    )
 
 
 def axis_words(key: str) -> str:
@@ -38,17 +47,35 @@ def level_number(value) -> str:
     if not isinstance(value, (int, float)) or isinstance(value, bool):
         return str(value)
     text = f"{value:g}"
-    return (text if len(text.lstrip("-")) <= 6 else f"{value:.3g}").replace("-", "\N{MINUS SIGN}").replace("e+", "e")
+    return (
+        (text if len(text.lstrip("-")) <= 6 else f"{value:.3g}")
+        .replace("-", "\N{MINUS SIGN}")
+        .replace("e+", "e")
+    )
 
 
 def axis_unit(key: str) -> str:
-    """Unit of a key, from its own declaration in a case of a column, of bodies or of a rocking model; "-" where it has none."""
+    """Unit of a key, from its own declaration in a case of a column, of bodies or of a rocking
+    model; "-" where it has none.
+    """
     section, _, name = key.partition(".")
     kind = typing.get_type_hints(Case).get(section)
-    owners = [one for one in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(one)] if kind else [Case]
+    owners = (
+        [one for one in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(one)]
+        if kind
+        else [Case]
+    )
     if section in TABLES:
         owners.append(model_class(TABLES[section]).SECTION)
     if section in NAMED:  # [bodies.NAME] and the like
         name = name.rpartition(".")[2]
         owners += [*KINDS.values(), Flange, Cap] if section == "bodies" else [NAMED[section]]
-    return next((f.metadata["unit"] for owner in owners for f in dataclasses.fields(owner) if f.name == name and "unit" in f.metadata), "-")
+    return next(
+        (
+            f.metadata["unit"]
+            for owner in owners
+            for f in dataclasses.fields(owner)
+            if f.name == name and "unit" in f.metadata
+        ),
+        "-",
+    )

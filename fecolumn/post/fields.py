@@ -1,4 +1,6 @@
-"""Fields for ParaView: displacement, von Mises stress and contact pressure as XDMF with one HDF5 file a frame."""
+"""Fields for ParaView: displacement, von Mises stress and contact pressure as XDMF with one HDF5
+file a frame.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +16,19 @@ from fecolumn.dynamics.checkpoint import gather_all
 from fecolumn.material.elasticity import isotropic_stress, von_mises
 from fecolumn.material.kinematics import linear_strain
 
-_TOPOLOGY = '<Topology TopologyType="{kind}" NumberOfElements="{cells}"><DataItem Dimensions="{numbers}" Format="HDF" NumberType="Int" Precision="8">mesh.h5:/cells</DataItem></Topology>'
-_GEOMETRY = '<Geometry GeometryType="XYZ"><DataItem Dimensions="{points} 3" Format="HDF" Precision="8">mesh.h5:/points</DataItem></Geometry>'
-_FIELD = '<Attribute Name="{title}" AttributeType="{kind}" Center="{center}"><DataItem Dimensions="{shape}" Format="HDF" Precision="8">{file}:/{name}</DataItem></Attribute>'
+_TOPOLOGY = (
+    '<Topology TopologyType="{kind}" NumberOfElements="{cells}"><DataItem '
+    'Dimensions="{numbers}" Format="HDF" NumberType="Int" '
+    'Precision="8">mesh.h5:/cells</DataItem></Topology>'
+)
+_GEOMETRY = (
+    '<Geometry GeometryType="XYZ"><DataItem Dimensions="{points} 3" Format="HDF" '
+    'Precision="8">mesh.h5:/points</DataItem></Geometry>'
+)
+_FIELD = (
+    '<Attribute Name="{title}" AttributeType="{kind}" Center="{center}"><DataItem '
+    'Dimensions="{shape}" Format="HDF" Precision="8">{file}:/{name}</DataItem></Attribute>'
+)
 # Numbers of elements in XDMF by their points: triangle, tetrahedron, brick
 _XDMF = {3: 4, 4: 6, 8: 9}
 
@@ -24,10 +36,16 @@ _XDMF = {3: 4, 4: 6, 8: 9}
 class SpecimenFields:
     """Fields of column and base from positions and contact forces, in the order of the mesh.
 
-    Args:
-        column: Body. plate: BasePlate, None for a base without bricks, which is not shown.
-        foot: Footprint, the column nodes that may touch and those that they stand for.
-        specimen: SpecimenMesh of both.
+    Parameters
+    ----------
+    column
+        Body.
+    plate
+        BasePlate, None for a base without bricks, which is not shown.
+    foot
+        Footprint, the column nodes that may touch and those that they stand for.
+    specimen
+        SpecimenMesh of both.
     """
 
     def __init__(self, column, plate, foot, specimen):
@@ -46,34 +64,59 @@ class SpecimenFields:
         return np.array([at.get(node, -1) for node in self.foot.all_nodes])
 
     def values(self, x, local, positions, forces, at_nodes) -> dict[str, np.ndarray] | None:
-        """Displacement (n_points, 3) [m] relative to the table, von Mises stress (n_cells,) and contact pressure (n_points,) [Pa] on rank 0; called on every rank.
+        """Displacement (n_points, 3) [m] relative to the table, von Mises stress (n_cells,) and
+        contact pressure (n_points,) [Pa] on rank 0; called on every rank.
 
-        Args:
-            x: (n_owned, 3) positions of the column [m]; local: its displacements in its own frame [m].
-            positions: (n, 3) of the contact points [m], asked for with a plate alone; forces: (n, 3) on them [N]; at_nodes: (n, 3) these forces on the foot's nodes.
+        Parameters
+        ----------
+        x
+            (n_owned, 3) positions of the column [m]
+        local
+            its displacements in its own frame [m].
+        positions
+            (n, 3) of the contact points [m], asked for with a plate alone
+        forces
+            (n, 3) on them [N]
+        at_nodes
+            (n, 3) these forces on the foot's nodes.
         """
         column, plate = self.column, self.plate
-        displacement, stress = [gather_all(column, x - column.X)], [self._stress[column].values(local)]
+        displacement, stress = (
+            [gather_all(column, x - column.X)],
+            [self._stress[column].values(local)],
+        )
         if plate:
-            sunk = plate.displacement(*nodes_under(plate.grid, positions, forces[:, 2] > 0), -forces)
+            sunk = plate.displacement(
+                *nodes_under(plate.grid, positions, forces[:, 2] > 0), -forces
+            )
             displacement.append(gather_all(plate.body, sunk))
             stress.append(self._stress[plate.body].values(sunk))
         if column.comm.rank:
             return None
         pressure = np.zeros(len(self.specimen.body.points) + len(self.specimen.base.points))
         at_vertex = self._pressure_points >= 0
-        pressure[self._pressure_points[at_vertex]] = (at_nodes[:, 2] / self.foot.areas)[self.foot.nearest][at_vertex]
-        return {"displacement": np.vstack([values[nodes] for values, nodes in zip(displacement, self._nodes)]),
-                "von_mises": np.concatenate(stress), "pressure": pressure}
+        pressure[self._pressure_points[at_vertex]] = (at_nodes[:, 2] / self.foot.areas)[
+            self.foot.nearest
+        ][at_vertex]
+        return {
+            "displacement": np.vstack(
+                [values[nodes] for values, nodes in zip(displacement, self._nodes)]
+            ),
+            "von_mises": np.concatenate(stress),
+            "pressure": pressure,
+        }
 
 
 class FieldWriter:
     """Writes frames of bodies into a folder; `fields.xdmf` always lists complete frames only.
 
-    Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and continued.
+    Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and
+    continued.
 
-    Args:
-        fields: SpecimenFields, or what has `meshes`, `of_cells`, `comm` and `values` as it has.
+    Parameters
+    ----------
+    fields
+        SpecimenFields, or what has `meshes`, `of_cells`, `comm` and `values` as it has.
     """
 
     def __init__(self, folder: Path, fields):
@@ -85,14 +128,31 @@ class FieldWriter:
 
     def _write_mesh(self) -> None:
         meshes = self.fields.meshes
-        lists = [mesh.cells + first for mesh, first in zip(meshes, np.cumsum([0] + [len(mesh.points) for mesh in meshes]))]
+        lists = [
+            mesh.cells + first
+            for mesh, first in zip(meshes, np.cumsum([0] + [len(mesh.points) for mesh in meshes]))
+        ]
         # XDMF tells elements of different kinds in one list by their numbers
-        cells = np.concatenate([np.insert(some, 0, _XDMF[some.shape[1]], axis=1).ravel() for some in lists]) if self._mixed else np.vstack(lists)
-        _write_h5(self.folder / "mesh.h5", {"points": np.vstack([mesh.points for mesh in meshes]), "cells": cells,
-                                            **{name: values.astype(float) for name, values in self.fields.of_cells.items()}})
+        cells = (
+            np.concatenate(
+                [np.insert(some, 0, _XDMF[some.shape[1]], axis=1).ravel() for some in lists]
+            )
+            if self._mixed
+            else np.vstack(lists)
+        )
+        _write_h5(
+            self.folder / "mesh.h5",
+            {
+                "points": np.vstack([mesh.points for mesh in meshes]),
+                "cells": cells,
+                **{name: values.astype(float) for name, values in self.fields.of_cells.items()},
+            },
+        )
 
     def write(self, time: float, x, local, positions, forces, at_nodes) -> None:
-        """Add the frame of a time [s]; called on every rank, the other arguments as of `SpecimenFields.values`."""
+        """Add the frame of a time [s]; called on every rank, the other arguments as of
+        `SpecimenFields.values`.
+        """
         self.add(time, self.fields.values(x, local, positions, forces, at_nodes))
 
     def add(self, time: float, values: dict[str, np.ndarray] | None) -> None:
@@ -103,20 +163,69 @@ class FieldWriter:
 
     def _write_index(self) -> None:
         meshes = self.fields.meshes
-        points, cells = sum(len(mesh.points) for mesh in meshes), sum(len(mesh.cells) for mesh in meshes)
+        points, cells = (
+            sum(len(mesh.points) for mesh in meshes),
+            sum(len(mesh.cells) for mesh in meshes),
+        )
         kind = "Mixed" if self._mixed else "Hexahedron"
-        numbers = sum(len(mesh.cells) * (mesh.cells.shape[1] + 1) for mesh in meshes) if self._mixed else f"{cells} 8"
+        numbers = (
+            sum(len(mesh.cells) * (mesh.cells.shape[1] + 1) for mesh in meshes)
+            if self._mixed
+            else f"{cells} 8"
+        )
         grids = []
         for frame in sorted(self.folder.glob("frame_*.h5")):
-            fields = [_FIELD.format(title="displacement [m]", kind="Vector", center="Node", shape=f"{points} 3", file=frame.name, name="displacement"),
-                      _FIELD.format(title="von Mises stress [Pa]", kind="Scalar", center="Cell", shape=cells, file=frame.name, name="von_mises"),
-                      _FIELD.format(title="contact pressure [Pa]", kind="Scalar", center="Node", shape=points, file=frame.name, name="pressure"),
-                      *(_FIELD.format(title=name, kind="Scalar", center="Cell", shape=cells, file="mesh.h5", name=name) for name in self.fields.of_cells)]
+            fields = [
+                _FIELD.format(
+                    title="displacement [m]",
+                    kind="Vector",
+                    center="Node",
+                    shape=f"{points} 3",
+                    file=frame.name,
+                    name="displacement",
+                ),
+                _FIELD.format(
+                    title="von Mises stress [Pa]",
+                    kind="Scalar",
+                    center="Cell",
+                    shape=cells,
+                    file=frame.name,
+                    name="von_mises",
+                ),
+                _FIELD.format(
+                    title="contact pressure [Pa]",
+                    kind="Scalar",
+                    center="Node",
+                    shape=points,
+                    file=frame.name,
+                    name="pressure",
+                ),
+                *(
+                    _FIELD.format(
+                        title=name,
+                        kind="Scalar",
+                        center="Cell",
+                        shape=cells,
+                        file="mesh.h5",
+                        name=name,
+                    )
+                    for name in self.fields.of_cells
+                ),
+            ]
             time = int(frame.stem.split("_")[1]) / 1e6
-            grids.append(f'<Grid Name="fecolumn" GridType="Uniform"><Time Value="{time}"/>' + _TOPOLOGY.format(cells=cells, kind=kind, numbers=numbers)
-                         + _GEOMETRY.format(points=points) + "".join(fields) + "</Grid>")
-        text = ('<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain><Grid Name="frames" GridType="Collection" CollectionType="Temporal">\n'
-                + "\n".join(grids) + "\n</Grid></Domain></Xdmf>\n")
+            grids.append(
+                f'<Grid Name="fecolumn" GridType="Uniform"><Time Value="{time}"/>'
+                + _TOPOLOGY.format(cells=cells, kind=kind, numbers=numbers)
+                + _GEOMETRY.format(points=points)
+                + "".join(fields)
+                + "</Grid>"
+            )
+        text = (
+            '<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain><Grid Name="frames" '
+            'GridType="Collection" CollectionType="Temporal">\n'
+            + "\n".join(grids)
+            + "\n</Grid></Domain></Xdmf>\n"
+        )
         write_bytes(self.folder / "fields.xdmf", text.encode())
 
 
@@ -128,7 +237,11 @@ class StressField:
         self._u = fem.Function(body.space)
         space = _dolfinx.cellwise_space(body.mesh)
         material = body.material
-        stress = von_mises(isotropic_stress(linear_strain(self._u), material.youngs_modulus_pa, material.poissons_ratio))
+        stress = von_mises(
+            isotropic_stress(
+                linear_strain(self._u), material.youngs_modulus_pa, material.poissons_ratio
+            )
+        )
         self._expression = fem.Expression(stress, _dolfinx.interpolation_points(space))
         self._result = fem.Function(space)
 

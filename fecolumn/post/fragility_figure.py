@@ -13,16 +13,35 @@ _DASHES = (":", "-", "--")
 _DECADE = 10.0  # an axis of logarithms needs as much to have its numbers
 
 
-def contour_figure(names, measures, overturned, probability, path, formats=("png", "pdf"), width_in: float = COLUMN_WIDTH_IN) -> list[Path]:
-    """Runs as points, contours of P(overturn) = 0.1, 0.5, 0.9, and the 95 % band of the middle one as a shade.
+def contour_figure(
+    names,
+    measures,
+    overturned,
+    probability,
+    path,
+    formats=("png", "pdf"),
+    width_in: float = COLUMN_WIDTH_IN,
+) -> list[Path]:
+    """Runs as points, contours of P(overturn) = 0.1, 0.5, 0.9, and the 95 % band of the middle one
+    as a shade.
 
-    Args:
-        names: of the two measures, for the axes. measures: (n, 2) positive. overturned: (n,) bool.
-        probability: im (m, 2) to statistics.fragility.Probability.
-        path: without suffix. formats, width_in: of the figure.
+    Parameters
+    ----------
+    names
+        of the two measures, for the axes.
+    measures
+        (n, 2) positive.
+    overturned
+        (n,) bool.
+    probability
+        im (m, 2) to statistics.fragility.Probability.
+    path
+        without suffix.
+    formats, width_in
+        of the figure.
     """
     low, high = measures.min(axis=0), measures.max(axis=0)
-    reach = (high / low)**0.05
+    reach = (high / low) ** 0.05
     grids = [np.geomspace(a / r, b * r, 121) for a, b, r in zip(low, high, reach)]
     x, y = np.meshgrid(*grids)
     p = probability(np.column_stack([x.ravel(), y.ravel()]))
@@ -32,12 +51,31 @@ def contour_figure(names, measures, overturned, probability, path, formats=("png
         apart = ((p.lower - 0.5) * (p.upper - 0.5)).reshape(x.shape)
         if apart.min() < 0:
             axes.contourf(x, y, apart, levels=[-1.0, 0.0], colors=[BLUE], alpha=0.15)
-            axes.fill_between([], [], color=BLUE, alpha=0.15, linewidth=0, label="95 % band of $P$ = 0.5")
-        axes.plot(*measures[~overturned].T, "o", fillstyle="none", color=GREY, markersize=3.5, label="stood", linestyle="none")
-        axes.plot(*measures[overturned].T, "x", color=VERMILION, markersize=3.5, label="overturned", linestyle="none")
+            axes.fill_between(
+                [], [], color=BLUE, alpha=0.15, linewidth=0, label="95 % band of $P$ = 0.5"
+            )
+        axes.plot(
+            *measures[~overturned].T,
+            "o",
+            fillstyle="none",
+            color=GREY,
+            markersize=3.5,
+            label="stood",
+            linestyle="none",
+        )
+        axes.plot(
+            *measures[overturned].T,
+            "x",
+            color=VERMILION,
+            markersize=3.5,
+            label="overturned",
+            linestyle="none",
+        )
         for level, dashes in zip(_LEVELS, _DASHES):
             if p.p.min() < level < p.p.max():
-                axes.contour(x, y, p.p.reshape(x.shape), levels=[level], colors=[BLUE], linestyles=[dashes])
+                axes.contour(
+                    x, y, p.p.reshape(x.shape), levels=[level], colors=[BLUE], linestyles=[dashes]
+                )
                 axes.plot([], [], color=BLUE, linestyle=dashes, label=f"$P$ = {level:g}")
         axes.set(xlabel=names[0], ylabel=names[1])
         for axis, grid in zip("xy", grids):

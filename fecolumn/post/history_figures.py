@@ -1,4 +1,6 @@
-"""Figures of one analysis: the top's displacement under the ground motion, its path in plan, and the energy ledger."""
+"""Figures of one analysis: the top's displacement under the ground motion, its path in plan, and
+the energy ledger.
+"""
 
 from __future__ import annotations
 
@@ -21,13 +23,19 @@ from fecolumn.schema import InputError
 class History:
     """What an analysis recorded at its n steps.
 
-    Attributes:
-        time: (n,) [s].
-        u_top: (n, 3) [m] displacement of the top relative to the base.
-        tilt: (n,) [rad] angle of the axis to the vertical.
-        ground: (n, 3) [m/s2] acceleration of the base; zeros where it was not recorded.
-        energy: (n,) [J] by term: kinetic, strain, gravity, base_work, friction, impact, contact, algorithmic, damping, rolling,
-            links, closure.
+    Attributes
+    ----------
+    time
+        (n,) [s].
+    u_top
+        (n, 3) [m] displacement of the top relative to the base.
+    tilt
+        (n,) [rad] angle of the axis to the vertical.
+    ground
+        (n, 3) [m/s2] acceleration of the base; zeros where it was not recorded.
+    energy
+        (n,) [J] by term: kinetic, strain, gravity, base_work, friction, impact, contact,
+        algorithmic, damping, rolling, links, closure.
     """
 
     time: np.ndarray
@@ -40,12 +48,18 @@ class History:
     def read(cls, file) -> History:
         """History of an HDF5 file.
 
-        Raises:
-            InputError: missing file, or one without the datasets of a history.
+        Raises
+        ------
+        InputError
+            missing file, or one without the datasets of a history.
         """
         try:
             columns = read_history(file)
-            energy = {name.removeprefix("energy/"): values for name, values in columns.items() if name.startswith("energy/")}
+            energy = {
+                name.removeprefix("energy/"): values
+                for name, values in columns.items()
+                if name.startswith("energy/")
+            }
             ground = columns.get("ground", np.zeros_like(columns["u_top"]))
             return cls(columns["time"], columns["u_top"], columns["tilt"], ground, energy)
         except (OSError, KeyError) as error:
@@ -56,11 +70,17 @@ class History:
 class Ending:
     """How an analysis ended, for its figures.
 
-    Attributes:
-        words: "at rest", "still rocking", "overturned", "slid off"; "end" where the summary does not tell.
-        lost: whether the column was lost, so that its last displacement is no peak.
-        u_critical_m: displacement of the top at which the column stands over its rim [m]; None where the summary does not tell.
-        outline: of the specimen; None where the case does not tell.
+    Attributes
+    ----------
+    words
+        "at rest", "still rocking", "overturned", "slid off"; "end" where the summary does not tell.
+    lost
+        whether the column was lost, so that its last displacement is no peak.
+    u_critical_m
+        displacement of the top at which the column stands over its rim [m]; None where the summary
+        does not tell.
+    outline
+        of the specimen; None where the case does not tell.
     """
 
     words: str
@@ -72,8 +92,10 @@ class Ending:
 def read_ending(folder: Path) -> Ending:
     """The end of the analysis in a result folder.
 
-    Raises:
-        InputError: no summary that can be read.
+    Raises
+    ------
+    InputError
+        no summary that can be read.
     """
     try:
         summary = read_json(folder / "summary.json")
@@ -93,20 +115,37 @@ def has_figures(folder) -> bool:
     folder = Path(folder)
     try:
         names = ("u_top", "path", "energy", *figure_names(_names(folder / "history.h5")))
-        drawn = [(folder / f"{name}.{kind}").stat().st_mtime_ns for name in names for kind in ("png", "pdf")]
+        drawn = [
+            (folder / f"{name}.{kind}").stat().st_mtime_ns
+            for name in names
+            for kind in ("png", "pdf")
+        ]
         return min(drawn) >= (folder / "history.h5").stat().st_mtime_ns
     except FileNotFoundError:
         return False
 
 
 def history_figures(folder) -> list[Path]:
-    """Write u_top, path and energy of an analysis' folder, of a structure interfaces, storeys and links besides, each as PNG and PDF; needs history.h5 and summary.json."""
+    """Write u_top, path and energy of an analysis' folder, of a structure interfaces, storeys and
+    links besides, each as PNG and PDF; needs history.h5 and summary.json.
+    """
     folder = Path(folder)
     history, ending = History.read(folder / "history.h5"), read_ending(folder)
-    files = [*top_figure(history, ending, folder / "u_top"), *path_figure(history, ending, folder / "path"),
-             *energy_figure(history, folder / "energy")]
-    of_structure = tuple(name for name in _names(folder / "history.h5") if name.startswith(("interface/", "storey/", "link/")))
-    return files + (structure_figures(read_history(folder / "history.h5", ("time", *of_structure)), folder) if of_structure else [])
+    files = [
+        *top_figure(history, ending, folder / "u_top"),
+        *path_figure(history, ending, folder / "path"),
+        *energy_figure(history, folder / "energy"),
+    ]
+    of_structure = tuple(
+        name
+        for name in _names(folder / "history.h5")
+        if name.startswith(("interface/", "storey/", "link/"))
+    )
+    return files + (
+        structure_figures(read_history(folder / "history.h5", ("time", *of_structure)), folder)
+        if of_structure
+        else []
+    )
 
 
 def _names(file: Path) -> list[str]:
@@ -116,7 +155,9 @@ def _names(file: Path) -> list[str]:
     names: list[str] = []
     try:
         with h5py.File(file) as content:
-            content.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
+            content.visititems(
+                lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None
+            )
     except OSError:
         return []
     return names

@@ -1,4 +1,6 @@
-"""Figures of a rocking model: its response to one motion, or the distribution of its peaks in an ensemble."""
+"""Figures of a rocking model: its response to one motion, or the distribution of its peaks in an
+ensemble.
+"""
 
 from __future__ import annotations
 
@@ -7,26 +9,58 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.post.cdf_figure import Panel, cdf_figure
-from fecolumn.post.style import BLUE, GREY, LINES, PAGE_WIDTH_IN, VERMILION, legend_beside, new_figure, save, styled
+from fecolumn.post.style import (
+    BLUE,
+    GREY,
+    LINES,
+    PAGE_WIDTH_IN,
+    VERMILION,
+    legend_beside,
+    new_figure,
+    save,
+    styled,
+)
 from fecolumn.statistics.ecdf import ecdf
 
-_STATES = (("kinetic", "kinetic"), ("gravity", "gravity"), ("strain", "springs, tendons"), ("base_work", "work of the ground"), ("impact", "impacts"), ("damping", "damping"))
+_STATES = (
+    ("kinetic", "kinetic"),
+    ("gravity", "gravity"),
+    ("strain", "springs, tendons"),
+    ("base_work", "work of the ground"),
+    ("impact", "impacts"),
+    ("damping", "damping"),
+)
 
 
 def response_figure(motion, response, model, path, title: str = "") -> list[Path]:
     """Ground acceleration, coordinates with impacts, displacement of the top, energy; PNG and PDF.
 
-    Args:
-        motion: GroundMotion. response, model: of fecolumn.rocking. path: without suffix.
+    Parameters
+    ----------
+    motion
+        GroundMotion.
+    response, model
+        of fecolumn.rocking.
+    path
+        without suffix.
     """
     time = response.time
-    ground = np.array([np.interp(time, motion.dt * np.arange(len(column)), column, right=0.0) for column in motion.acceleration.T])
+    ground = np.array(
+        [
+            np.interp(time, motion.dt * np.arange(len(column)), column, right=0.0)
+            for column in motion.acceleration.T
+        ]
+    )
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, 6.0)
-        above, middle, top, below = panels = figure.subplots(4, 1, sharex=True, gridspec_kw={"height_ratios": [0.8, 1.2, 1, 1]})
+        above, middle, top, below = panels = figure.subplots(
+            4, 1, sharex=True, gridspec_kw={"height_ratios": [0.8, 1.2, 1, 1]}
+        )
         if title:
             above.set_title(title)
-        for component, label, colour in zip(ground, ("$a_x$", "$a_y$", "$a_z$"), (BLUE, VERMILION, GREY)):
+        for component, label, colour in zip(
+            ground, ("$a_x$", "$a_y$", "$a_z$"), (BLUE, VERMILION, GREY)
+        ):
             if np.abs(component).max() > 0:
                 above.plot(time, component, color=colour, label=label, linewidth=0.7)
         above.set_ylabel("ground\n[m/s$^2$]")
@@ -34,13 +68,33 @@ def response_figure(motion, response, model, path, title: str = "") -> list[Path
         for (name, values), (colour, dashes) in zip(response.coordinates.items(), LINES):
             unit = "" if len(units) == 1 else f" [{response.units[name]}]"
             middle.plot(time, values, color=colour, linestyle=dashes, label=_symbol(name) + unit)
-        middle.plot(response.impact_times, np.zeros(len(response.impact_times)), "|", color=GREY, markersize=5, label=f"{len(response.impact_times)} impacts", zorder=1)
-        reach, critical = max(np.abs(values).max() for values in response.coordinates.values()), model.critical_tilt
+        middle.plot(
+            response.impact_times,
+            np.zeros(len(response.impact_times)),
+            "|",
+            color=GREY,
+            markersize=5,
+            label=f"{len(response.impact_times)} impacts",
+            zorder=1,
+        )
+        reach, critical = (
+            max(np.abs(values).max() for values in response.coordinates.values()),
+            model.critical_tilt,
+        )
         if units == {"rad"} and reach > 0.3 * critical:
             for sign in (1, -1):
-                middle.axhline(sign * critical, color=GREY, linestyle="--", linewidth=0.8, label=f"critical, {critical:.3g} rad" if sign > 0 else None, zorder=1)
+                middle.axhline(
+                    sign * critical,
+                    color=GREY,
+                    linestyle="--",
+                    linewidth=0.8,
+                    label=f"critical, {critical:.3g} rad" if sign > 0 else None,
+                    zorder=1,
+                )
         middle.set_ylabel(f"coordinates\n[{', '.join(sorted(units))}]")
-        for component, label, (colour, dashes) in zip(response.u_top.T, ("$u_x$", "$u_y$", "$u_z$"), LINES):
+        for component, label, (colour, dashes) in zip(
+            response.u_top.T, ("$u_x$", "$u_y$", "$u_z$"), LINES
+        ):
             if np.abs(component).max() > 0:
                 top.plot(time, 1e3 * component, color=colour, linestyle=dashes, label=label)
         top.set_ylabel("top, relative to\nthe base [mm]")
@@ -56,9 +110,17 @@ def response_figure(motion, response, model, path, title: str = "") -> list[Path
 
 
 def ensemble_figure(responses, model, name: str, path) -> list[Path]:
-    """Distribution of the peak displacement of the top; `responses`: (GroundMotion, Response) of one model."""
-    u_max, overturned = (np.array(values) for values in zip(*((response.u_max, response.overturned) for _, response in responses)))
-    return cdf_figure([Panel(f"{len(responses)} motions", ((name.replace("_", " "), ecdf(u_max, overturned)),))], path)
+    """Distribution of the peak displacement of the top; `responses`: (GroundMotion, Response) of
+    one model.
+    """
+    u_max, overturned = (
+        np.array(values)
+        for values in zip(*((response.u_max, response.overturned) for _, response in responses))
+    )
+    return cdf_figure(
+        [Panel(f"{len(responses)} motions", ((name.replace("_", " "), ecdf(u_max, overturned)),))],
+        path,
+    )
 
 
 def _symbol(name: str) -> str:

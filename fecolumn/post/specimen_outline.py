@@ -9,7 +9,9 @@ import numpy as np
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A part of the specimen in elevation: name, half its width along x, heights of bottom and top [m], and whether it is hollow (wall [m])."""
+    """A part of the specimen in elevation: name, half its width along x, heights of bottom and top
+    [m], and whether it is hollow (wall [m]).
+    """
 
     name: str
     half_width_m: float
@@ -22,10 +24,16 @@ class Part:
 class Outline:
     """A specimen.
 
-    Attributes:
-        foot: (k, 2) closed outline of its foot [m], in plan. round: whether it is a circle.
-        parts: in elevation, base plate first; the base's top is at height 0.
-        words: dimensions in a line, such as "tube 76.1 x 5 mm, height 1500 mm".
+    Attributes
+    ----------
+    foot
+        (k, 2) closed outline of its foot [m], in plan.
+    round
+        whether it is a circle.
+    parts
+        in elevation, base plate first; the base's top is at height 0.
+    words
+        dimensions in a line, such as "tube 76.1 x 5 mm, height 1500 mm".
     """
 
     foot: np.ndarray
@@ -35,8 +43,12 @@ class Outline:
 
 
 def specimen_outline(case: dict) -> Outline | None:
-    """The outline from the tables of a case (`case.json`); None of a specimen whose shape the case does not tell, as of an own mesh."""
-    column, flange, cap, base = (case.get(name) or {} for name in ("column", "flange", "cap", "base"))
+    """The outline from the tables of a case (`case.json`); None of a specimen whose shape the case
+    does not tell, as of an own mesh.
+    """
+    column, flange, cap, base = (
+        case.get(name) or {} for name in ("column", "flange", "cap", "base")
+    )
     if column.get("mesh_file") or not column.get("height_m"):
         return None
     bottom, parts, words = 0.0, [], []
@@ -47,9 +59,15 @@ def specimen_outline(case: dict) -> Outline | None:
         words.append(f"block {_mm(column['length_m'])} × {_mm(column['width_m'])} mm")
     elif column.get("outer_diameter_m"):
         radius, wall, round_ = column["outer_diameter_m"] / 2, column.get("wall_m"), True
-        wall = wall if wall and wall < radius * (1 - 1e-9) and column.get("shape") != "solid" else None
+        wall = (
+            wall if wall and wall < radius * (1 - 1e-9) and column.get("shape") != "solid" else None
+        )
         half = radius, radius
-        words.append(f"tube {_mm(2 * radius)} × {_mm(wall)} mm" if wall else f"solid cylinder {_mm(2 * radius)} mm")
+        words.append(
+            f"tube {_mm(2 * radius)} × {_mm(wall)} mm"
+            if wall
+            else f"solid cylinder {_mm(2 * radius)} mm"
+        )
     else:
         return None
     foot = half
@@ -60,8 +78,12 @@ def specimen_outline(case: dict) -> Outline | None:
     parts.append(Part("column", half[0], bottom, bottom + column["height_m"], wall))
     words.append(f"height {_mm(column['height_m'])} mm")
     if cap.get("length_m"):
-        parts.append(Part("cap", cap["length_m"] / 2, parts[-1].top_m, parts[-1].top_m + cap["thickness_m"]))
-        words.append(f"cap {_mm(cap['length_m'])} × {_mm(cap['width_m'])} × {_mm(cap['thickness_m'])} mm")
+        parts.append(
+            Part("cap", cap["length_m"] / 2, parts[-1].top_m, parts[-1].top_m + cap["thickness_m"])
+        )
+        words.append(
+            f"cap {_mm(cap['length_m'])} × {_mm(cap['width_m'])} × {_mm(cap['thickness_m'])} mm"
+        )
     thickness = base.get("thickness_m") or 0.25 * min(foot)
     parts.insert(0, Part("base", (base.get("length_m") or 5 * foot[0]) / 2, -thickness, 0.0))
     return Outline(_edge(*foot, round_), round_, tuple(parts), ", ".join(words))

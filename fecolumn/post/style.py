@@ -1,4 +1,6 @@
-"""One look for every figure: sized for a journal's column or page, safe for colour-blind readers, no global state."""
+"""One look for every figure: sized for a journal's column or page, safe for colour-blind readers,
+no global state.
+"""
 
 from __future__ import annotations
 
@@ -7,27 +9,66 @@ from pathlib import Path
 
 import matplotlib
 
-with warnings.catch_warnings():  # a newer matplotlib in a venv over Debian's finds Debian's 3D toolkit; it is not used here
+with (
+    warnings.catch_warnings()
+):  # a newer matplotlib in a venv over Debian's finds Debian's 3D toolkit; it is not used here
     warnings.filterwarnings("ignore", "Unable to import Axes3D")
     from matplotlib.figure import Figure
 
 COLUMN_WIDTH_IN, PAGE_WIDTH_IN = 3.5, 7.2
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
-    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7")  # Okabe & Ito (2008)
+    "#000000",
+    "#E69F00",
+    "#56B4E9",
+    "#009E73",
+    "#F0E442",
+    "#0072B2",
+    "#D55E00",
+    "#CC79A7",
+)  # Okabe & Ito (2008)
 GREY = "#9A9A9A"
 _PRINT_DPI = 300  # of those parts of a PDF that are drawn as an image, for their many lines
-# Told apart by colour and by dash, so that print in grey still reads; yellow is too faint for a line.
-LINES = tuple(zip((BLUE, VERMILION, GREEN, PURPLE, ORANGE, BLACK, SKY), ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)), "-", "--")))
+# Told apart by colour and by dash, so that print in grey still reads; yellow is too faint for a
+# line.
+LINES = tuple(
+    zip(
+        (BLUE, VERMILION, GREEN, PURPLE, ORANGE, BLACK, SKY),
+        ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)), "-", "--"),
+    )
+)
 
 STYLE = {
-    "font.family": "serif", "font.serif": ["STIXGeneral", "DejaVu Serif"], "mathtext.fontset": "stix", "font.size": 9,
-    "axes.titlesize": 9, "axes.labelsize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8, "legend.fontsize": 7.5,
-    "axes.linewidth": 0.6, "lines.linewidth": 1.1, "xtick.direction": "in", "ytick.direction": "in",
-    "xtick.top": True, "ytick.right": True, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
-    "axes.grid": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.4, "axes.axisbelow": True,
-    "legend.frameon": True, "legend.framealpha": 0.85, "legend.edgecolor": "none", "legend.borderpad": 0.3,
-    "legend.handlelength": 2.2, "legend.labelspacing": 0.3,
-    "figure.constrained_layout.use": True, "savefig.dpi": 200, "pdf.fonttype": 42, "svg.hashsalt": "fecolumn",
+    "font.family": "serif",
+    "font.serif": ["STIXGeneral", "DejaVu Serif"],
+    "mathtext.fontset": "stix",
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.labelsize": 9,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "legend.fontsize": 7.5,
+    "axes.linewidth": 0.6,
+    "lines.linewidth": 1.1,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "axes.grid": True,
+    "grid.color": "#DDDDDD",
+    "grid.linewidth": 0.4,
+    "axes.axisbelow": True,
+    "legend.frameon": True,
+    "legend.framealpha": 0.85,
+    "legend.edgecolor": "none",
+    "legend.borderpad": 0.3,
+    "legend.handlelength": 2.2,
+    "legend.labelspacing": 0.3,
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": 200,
+    "pdf.fonttype": 42,
+    "svg.hashsalt": "fecolumn",
 }
 
 
@@ -37,12 +78,16 @@ def styled():
 
 
 def new_figure(width_in: float, height_in: float) -> Figure:
-    """Figure that belongs to no window system, usable in workers and on clusters; call inside `styled()`."""
+    """Figure that belongs to no window system, usable in workers and on clusters; call inside
+    `styled()`.
+    """
     return Figure(figsize=(width_in, height_in))
 
 
 def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
-    """Write PNG (200 dpi) and PDF, or what `formats` says, beside each other; the same data gives the same bytes."""
+    """Write PNG (200 dpi) and PDF, or what `formats` says, beside each other; the same data gives
+    the same bytes.
+    """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     files = [path.with_name(f"{path.name}.{suffix}") for suffix in formats]
@@ -51,7 +96,11 @@ def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
     with matplotlib.rc_context({"figure.constrained_layout.use": False}):
         figure.set_layout_engine(None)
         for file in files:
-            figure.savefig(file, dpi=_PRINT_DPI if file.suffix == ".pdf" else STYLE["savefig.dpi"], metadata={".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(file.suffix))
+            figure.savefig(
+                file,
+                dpi=_PRINT_DPI if file.suffix == ".pdf" else STYLE["savefig.dpi"],
+                metadata={".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(file.suffix),
+            )
     return files
 
 

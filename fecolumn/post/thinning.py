@@ -1,4 +1,6 @@
-"""Fewer points for the same drawing: a history is kept where a straight line between its neighbours would miss it."""
+"""Fewer points for the same drawing: a history is kept where a straight line between its neighbours
+would miss it.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +10,17 @@ from fecolumn._compiled import njit
 
 
 def thinned(time, values, tolerance) -> np.ndarray:
-    """Rows of a history that suffice to draw it; straight lines between them miss no row by more than the tolerance.
+    """Rows of a history that suffice to draw it; straight lines between them miss no row by more
+    than the tolerance.
 
-    Args:
-        time: (n,) rising.
-        values: (n, k).
-        tolerance: (k,), above 0, in the units of the values.
+    Parameters
+    ----------
+    time
+        (n,) rising.
+    values
+        (n, k).
+    tolerance
+        (k,), above 0, in the units of the values.
     """
     scaled = np.asarray(values, float) / np.asarray(tolerance, float)
     return np.flatnonzero(_kept(np.asarray(time, float), np.ascontiguousarray(scaled)))
@@ -23,8 +30,9 @@ def thinned(time, values, tolerance) -> np.ndarray:
 def _kept(time, values):
     """Whether each row is kept; `values` in tolerances.
 
-    From the row kept last, lines through all rows since, each missed by 1 at most, have slopes in an interval that narrows from
-    row to row. Where the line to a row leaves it, the row before is kept.
+    From the row kept last, lines through all rows since, each missed by 1 at most, have slopes in
+    an interval that narrows from row to row. Where the line to a row leaves it, the row before is
+    kept.
     """
     n, k = values.shape
     kept = np.zeros(n, np.bool_)

@@ -1,1 +1,3 @@
-"""The reduced engine: a floating frame, elastic modes and the exact static compliance of the same finite elements."""
+"""The reduced engine: a floating frame, elastic modes and the exact static compliance of the same
+finite elements.
+"""

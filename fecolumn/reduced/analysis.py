@@ -34,20 +34,40 @@ CHUNK = 500
 
 def engine_of(case, model, base, upright: bool = False) -> Engine:
     """The reduced engine of a case at its start, or in gravity equilibrium."""
-    law = interface_compliance(case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas)
+    law = interface_compliance(
+        case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas
+    )
     plan, pad = case.integration, pad_of(case, model.areas, model.mass)
 
     def begin(engine):
         return start.standing(engine) if upright else start.begin(engine, case.initial)
 
-    eye = view(model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m)
-    return column_engine(model, base, eye, HHT(plan.dt_s, plan.alpha_hht), begin, [0.0, 0.0, -GRAVITY], plan.max_cuts, case.material.damping_ratio,
-                  plan.substeps, friction=case.contact.friction_coefficient, law=law, rim=None if pad else Rim.find(model.reference), restitution=case.contact.restitution,
-                  rolling=case.contact.rolling_resistance, pad=pad)
+    eye = view(
+        model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m
+    )
+    return column_engine(
+        model,
+        base,
+        eye,
+        HHT(plan.dt_s, plan.alpha_hht),
+        begin,
+        [0.0, 0.0, -GRAVITY],
+        plan.max_cuts,
+        case.material.damping_ratio,
+        plan.substeps,
+        friction=case.contact.friction_coefficient,
+        law=law,
+        rim=None if pad else Rim.find(model.reference),
+        restitution=case.contact.restitution,
+        rolling=case.contact.rolling_resistance,
+        pad=pad,
+    )
 
 
 def standing_energy(case, model, base) -> float:
-    """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained column, where there is none."""
+    """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained column, where there
+    is none.
+    """
     try:
         return engine_of(case, model, base, upright=True).mechanical()
     except NoEquilibrium:
@@ -60,17 +80,29 @@ class ReducedAnalysis(Analysis):
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
         self.model, self.base, self.model_folder = load_model(case, self.say)
-        self.warn_of_base(self.base.frequency, pad_of(case, self.model.areas, self.model.mass), file)
+        self.warn_of_base(
+            self.base.frequency, pad_of(case, self.model.areas, self.model.mass), file
+        )
         if not compiled(advance):
-            self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
+            self.say(
+                "compiling the reduced engine, once on this machine: a minute or two; "
+                "other processes wait for it"
+            )
         self.engine = engine_of(case, self.model, self.base)
-        self.began, self.cpu_began = time.perf_counter(), time.process_time()  # what was made and compiled so far was so for all analyses
+        self.began, self.cpu_began = (
+            time.perf_counter(),
+            time.process_time(),
+        )  # what was made and compiled so far was so for all analyses
         self.stance, self.top_arm = self.engine.eye.stance, self.model.top_arm
         self.fields, self.states = self._fields() if self.field_steps else None, self._states()
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
-            self.standing_j = standing_energy(case, self.model, self.base) if case.initial.tilt_rad else self.engine.potential()
+            self.standing_j = (
+                standing_energy(case, self.model, self.base)
+                if case.initial.tilt_rad
+                else self.engine.potential()
+            )
             self.engine.motion.whole["ground"] = self.ground(0)
             self._note(self.engine.row()[None])
             self._keep()
@@ -85,7 +117,11 @@ class ReducedAnalysis(Analysis):
 
     def _states(self) -> States | None:
         every = self.case.output.states_every_s
-        return States(max(1, round(every / self.case.integration.dt_s)), *self._bodies()) if every else None
+        return (
+            States(max(1, round(every / self.case.integration.dt_s)), *self._bodies())
+            if every
+            else None
+        )
 
     def _bodies(self) -> tuple:
         """Models of the bodies whose states are kept, and their names."""
@@ -102,7 +138,12 @@ class ReducedAnalysis(Analysis):
     def run(self, stop) -> dict:
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
-        progress = Progress(self.steps, self.case.integration.dt_s, quiet=self.quiet, until_rest_from=self.motion_steps if self.until_rest else None)
+        progress = Progress(
+            self.steps,
+            self.case.integration.dt_s,
+            quiet=self.quiet,
+            until_rest_from=self.motion_steps if self.until_rest else None,
+        )
         saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
@@ -114,7 +155,11 @@ class ReducedAnalysis(Analysis):
                         count = min(count, every - self.step % every)
                 over = self._advance(count)
                 last = engine.made[-1]
-                progress.show(self.step, dict(time=last[0], tilt=last[4], active_nodes=int(last[11])), engine.record)
+                progress.show(
+                    self.step,
+                    dict(time=last[0], tilt=last[4], active_nodes=int(last[11])),
+                    engine.record,
+                )
                 self._keep()
                 ended = stop()
                 if ended or time.perf_counter() - saved > cadence.checkpoint_every_s:
@@ -124,29 +169,55 @@ class ReducedAnalysis(Analysis):
                     raise KeyboardInterrupt
         except StepFailed as failure:
             frame, rotation = engine.motion.frames[0], engine.motion.rotation[0]
-            off = self.slid_off(failure, self.base, frame["center"] + self.model.arms @ rotation.T, frame["velocity"] + np.cross(frame["spin"], self.model.arms) @ rotation.T)
+            off = self.slid_off(
+                failure,
+                self.base,
+                frame["center"] + self.model.arms @ rotation.T,
+                frame["velocity"] + np.cross(frame["spin"], self.model.arms) @ rotation.T,
+            )
             if off is None:
                 self._save()
-                raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+                raise AnalysisFailed(
+                    f"{failure}; state saved in {self.folder / CHECKPOINT}"
+                ) from None
         finally:
             progress.end()
         fallen = engine.fallen(self.steepest(self.step)) if over else STANDS
         if self.states:
             self.states.add(engine, last=True)
             self.states.write(self.folder, {"case_id": self.case.id, **self.code})
-        return self.finish(off or self.ending(fallen, engine.motion.rotation[0]), self.model.dofs + self.base.dofs, engine.record, 0)
+        return self.finish(
+            off or self.ending(fallen, engine.motion.rotation[0]),
+            self.model.dofs + self.base.dofs,
+            engine.record,
+            0,
+        )
 
     def rigid_loss_share(self) -> float | None:
         return self.engine.rigid_loss_share
 
     def _advance(self, count: int) -> bool:
-        """So many steps at most; whether the column is lost or at rest. Whatever error stops them, those made are noted.
+        """So many steps at most; whether the column is lost or at rest.
 
-        Raises:
-            StepFailed: as `Engine.advance`. Any other error, of a full disk for example, once a checkpoint is written if the disk still takes it.
+        Whatever error stops them, those made are noted.
+
+        Raises
+        ------
+        StepFailed
+            as `Engine.advance`. Any other error, of a full disk for example, once a checkpoint is
+            written if the disk still takes it.
         """
-        engine, steps, began, made_s, made_cpu_s = self.engine, range(self.step + 1, self.step + count + 1), time.perf_counter(), self.base.made_s, self.base.made_cpu_s
-        grounds, steepest = np.array([self.ground(k) for k in steps]), np.array([self.steepest(k) for k in steps])
+        engine, steps, began, made_s, made_cpu_s = (
+            self.engine,
+            range(self.step + 1, self.step + count + 1),
+            time.perf_counter(),
+            self.base.made_s,
+            self.base.made_cpu_s,
+        )
+        grounds, steepest = (
+            np.array([self.ground(k) for k in steps]),
+            np.array([self.steepest(k) for k in steps]),
+        )
         failure, over = None, False
         try:
             over = engine.advance(grounds, steepest, (self.standing_j, self.rest_j))[1]
@@ -161,7 +232,10 @@ class ReducedAnalysis(Analysis):
         if failure is None:
             return over
         # where compiled steps were broken off, the motion is of none of the rows
-        if not isinstance(failure, StepFailed) and engine.motion.time == self.history.last()["time"]:
+        if (
+            not isinstance(failure, StepFailed)
+            and engine.motion.time == self.history.last()["time"]
+        ):
             with contextlib.suppress(OSError):
                 self._save()
         raise failure
@@ -169,29 +243,45 @@ class ReducedAnalysis(Analysis):
     def _note(self, rows: np.ndarray) -> None:
         columns, place = {}, 0
         for name, width in COLUMNS:
-            values = rows[:, place] if width == 1 else rows[:, place:place + width]
-            columns[name] = values.astype(int) if name in ("active_nodes", "iterations") else values.copy()
+            values = rows[:, place] if width == 1 else rows[:, place : place + width]
+            columns[name] = (
+                values.astype(int) if name in ("active_nodes", "iterations") else values.copy()
+            )
             place += width
         self.history.extend(columns)
 
     def _save(self) -> None:
         arrays = self._arrays()
         content = io.BytesIO()
-        np.savez(content, **arrays, **self.engine.base_to_resume(), **self.to_resume(), **(self.states.to_resume() if self.states else {}))
+        np.savez(
+            content,
+            **arrays,
+            **self.engine.base_to_resume(),
+            **self.to_resume(),
+            **(self.states.to_resume() if self.states else {}),
+        )
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
     def _arrays(self) -> dict[str, np.ndarray]:
-        """What a checkpoint keeps: with the points, the stick operator and what is learnt of it, so that an analysis that was interrupted goes on to the last digit as if it had not been."""
+        """What a checkpoint keeps: with the points, the stick operator and what is learnt of it, so
+        that an analysis that was interrupted goes on to the last digit as if it had not been.
+        """
         engine = self.engine
         parts = {"motion": engine.motion, "stick": engine.work.stick, "secant": engine.work.secant}
-        arrays = {f"{part}.{name}": values for part, target in parts.items() for name, values in arrays_of(target).items()}
+        arrays = {
+            f"{part}.{name}": values
+            for part, target in parts.items()
+            for name, values in arrays_of(target).items()
+        }
         return arrays | dict(points=engine.work.points, ledger=engine.ledger, counts=engine.counts)
 
     def _take(self, saved: dict) -> None:
         targets = self._arrays()
         for name, values in targets.items():
-            if saved[name].shape != values.shape or not np.can_cast(saved[name].dtype, values.dtype, "equiv"):
+            if saved[name].shape != values.shape or not np.can_cast(
+                saved[name].dtype, values.dtype, "equiv"
+            ):
                 raise ValueError(f"{name} does not fit")
         base = saved["base.known"], saved["base.gathered"]
         self.resumed(saved)

@@ -12,12 +12,20 @@ from fecolumn.reduced.elastic import END, START, find_elastic
 
 @njit
 def roll_balls(structure, k, work, start, end):
-    """Place the points of interface k where their balls touch in the middle of the step; `end` gets the state of the foot.
+    """Place the points of interface k where their balls touch in the middle of the step; `end` gets
+    the state of the foot.
 
-    The poses of `work` are those of the start and of the middle; the points of a round rim have their places on it.
+    The poses of `work` are those of the start and of the middle; the points of a round rim have
+    their places on it.
     """
     interface, points, now = structure.interfaces[k], work.points, work.poses[START, k].turned
-    first, last, normal, moved, way = np.empty(3), np.empty(3), np.empty(3), np.zeros(3), np.zeros(3)
+    first, last, normal, moved, way = (
+        np.empty(3),
+        np.empty(3),
+        np.empty(3),
+        np.zeros(3),
+        np.zeros(3),
+    )
     placed = False
     for a in range(3):
         normal[a] = start.rims[k].normal[a]
@@ -40,7 +48,9 @@ def roll_balls(structure, k, work, start, end):
         # of a dome the first carrier is the centre of the ball, the weights of the others are ways
         for q in range(1 if interface.edge[0] > 0.0 else points[i].count):
             for a in range(3):
-                points[i].arm[a] += points[i].weights[q] * structure.bodies.arms[points[i].carriers[q], a]
+                points[i].arm[a] += (
+                    points[i].weights[q] * structure.bodies.arms[points[i].carriers[q], a]
+                )
     for a in range(3):
         for c in range(3):
             way[a] += now[SLAVE, a, c] * (last[c] - first[c] + moved[c])
@@ -49,12 +59,19 @@ def roll_balls(structure, k, work, start, end):
 
 @njit
 def _carry_dome(structure, work, i, start, offset, sign, moved):
-    """Let the foot's mean motion and its tilts carry the point i of a dome at `offset` (3,) [m] from the centre of the ball; adds its elastic displacement at the start to moved (3,)."""
+    """Let the foot's mean motion and its tilts carry the point i of a dome at `offset` (3,) [m]
+    from the centre of the ball; adds its elastic displacement at the start to moved (3,).
+    """
     point = work.points[i]
     point.count = 4
     point.carriers[0] = point.carriers[1] = point.node
     point.carriers[2], point.carriers[3] = point.node + 1, point.node + 2
-    point.weights[0], point.weights[1], point.weights[2], point.weights[3] = 1.0, 0.0, offset[0], offset[1]
+    point.weights[0], point.weights[1], point.weights[2], point.weights[3] = (
+        1.0,
+        0.0,
+        offset[0],
+        offset[1],
+    )
     find_elastic(structure, work.points, i, start, work.elastic, START)
     for a in range(3):
         moved[a] += sign * work.elastic.point[START, i, a]

@@ -1,10 +1,12 @@
-"""Reduced models on disk: made once for a specimen's mesh and material, opened in milliseconds by every analysis of it.
+"""Reduced models on disk: made once for a specimen's mesh and material, opened in milliseconds by
+every analysis of it.
 
 A model is a folder named after the content it was made from, so that nothing has to be invalidated:
 
     column.npz        ColumnModel    base.npz    top of the base    fields.npy    (m, n_nodes, 3) mode shapes of the whole column
     known-R.npy       (k,) nodes of the base's top within reach R of the foot
-    compliance-R.npy  (k, 3, k, 3) of these nodes, read through the operating system's page cache, which all workers share
+    compliance-R.npy  (k, 3, k, 3) of these nodes, read through the operating system's page cache,
+        which all workers share
 """
 
 from __future__ import annotations
@@ -30,15 +32,39 @@ from fecolumn.lock import alone
 from fecolumn.reduced.model import ColumnModel
 from fecolumn.sources import digest_of, files_of
 
-# Sources that a model is made from: a change in any of them makes models anew. Not those that only read what is made, nor those that
-# fill in a case's sizes: the key has the case as it is when finished.
+# Sources that a model is made from: a change in any of them makes models anew. Not those that only
+# read what is made, nor those that fill in a case's sizes: the key has the case as it is when
+# finished.
 SOURCES = (
-    "_dolfinx.py", "material", "fem/body.py", "fem/effective.py", "fem/free_body.py", "fem/modes.py", "fem/rayleigh.py",
-    "mesh/base_plate.py", "mesh/bricks.py", "mesh/cap_plate.py", "mesh/column.py", "mesh/gmsh_section.py", "mesh/imported.py",
-    "mesh/jacobian.py", "mesh/section.py", "mesh/specimen.py", "mesh/surface.py", "mesh/tie.py",
-    "contact/base_plate.py", "contact/base_top.py", "contact/footprint.py", "contact/layer.py", "contact/tolerances.py",
+    "_dolfinx.py",
+    "material",
+    "fem/body.py",
+    "fem/effective.py",
+    "fem/free_body.py",
+    "fem/modes.py",
+    "fem/rayleigh.py",
+    "mesh/base_plate.py",
+    "mesh/bricks.py",
+    "mesh/cap_plate.py",
+    "mesh/column.py",
+    "mesh/gmsh_section.py",
+    "mesh/imported.py",
+    "mesh/jacobian.py",
+    "mesh/section.py",
+    "mesh/specimen.py",
+    "mesh/surface.py",
+    "mesh/tie.py",
+    "contact/base_plate.py",
+    "contact/base_top.py",
+    "contact/footprint.py",
+    "contact/layer.py",
+    "contact/tolerances.py",
     "contact/unbounded_base.py",
-    "dynamics/assembly.py", "dynamics/observer.py", "reduced/build.py", "reduced/cache.py")
+    "dynamics/assembly.py",
+    "dynamics/observer.py",
+    "reduced/build.py",
+    "reduced/cache.py",
+)
 # Elastic modes that a model keeps at least, so that analyses with fewer share it
 KEPT_MODES = 100
 # Least reach of the first compliance of the base around the foot, over the foot's width
@@ -46,23 +72,32 @@ LEAST_REACH = 0.1
 
 
 class KnownBase:
-    """The base plate as far as its compliance is known: under the foot and the slide allowance, twice as far around, four times ...
+    """The base plate as far as its compliance is known: under the foot and the slide allowance,
+    twice as far around, four times ...
 
-    How far it is known depends on where the column went, its numbers do not: each reach is found once as a whole, and kept on disk.
+    How far it is known depends on where the column went, its numbers do not: each reach is found
+    once as a whole, and kept on disk.
 
-    Attributes as of `contact.base_plate.BasePlate`: grid, slot, compliance (blocks), frequency. dofs: of its mesh. made_s, made_cpu_s: wall and
-    processor time spent on reaches that no analysis had needed before [s].
+    Attributes as of `contact.base_plate.BasePlate`: grid, slot, compliance (blocks), frequency.
+    dofs: of its mesh. made_s, made_cpu_s: wall and processor time spent on reaches that no analysis
+    had needed before [s].
     """
 
     def __init__(self, folder: Path, make):
         self._folder, self._make, self.made_s, self.made_cpu_s = folder, make, 0.0, 0.0
         with np.load(folder / "base.npz") as file:
-            self.grid, self.frequency, self.dofs = BaseTop(file["points"]), float(file["frequency"]), int(file["dofs"])
+            self.grid, self.frequency, self.dofs = (
+                BaseTop(file["points"]),
+                float(file["frequency"]),
+                int(file["dofs"]),
+            )
             self._foot, self._allowance = file["foot"], float(file["allowance"])
         self._open(0)
 
     def need(self, wanted: np.ndarray) -> None:
-        """Make sure that the compliance holds the top nodes `wanted`; a reach that no analysis needed before takes seconds."""
+        """Make sure that the compliance holds the top nodes `wanted`; a reach that no analysis
+        needed before takes seconds.
+        """
         while (self.slot[wanted] < 0).any():
             reach = self._reach + 1
             if not self._file("known", reach).is_file():
@@ -80,7 +115,11 @@ class KnownBase:
     def _open(self, reach: int) -> None:
         known = np.load(self._file("known", reach))
         # copy on write: compiled code wants arrays that may be written to
-        self.compliance = np.load(self._file("compliance", reach), mmap_mode="c").view(np.ndarray).transpose(0, 2, 1, 3)
+        self.compliance = (
+            np.load(self._file("compliance", reach), mmap_mode="c")
+            .view(np.ndarray)
+            .transpose(0, 2, 1, 3)
+        )
         self.slot = np.full(len(self.grid.points), -1, np.int64)
         self.slot[known] = np.arange(len(known))
         self._known, self._reach = known, reach
@@ -88,7 +127,10 @@ class KnownBase:
     def _extend(self, reach: int) -> None:
         plate = self._make()
         if not np.allclose(plate.grid.points, self.grid.points):
-            raise RuntimeError(f"{self._folder}: the base has other nodes than the mesh made now; delete this folder")
+            raise RuntimeError(
+                f"{self._folder}: the base has other nodes than the mesh made now; "
+                "delete this folder"
+            )
         plate.adopt(self._known, self.compliance)
         plate.need(_under(self.grid.points, self._foot, self._allowance * 2**reach))
         _keep_base(plate, lambda name: self._file(name, reach))
@@ -96,7 +138,10 @@ class KnownBase:
 
 def _keep_base(plate, file) -> None:
     """Write what is known of a plate; `known` comes last and says that all is there."""
-    for name, values in (("compliance", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3))), ("known", plate.known)):
+    for name, values in (
+        ("compliance", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3))),
+        ("known", plate.known),
+    ):
         with tempfile.NamedTemporaryFile(dir=file(name).parent, delete=False) as partial:
             np.save(partial, values)
         os.chmod(partial.name, 0o644)
@@ -104,12 +149,18 @@ def _keep_base(plate, file) -> None:
 
 
 def model_key(case: Case) -> str:
-    """Name of the model of a case: what of the case, and which code, its mesh and operators are made from.
+    """Name of the model of a case: what of the case, and which code, its mesh and operators are
+    made from.
 
-    Raises:
-        FileNotFoundError: the package has not all SOURCES.
+    Raises
+    ------
+    FileNotFoundError
+        the package has not all SOURCES.
     """
-    tables = {name: section_table(name, getattr(case, name)) for name in ("column", "flange", "cap", "base", "material", "mesh")}
+    tables = {
+        name: section_table(name, getattr(case, name))
+        for name in ("column", "flange", "cap", "base", "material", "mesh")
+    }
     # a pad's springs are no part of the model, and a flat has no edges
     if case.base.kind == "pad":
         tables["base"] = "pad"
@@ -117,18 +168,26 @@ def model_key(case: Case) -> str:
         for key in ("length_m", "width_m", "slide_allowance_m"):
             del tables["base"][key]
     tables["material"].pop("damping_ratio", None)  # no operator has it
-    tables |= dict(modes=max(case.n_modes, KEPT_MODES), interior=case.contact.interior_points, code=_code())
+    tables |= dict(
+        modes=max(case.n_modes, KEPT_MODES), interior=case.contact.interior_points, code=_code()
+    )
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 
 
 @functools.cache
 def _code() -> list[str]:
-    """Digest of SOURCES, what a ColumnModel holds, and the version of dolfinx, which is loaded only where its package does not tell it."""
+    """Digest of SOURCES, what a ColumnModel holds, and the version of dolfinx, which is loaded only
+    where its package does not tell it.
+    """
     try:
         dolfinx = importlib.metadata.version("fenics-dolfinx")
     except importlib.metadata.PackageNotFoundError:
         from dolfinx import __version__ as dolfinx
-    return [digest_of(files_of(SOURCES)), *(field.name for field in dataclasses.fields(ColumnModel)), f"dolfinx {dolfinx}"]
+    return [
+        digest_of(files_of(SOURCES)),
+        *(field.name for field in dataclasses.fields(ColumnModel)),
+        f"dolfinx {dolfinx}",
+    ]
 
 
 def model_folder(case: Case) -> Path:
@@ -139,8 +198,10 @@ def model_folder(case: Case) -> Path:
 def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBase, Path]:
     """Column and base of a case, and the folder of their model; made and kept if there is none yet.
 
-    Args:
-        say: told when a model has to be made, which takes up to a minute.
+    Parameters
+    ----------
+    say
+        told when a model has to be made, which takes up to a minute.
     """
     folder = model_folder(case)
     if not folder.is_dir():
@@ -161,11 +222,15 @@ def _open_base(case: Case, folder: Path, reference):
     if case.base.kind == "pad":
         return rigid_base(reference)
     with np.load(folder / "base.npz") as file:
-        return UnboundedBase(float(file["size"]), file["response"], reference, float(file["frequency"]))
+        return UnboundedBase(
+            float(file["size"]), file["response"], reference, float(file["frequency"])
+        )
 
 
 def make_bodies(case: Case):
-    """The column's Body and the BasePlate of a case, None where the base has no edges; and the specimen's mesh."""
+    """The column's Body and the BasePlate of a case, None where the base has no edges; and the
+    specimen's mesh.
+    """
     from mpi4py import MPI
 
     from fecolumn.contact.base_plate import BasePlate
@@ -173,7 +238,9 @@ def make_bodies(case: Case):
     from fecolumn.mesh.specimen import specimen_mesh
 
     specimen = specimen_mesh(case)
-    plate = BasePlate(base_body(case, specimen, MPI.COMM_SELF)) if case.base.kind == "plate" else None
+    plate = (
+        BasePlate(base_body(case, specimen, MPI.COMM_SELF)) if case.base.kind == "plate" else None
+    )
     return column_body(case, specimen, MPI.COMM_SELF), plate, specimen
 
 
@@ -184,11 +251,19 @@ def _make(case: Case, folder: Path) -> None:
 
     body, plate, specimen = make_bodies(case)
     foot = foot_of(case, specimen, body)
-    model, fields = column_model(body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES))
+    model, fields = column_model(
+        body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES)
+    )
     if plate:
         allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
         plate.need(_under(plate.grid.points, model.reference, allowance))
-        base = dict(points=plate.grid.points, frequency=plate.frequency, dofs=plate.dofs, foot=model.reference, allowance=allowance)
+        base = dict(
+            points=plate.grid.points,
+            frequency=plate.frequency,
+            dofs=plate.dofs,
+            foot=model.reference,
+            allowance=allowance,
+        )
     else:
         flat = base_of(case, model.reference)
         base = dict(size=flat.grid.square, response=flat.response, frequency=flat.frequency)
@@ -196,7 +271,13 @@ def _make(case: Case, folder: Path) -> None:
     partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     partial.chmod(0o755)
     try:
-        for name, values in (("column", {field.name: getattr(model, field.name) for field in dataclasses.fields(model)}), ("base", base)):
+        for name, values in (
+            (
+                "column",
+                {field.name: getattr(model, field.name) for field in dataclasses.fields(model)},
+            ),
+            ("base", base),
+        ):
             with open(partial / f"{name}.npz", "wb") as file:
                 np.savez(file, **values)
         if plate:
@@ -212,9 +293,14 @@ def _make(case: Case, folder: Path) -> None:
 
 
 def _under(points, foot, allowance: float) -> np.ndarray:
-    """Top nodes (k,) that a foot at (n, 3) [m] may press when it slides by `allowance` [m] to any side."""
+    """Top nodes (k,) that a foot at (n, 3) [m] may press when it slides by `allowance` [m] to any
+    side.
+    """
     x, y = (np.unique(np.round(points[:, axis], 12)) for axis in (0, 1))
-    cell = max(np.diff(lines[np.abs(lines) <= np.abs(foot[:, :2]).max() + allowance]).max() for lines in (x, y))
+    cell = max(
+        np.diff(lines[np.abs(lines) <= np.abs(foot[:, :2]).max() + allowance]).max()
+        for lines in (x, y)
+    )
     radius = np.linalg.norm(foot[:, :2], axis=1)
     distance, reach = np.linalg.norm(points[:, :2], axis=1), allowance + 1.5 * cell
     return np.flatnonzero((distance <= radius.max() + reach) & (distance >= radius.min() - reach))

@@ -1,4 +1,6 @@
-"""Where the points of reduced bodies are: their elastic displacement, positions and velocities, found where they are wanted."""
+"""Where the points of reduced bodies are: their elastic displacement, positions and velocities,
+found where they are wanted.
+"""
 
 from __future__ import annotations
 
@@ -11,16 +13,19 @@ from fecolumn.contact.points import BASE, OVER
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.projection import find_seat, side_of_outline, take_surface
 
-# What is asked for at each point is put in place of its call: a call would hand on two hundred addresses of arrays, which takes as long as what is done there
+# What is asked for at each point is put in place of its call: a call would hand on two hundred
+# addresses of arrays, which takes as long as what is done there
 
 # Rows of Motion.modal: coordinate, rate, and the acceleration that HHT remembers, without contact
 COORDINATE, RATE, ACCELERATION = range(3)
 
 
 class Elastic(NamedTuple):
-    """Elastic displacement at the START and at the END of a step, found where it is wanted. node: (2, N, 3) [m] of nodes, stamp: (2, N) with which they are
-    up to date, now: (2,) the present stamps; point: (2, P, 3) of points, in their slaves' frames; seat: (2, P, 3) [m] places of points on moving masters, from
-    their centres of mass in their frames."""
+    """Elastic displacement at the START and at the END of a step, found where it is wanted. node:
+    (2, N, 3) [m] of nodes, stamp: (2, N) with which they are up to date, now: (2,) the present
+    stamps; point: (2, P, 3) of points, in their slaves' frames; seat: (2, P, 3) [m] places of
+    points on moving masters, from their centres of mass in their frames.
+    """
 
     node: np.ndarray
     stamp: np.ndarray
@@ -33,12 +38,18 @@ START, END = range(2)
 
 
 def no_elastic(nodes: int, points: int) -> Elastic:
-    return Elastic(np.zeros((2, nodes, 3)), np.zeros((2, nodes), np.int64), np.zeros(2, np.int64), np.zeros((2, points, 3)), np.zeros((2, points, 3)))
+    return Elastic(
+        np.zeros((2, nodes, 3)),
+        np.zeros((2, nodes), np.int64),
+        np.zeros(2, np.int64),
+        np.zeros((2, points, 3)),
+        np.zeros((2, points, 3)),
+    )
 
 
 @njit(fastmath={"reassoc", "contract"})
 def _node_displacement(pushes, coordinates, node, target):
-    """target (3,): filtered displacement of a node by modal coordinates (m,)."""
+    """Target (3,): filtered displacement of a node by modal coordinates (m,)."""
     x = y = z = 0.0
     for k in range(len(coordinates)):
         x += pushes[node, 0, k] * coordinates[k]
@@ -49,10 +60,12 @@ def _node_displacement(pushes, coordinates, node, target):
 
 @njit
 def find_all_elastic(structure, b, motion, elastic, when):
-    """Find the elastic displacement of all nodes of body b, for a foot of which all points touch: one product."""
+    """Find the elastic displacement of all nodes of body b, for a foot of which all points touch:
+    one product.
+    """
     first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
     flat = structure.pushes.reshape(3 * len(structure.pushes), structure.pushes.shape[2])
-    moved = flat[3 * first:3 * (first + count)] @ motion.modal[b, COORDINATE]
+    moved = flat[3 * first : 3 * (first + count)] @ motion.modal[b, COORDINATE]
     for i in range(count):
         elastic.stamp[when, first + i] = elastic.now[when]
         for a in range(3):
@@ -64,7 +77,9 @@ def _find_node(structure, node, b, motion, elastic, when):
     """Find the elastic displacement of a node of body b unless it is known."""
     if elastic.stamp[when, node] != elastic.now[when]:
         elastic.stamp[when, node] = elastic.now[when]
-        _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node])
+        _node_displacement(
+            structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node]
+        )
 
 
 @njit(inline="always")
@@ -76,7 +91,9 @@ def find_elastic(structure, points, i, motion, elastic, when):
         node, w = points[i].carriers[q], points[i].weights[q]
         if elastic.stamp[when, node] != elastic.now[when]:
             elastic.stamp[when, node] = elastic.now[when]
-            _node_displacement(structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node])
+            _node_displacement(
+                structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node]
+            )
         x += w * elastic.node[when, node, 0]
         y += w * elastic.node[when, node, 1]
         z += w * elastic.node[when, node, 2]
@@ -85,7 +102,9 @@ def find_elastic(structure, points, i, motion, elastic, when):
 
 @njit
 def find_places(structure, points, rim, motion, pose, elastic, wanted, places):
-    """places (N, 3): positions at the START of the wanted nodes (mask) of the points of a rim (n,) in the frame of its interface, without their static part."""
+    """Places (N, 3): positions at the START of the wanted nodes (mask) of the points of a rim (n,)
+    in the frame of its interface, without their static part.
+    """
     x = np.empty(3)
     for i in rim:
         node, b = points[i].node, points[i].slave
@@ -102,27 +121,41 @@ def find_places(structure, points, rim, motion, pose, elastic, wanted, places):
 
 @njit
 def _into_table(motion, b, x, y, z, target):
-    """target (3,): position of the place x, y, z of body b in its frame."""
+    """Target (3,): position of the place x, y, z of body b in its frame."""
     for a in range(3):
-        target[a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
+        target[a] = (
+            motion.frames[b].center[a]
+            + motion.rotation[b, a, 0] * x
+            + motion.rotation[b, a, 1] * y
+            + motion.rotation[b, a, 2] * z
+        )
 
 
 @njit(inline="always")
 def find_position(points, i, motion, elastic, when, target):
-    """target (3,): position of point i in the table frame without its static part, its elastic displacement being known; on the base that is all of it."""
+    """Target (3,): position of point i in the table frame without its static part, its elastic
+    displacement being known; on the base that is all of it.
+    """
     b, u = points[i].slave, elastic.point[when, i]
     x, y, z = points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2]
     for a in range(3):
-        target[a] = motion.frames[b].center[a] + motion.rotation[b, a, 0] * x + motion.rotation[b, a, 1] * y + motion.rotation[b, a, 2] * z
+        target[a] = (
+            motion.frames[b].center[a]
+            + motion.rotation[b, a, 0] * x
+            + motion.rotation[b, a, 1] * y
+            + motion.rotation[b, a, 2] * z
+        )
     if points[i].master == BASE:
         target[2] += points[i].lift
 
 
 @njit(inline="always")
 def find_on_master(structure, points, i, motion, poses, elastic, when, target):
-    """Position (3,) of point i in the table frame as its place relative to its moving master's surface, in the frame of its interface, in place.
+    """Position (3,) of point i in the table frame as its place relative to its moving master's
+    surface, in the frame of its interface, in place.
 
-    A point that is beyond the surface at the START of a step is put high above it: within a step none comes or goes over an outline.
+    A point that is beyond the surface at the START of a step is put high above it: within a step
+    none comes or goes over an outline.
     """
     b, interface = points[i].master, structure.interfaces[points[i].interface]
     answer = find_seat(structure.bodies, interface, points[i], poses[points[i].interface], target)
@@ -141,7 +174,9 @@ def find_on_master(structure, points, i, motion, poses, elastic, when, target):
 
 @njit
 def locate_start(structure, points, i, start, poses, elastic, before, place):
-    """Elastic displacement at the START of a step of point i, which was open, and where it was, unless the step before located it; place: (3,) room."""
+    """Elastic displacement at the START of a step of point i, which was open, and where it was,
+    unless the step before located it; place: (3,) room.
+    """
     find_elastic(structure, points, i, start, elastic, START)
     if points[i].master != BASE:
         find_position(points, i, start, elastic, START, place)
@@ -161,7 +196,9 @@ def locate_start(structure, points, i, start, poses, elastic, before, place):
 
 @njit
 def find_velocity(structure, points, i, motion, poses, elastic, when, target):
-    """target (3,): velocity of point i relative to its master in a motion, in the frame of its interface, its elastic displacement being known."""
+    """Target (3,): velocity of point i relative to its master in a motion, in the frame of its
+    interface, its elastic displacement being known.
+    """
     b, u = points[i].slave, elastic.point[when, i]
     R, w, moved = motion.rotation[b], motion.frames[b].spin, np.empty(3)
     v0 = v1 = v2 = 0.0
@@ -177,7 +214,12 @@ def find_velocity(structure, points, i, motion, poses, elastic, when, target):
     b = points[i].master
     if b == BASE:
         return
-    R, w, seat, Q = motion.rotation[b], motion.frames[b].spin, elastic.seat[when, i], poses[points[i].interface].frame
+    R, w, seat, Q = (
+        motion.rotation[b],
+        motion.frames[b].spin,
+        elastic.seat[when, i],
+        poses[points[i].interface].frame,
+    )
     v0 = v1 = v2 = 0.0
     if motion.modal.shape[2] > 0:
         for q in range(3):
@@ -185,8 +227,14 @@ def find_velocity(structure, points, i, motion, poses, elastic, when, target):
             v0 += points[i].shares[q] * moved[0]
             v1 += points[i].shares[q] * moved[1]
             v2 += points[i].shares[q] * moved[2]
-    v0, v1, v2 = v0 + w[1] * seat[2] - w[2] * seat[1], v1 + w[2] * seat[0] - w[0] * seat[2], v2 + w[0] * seat[1] - w[1] * seat[0]
+    v0, v1, v2 = (
+        v0 + w[1] * seat[2] - w[2] * seat[1],
+        v1 + w[2] * seat[0] - w[0] * seat[2],
+        v2 + w[0] * seat[1] - w[1] * seat[0],
+    )
     for a in range(3):
-        moved[a] = target[a] - motion.frames[b].velocity[a] - R[a, 0] * v0 - R[a, 1] * v1 - R[a, 2] * v2
+        moved[a] = (
+            target[a] - motion.frames[b].velocity[a] - R[a, 0] * v0 - R[a, 1] * v1 - R[a, 2] * v2
+        )
     for a in range(3):
         target[a] = Q[0, a] * moved[0] + Q[1, a] * moved[1] + Q[2, a] * moved[2]

@@ -8,11 +8,14 @@ from fecolumn.contact.work import losses
 from fecolumn.dynamics.links import end_links
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
 
-# Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS [J]
+# Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS
+# [J]
 START, BASE, FRICTION, HIT, CONTACT_WORK, ALGORITHMIC, DAMPING, ROLLING, LINKS = range(9)
 N_TERMS = LINKS + 1
-# then, of `reduced.rigid_loss`: what impacts that are over have taken from the rigid motion, and what rigid bodies would have lost [J]; of the one that goes on its rigid loss, 0 of none, the energy
-# of the rigid motion before it [J], when it began and ends [s], and the fastest approach [m/s], 0 once nothing approaches
+# then, of `reduced.rigid_loss`: what impacts that are over have taken from the rigid motion, and
+# what rigid bodies would have lost [J]; of the one that goes on its rigid loss, 0 of none, the
+# energy of the rigid motion before it [J], when it began and ends [s], and the fastest approach
+# [m/s], 0 once nothing approaches
 TAKEN, RIGID_LOSS, IMPACT_LOSS, LEFT, BEGAN, ENDS, SPEED = range(N_TERMS, N_TERMS + 7)
 N_PLACES = SPEED + 1
 
@@ -24,7 +27,9 @@ def rigid_kinetic(structure, motion):
     for b in range(len(motion.frames)):
         v, w, J = motion.frames[b].velocity, motion.frames[b].spin, structure.bodies.body[b].inertia
         for a in range(3):
-            total += structure.bodies.body[b].mass * v[a] * v[a] + w[a] * (J[a, 0] * w[0] + J[a, 1] * w[1] + J[a, 2] * w[2])
+            total += structure.bodies.body[b].mass * v[a] * v[a] + w[a] * (
+                J[a, 0] * w[0] + J[a, 1] * w[1] + J[a, 2] * w[2]
+            )
     return total / 2
 
 
@@ -54,14 +59,29 @@ def weight_energy(structure, reference, motion):
     total = 0.0
     for b in range(len(motion.frames)):
         for a in range(3):
-            total -= structure.bodies.body[b].mass * structure.gravity[a] * (motion.frames[b].center[a] - reference[b, a])
+            total -= (
+                structure.bodies.body[b].mass
+                * structure.gravity[a]
+                * (motion.frames[b].center[a] - reference[b, a])
+            )
     return total
 
 
 @njit
 def book(structure, scheme, work, start, end, ledger):
-    """Book a step before its impact; returns the work of contact [J]. Of the bodies as `dynamics.stepper`, of contact as `contact.work`."""
-    al, ga, dt, action, done, algorithmic, moved_base = scheme.alpha, scheme.gamma, scheme.dt, work.action, 0.0, 0.0, 0.0
+    """Book a step before its impact; returns the work of contact [J].
+
+    Of the bodies as `dynamics.stepper`, of contact as `contact.work`.
+    """
+    al, ga, dt, action, done, algorithmic, moved_base = (
+        scheme.alpha,
+        scheme.gamma,
+        scheme.dt,
+        work.action,
+        0.0,
+        0.0,
+        0.0,
+    )
     numerical = dt**2 * al**2 / 4
     damping = rolling = 0.0
     for b in range(len(start.frames)):
@@ -70,15 +90,23 @@ def book(structure, scheme, work, start, end, ledger):
             moved, push = after.center[a] - before.center[a], action.push[b, a]
             mean = mass * ((1 - ga) * before.acceleration[a] + ga * after.acceleration[a])
             shaken = (start.whole[0].ground[a] + end.whole[0].ground[a]) / 2
-            algorithmic += moved * (mean - mass * (structure.gravity[a] - shaken)) - numerical * (after.acceleration[a] - before.acceleration[a]) * (mean + push)
+            algorithmic += moved * (mean - mass * (structure.gravity[a] - shaken)) - numerical * (
+                after.acceleration[a] - before.acceleration[a]
+            ) * (mean + push)
             done += moved * push + action.turn[b, a] * action.moment[b, a]
             rolling += action.turn[b, a] * action.resistance[b, a]
             moved_base -= shaken * mass * moved
         for k in range(start.modal.shape[2]):
             q0, q1 = start.modal[b, COORDINATE, k], end.modal[b, COORDINATE, k]
-            a0, a1, push = start.modal[b, ACCELERATION, k], end.modal[b, ACCELERATION, k], action.modal[b, k]
+            a0, a1, push = (
+                start.modal[b, ACCELERATION, k],
+                end.modal[b, ACCELERATION, k],
+                action.modal[b, k],
+            )
             mean = (1 - ga) * a0 + ga * a1
-            algorithmic += (q1 - q0) * (mean + structure.squares[b, k] * (q0 + q1) / 2) - numerical * (a1 - a0) * (mean + push)
+            algorithmic += (q1 - q0) * (
+                mean + structure.squares[b, k] * (q0 + q1) / 2
+            ) - numerical * (a1 - a0) * (mean + push)
             done += (q1 - q0) * push
             # with the rate that the damping meets, see dynamics.stepper
             rate = end.modal[b, RATE, k] - dt * al**2 / (4 * scheme.beta) * push
@@ -86,7 +114,15 @@ def book(structure, scheme, work, start, end, ledger):
     tied, taken = end_links(structure.links, end.frames, end.rotation, start.ties, end.ties, dt)
     contact = done - rolling + end.whole[0].static + tied - start.whole[0].static + taken
     end.whole[0].static += tied
-    friction, landed, dashpots = losses(work.points, structure.interfaces, scheme.springs, near_points(work.problem), work.before, end.contact, contact)
+    friction, landed, dashpots = losses(
+        work.points,
+        structure.interfaces,
+        scheme.springs,
+        near_points(work.problem),
+        work.before,
+        end.contact,
+        contact,
+    )
     ledger[BASE] += moved_base
     ledger[FRICTION] += friction
     ledger[HIT] += landed

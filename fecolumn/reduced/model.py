@@ -1,4 +1,6 @@
-"""What the reduced engine knows of column and base: numbers of a mesh, independent of the time step."""
+"""What the reduced engine knows of column and base: numbers of a mesh, independent of the time
+step.
+"""
 
 from __future__ import annotations
 
@@ -18,13 +20,14 @@ from fecolumn.dynamics.links import LINK
 class ColumnModel:
     """A column reduced to its foot, in its own frame, arms measured from the centre of mass.
 
-    mass [kg]; inertia: (3, 3) [kg m2] about the centre of mass; center: (3,) [m] in the reference configuration.
-    frequencies: (m,) [rad/s], rising, of the free-free elastic modes with unit modal mass; shapes: (n, 3, m) [1/sqrt(kg)] at the
+    mass [kg]; inertia: (3, 3) [kg m2] about the centre of mass; center: (3,) [m] in the reference
+    configuration. frequencies: (m,) [rad/s], rising, of the free-free elastic modes with unit modal
+    mass; shapes: (n, 3, m) [1/sqrt(kg)] at the
         foot's nodes.
-    flexibility: (n, n, 3, 3) [m/N] of the foot's nodes by all elastic modes, the exact static one of the free body.
-    arms: (n, 3) [m] of the foot's nodes; areas: (n,) [m2] tributary to them.
-    top_arm: (3,) [m] and top_shape: (3, m): mean over the top's face.
-    dofs: of the mesh it was made from.
+    flexibility: (n, n, 3, 3) [m/N] of the foot's nodes by all elastic modes, the exact static one
+    of the free body. arms: (n, 3) [m] of the foot's nodes; areas: (n,) [m2] tributary to them.
+    top_arm: (3,) [m] and top_shape: (3, m): mean over the top's face. dofs: of the mesh it was made
+    from.
     """
 
     mass: float
@@ -44,21 +47,29 @@ class ColumnModel:
         """Reference positions (n, 3) [m] of the foot's nodes."""
         return self.arms + self.center
 
-    def with_modes(self, count: int) -> "ColumnModel":
-        """The column with its `count` lowest elastic modes, or all it has; the others stay in the flexibility."""
-        return replace(self, frequencies=self.frequencies[:count], shapes=np.ascontiguousarray(self.shapes[:, :, :count]),
-                       top_shape=np.ascontiguousarray(self.top_shape[:, :count]))
+    def with_modes(self, count: int) -> ColumnModel:
+        """The column with its `count` lowest elastic modes, or all it has; the others stay in the
+        flexibility.
+        """
+        return replace(
+            self,
+            frequencies=self.frequencies[:count],
+            shapes=np.ascontiguousarray(self.shapes[:, :, :count]),
+            top_shape=np.ascontiguousarray(self.top_shape[:, :count]),
+        )
 
 
 class Structure(NamedTuple):
     """What moves and how it touches, for compiled code, filtered to the step.
 
-    With F = 2 s - s^2, s = 1 / (1 + beta (1 + alpha) w^2 dt^2) of each mode (`fem.foot`), w = 0 where a body has fewer modes than another:
-    bodies: static part of the nodes, flexibility - sum F^2 phi phi / w^2, and mobility of the modes, sum F^2 phi phi.
-    pushes: (N, 3, m) F phi, by which contact forces drive modes and modes move the nodes. squares: (nb, m) w^2 [1/s2]; damping: (nb, m) [1/s]
-    damping force on a mode over its rate, 2 zeta w.
-    reach: (N,) [m/sqrt(J)] largest displacement of a node by modes that store the energy 1/2 J.
-    interfaces: (ni,) of INTERFACE; rim: points on the circles of all of them; overlaps: joints of two sides; links: (nl,) of LINK; gravity: (3,) [m/s2].
+    With F = 2 s - s^2, s = 1 / (1 + beta (1 + alpha) w^2 dt^2) of each mode (`fem.foot`), w = 0
+    where a body has fewer modes than another: bodies: static part of the nodes, flexibility - sum
+    F^2 phi phi / w^2, and mobility of the modes, sum F^2 phi phi. pushes: (N, 3, m) F phi, by which
+    contact forces drive modes and modes move the nodes. squares: (nb, m) w^2 [1/s2]; damping: (nb,
+    m) [1/s] damping force on a mode over its rate, 2 zeta w. reach: (N,) [m/sqrt(J)] largest
+    displacement of a node by modes that store the energy 1/2 J. interfaces: (ni,) of INTERFACE;
+    rim: points on the circles of all of them; overlaps: joints of two sides; links: (nl,) of LINK;
+    gravity: (3,) [m/s2].
     """
 
     bodies: Bodies
@@ -74,8 +85,10 @@ class Structure(NamedTuple):
 
 
 class Scheme(NamedTuple):
-    """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (nb, m) s of each mode, here with its damping,
-    dynamic: (3 N, 3 n) [m/N] modal and static compliance of the nodes within a step; springs: of the points alone."""
+    """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (nb, m) s of each
+    mode, here with its damping, dynamic: (3 N, 3 n) [m/N] modal and static compliance of the nodes
+    within a step; springs: of the points alone.
+    """
 
     dt: float
     half: float
@@ -87,36 +100,82 @@ class Scheme(NamedTuple):
     springs: Springs
 
 
-def structure_of(model: ColumnModel, hht, gravity, friction: float, law: np.ndarray, rim=None, damping_ratio: float = 0.0, restitution: float = 0.0,
-                 rolling: float = 0.0, pad=None) -> tuple[Structure, np.ndarray]:
+def structure_of(
+    model: ColumnModel,
+    hht,
+    gravity,
+    friction: float,
+    law: np.ndarray,
+    rim=None,
+    damping_ratio: float = 0.0,
+    restitution: float = 0.0,
+    rolling: float = 0.0,
+    pad=None,
+) -> tuple[Structure, np.ndarray]:
     """A column on the base as steps of `hht` see it, and its points (n,) of POINT.
 
-    Args:
-        law: (n, 3) compliance of the contact law [m/N]. rim: Rim of a round foot. damping_ratio: of the elastic modes.
-        restitution, rolling, pad: see `contact.interface`.
+    Parameters
+    ----------
+    law
+        (n, 3) compliance of the contact law [m/N].
+    rim
+        Rim of a round foot.
+    damping_ratio
+        of the elastic modes.
+    restitution, rolling, pad
+        see `contact.interface`.
     """
     squares = model.frequencies**2
     shrink = 1 / (1 + squares * hht.stiffness_factor / hht.mass_factor)
     pushes = model.shapes * (2 * shrink - shrink**2)
     static = node_matrix(model.flexibility) - modal_sum(pushes, 1 / squares)
-    bodies = one_body(model.arms, static, modal_sum(pushes, np.ones_like(squares)), float(model.mass), model.inertia)
+    bodies = one_body(
+        model.arms,
+        static,
+        modal_sum(pushes, np.ones_like(squares)),
+        float(model.mass),
+        model.inertia,
+    )
     joint = joint_on_base(model.arms, friction, law, rim, restitution, rolling, pad)
     reach = np.sqrt((pushes**2 / squares).sum(axis=(1, 2)))
-    structure = Structure(bodies, pushes, squares[None], 2 * damping_ratio * model.frequencies[None], reach,
-                          joint.interfaces, joint.rim, joint.overlaps, np.zeros(0, LINK), np.array(gravity, float))
+    structure = Structure(
+        bodies,
+        pushes,
+        squares[None],
+        2 * damping_ratio * model.frequencies[None],
+        reach,
+        joint.interfaces,
+        joint.rim,
+        joint.overlaps,
+        np.zeros(0, LINK),
+        np.array(gravity, float),
+    )
     return structure, joint.points
 
 
 def scheme(structure: Structure, points: np.ndarray, hht) -> Scheme:
     """Coefficients of a step of `hht`; the filter of the contact stays that of the structure."""
     half, stiffness = hht.dt**2 / 2, structure.squares * hht.stiffness_factor / hht.mass_factor
-    stiffness = stiffness + structure.damping * hht.rate_factor * hht.stiffness_factor / hht.mass_factor
+    stiffness = (
+        stiffness + structure.damping * hht.rate_factor * hht.stiffness_factor / hht.mass_factor
+    )
     return _scheme(structure, points, hht.dt, half, hht.alpha, hht.beta, hht.gamma, stiffness)
 
 
 def resting_scheme(structure: Structure, points: np.ndarray, pseudo_inertia: float) -> Scheme:
-    """Coefficients of a proximal step towards equilibrium: (pseudo_inertia M + K) x = pseudo_inertia M x0 + F + U r."""
-    return _scheme(structure, points, np.inf, 1 / pseudo_inertia, 0.0, 0.25, 0.5, structure.squares / pseudo_inertia)
+    """Coefficients of a proximal step towards equilibrium: (pseudo_inertia M + K) x =
+    pseudo_inertia M x0 + F + U r.
+    """
+    return _scheme(
+        structure,
+        points,
+        np.inf,
+        1 / pseudo_inertia,
+        0.0,
+        0.25,
+        0.5,
+        structure.squares / pseudo_inertia,
+    )
 
 
 def _scheme(structure, points, dt, half, alpha, beta, gamma, stiffness) -> Scheme:
@@ -124,8 +183,19 @@ def _scheme(structure, points, dt, half, alpha, beta, gamma, stiffness) -> Schem
     dynamic = structure.bodies.static.copy()
     for body, factors in zip(structure.bodies.body, shrink):
         nodes = slice(body["first"], body["first"] + body["count"])
-        dynamic[3 * nodes.start:3 * nodes.stop, :3 * body["count"]] += half * modal_sum(structure.pushes[nodes], factors)
-    return Scheme(dt, half, alpha, beta, gamma, shrink, dynamic, springs_of(points, structure.interfaces[0], dt))
+        dynamic[3 * nodes.start : 3 * nodes.stop, : 3 * body["count"]] += half * modal_sum(
+            structure.pushes[nodes], factors
+        )
+    return Scheme(
+        dt,
+        half,
+        alpha,
+        beta,
+        gamma,
+        shrink,
+        dynamic,
+        springs_of(points, structure.interfaces[0], dt),
+    )
 
 
 def modal_sum(shapes: np.ndarray, factors: np.ndarray) -> np.ndarray:

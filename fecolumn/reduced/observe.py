@@ -8,17 +8,27 @@ import numpy as np
 
 from fecolumn._compiled import njit
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE
+from fecolumn.contact.pose import SLAVE, find_poses
 from fecolumn.contact.record import record
 from fecolumn.dynamics.energy import TERMS
 from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, Stance, fallen, stance
-from fecolumn.reduced.ledger import N_TERMS, kinetic, strain, weight_energy
 from fecolumn.reduced.elastic import COORDINATE
-from fecolumn.contact.pose import find_poses
+from fecolumn.reduced.ledger import N_TERMS, kinetic, strain, weight_energy
 
 #: Columns of a row: name in the history file and how many numbers.
-COLUMNS = (("time", 1), ("u_top", 3), ("tilt", 1), ("twist", 1), ("slide", 2), ("contact_force", 3), ("active_nodes", 1), ("penetration", 1),
-           ("ground", 3), ("iterations", 1), *((f"energy/{term}", 1) for term in TERMS))
+COLUMNS = (
+    ("time", 1),
+    ("u_top", 3),
+    ("tilt", 1),
+    ("twist", 1),
+    ("slide", 2),
+    ("contact_force", 3),
+    ("active_nodes", 1),
+    ("penetration", 1),
+    ("ground", 3),
+    ("iterations", 1),
+    *((f"energy/{term}", 1) for term in TERMS),
+)
 WIDTH = sum(count for _, count in COLUMNS)
 #: Place of the energy terms in a row.
 ENERGY = WIDTH - len(TERMS)
@@ -26,17 +36,27 @@ ENERGY = WIDTH - len(TERMS)
 
 #: A point of a body that is watched: arm: (3,) from its centre of mass in its frame [m].
 MARK = record(("body", "i8"), ("arm", "f8", 3))
-#: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its centre of mass [m] and tilt [rad]; of each interface tilt of
-#: the slave from the master [rad], rise of the middle of its foot and its slide along two tangents [m], normal force [N]; of each mark its displacement [m]; of
-#: each link tension [N], elongation from its unstressed length and the part of it that has yielded [m], energy that it has taken [J], whether it is broken.
-OF_BODY, OF_INTERFACE, OF_MARK = (("displacement", 3), ("tilt", 1)), (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)), (("displacement", 3),)
+#: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its
+#: centre of mass [m] and tilt [rad]; of each interface tilt of the slave from the master [rad],
+#: rise of the middle of its foot and its slide along two tangents [m], normal force [N]; of each
+#: mark its displacement [m]; of each link tension [N], elongation from its unstressed length and
+#: the part of it that has yielded [m], energy that it has taken [J], whether it is broken.
+OF_BODY, OF_INTERFACE, OF_MARK = (
+    (("displacement", 3), ("tilt", 1)),
+    (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)),
+    (("displacement", 3),),
+)
 OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("broken", 1))
 
 
 class View(NamedTuple):
-    """What is watched: center: (nb, 3) of mass in the reference configuration; body: the one of which top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape
-    (3, m) are means over top and foot; stance: when it is lost, if it stands alone. limits: (nb,) tilts [rad] at which a body of many is lost, none for one
-    alone. feet: (ni, 3) of the interfaces [m] and normals: (ni, 3) of them in the frames of their slaves, in the reference configuration; marks: (nm,) of MARK, their shapes (nm, 3, m). links: how many."""
+    """What is watched: center: (nb, 3) of mass in the reference configuration; body: the one of
+    which top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape (3, m) are means over top and
+    foot; stance: when it is lost, if it stands alone. limits: (nb,) tilts [rad] at which a body of
+    many is lost, none for one alone. feet: (ni, 3) of the interfaces [m] and normals: (ni, 3) of
+    them in the frames of their slaves, in the reference configuration; marks: (nm,) of MARK, their
+    shapes (nm, 3, m). links: how many.
+    """
 
     center: np.ndarray
     body: int
@@ -55,15 +75,36 @@ class View(NamedTuple):
     @property
     def width(self) -> int:
         """Numbers in a row."""
-        return WIDTH if not len(self.limits) else WIDTH + 4 * len(self.center) + 5 * len(self.feet) + 3 * len(self.marks) + len(OF_LINK) * self.links
+        return (
+            WIDTH
+            if not len(self.limits)
+            else WIDTH
+            + 4 * len(self.center)
+            + 5 * len(self.feet)
+            + 3 * len(self.marks)
+            + len(OF_LINK) * self.links
+        )
 
 
 def view(model, weight: float, friction: float, cap: float = 0.0) -> View:
-    """The view of a ColumnModel of a weight [N] on a base of a coefficient of friction; cap as of `overturning.stance`."""
+    """The view of a ColumnModel of a weight [N] on a base of a coefficient of friction; cap as of
+    `overturning.stance`.
+    """
     share = model.areas / model.areas.sum()
-    return View(np.array(model.center, float)[None], 0, model.top_arm, np.ascontiguousarray(model.top_shape), share @ model.arms,
-                np.einsum("i,iam->am", share, model.shapes), stance(model.arms, model.inertia, weight, friction, cap),
-                np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0, MARK), np.zeros((0, 3, 0)))
+    return View(
+        np.array(model.center, float)[None],
+        0,
+        model.top_arm,
+        np.ascontiguousarray(model.top_shape),
+        share @ model.arms,
+        np.einsum("i,iam->am", share, model.shapes),
+        stance(model.arms, model.inertia, weight, friction, cap),
+        np.zeros(0),
+        np.zeros((0, 3)),
+        np.zeros((0, 3)),
+        np.zeros(0, MARK),
+        np.zeros((0, 3, 0)),
+    )
 
 
 @njit
@@ -100,7 +141,11 @@ def observe(structure, points, poses, eye, motion, ledger, iterations, row):
     for a in range(3):
         row[13 + a] = motion.whole[0].ground[a]
     row[16] = iterations
-    row[17], row[18], row[19] = kinetic(structure, motion), strain(structure, motion), weight_energy(structure, eye.center, motion)
+    row[17], row[18], row[19] = (
+        kinetic(structure, motion),
+        strain(structure, motion),
+        weight_energy(structure, eye.center, motion),
+    )
     closure = row[17] + row[18] + row[19]
     for k in range(N_TERMS):
         closure -= ledger[k]
@@ -125,8 +170,15 @@ def _observe_all(structure, points, poses, eye, motion, row):
     first = place
     for k in range(len(structure.interfaces)):
         T, foot, normal = poses[k].turned[SLAVE], poses[k].foot, eye.normals[k]
-        x, y, z = T[2, 1] * normal[2] - T[2, 2] * normal[1], T[2, 2] * normal[0] - T[2, 0] * normal[2], T[2, 0] * normal[1] - T[2, 1] * normal[0]
-        row[place] = np.arctan2(np.hypot(np.hypot(x, y), z), T[2, 0] * normal[0] + T[2, 1] * normal[1] + T[2, 2] * normal[2])
+        x, y, z = (
+            T[2, 1] * normal[2] - T[2, 2] * normal[1],
+            T[2, 2] * normal[0] - T[2, 0] * normal[2],
+            T[2, 0] * normal[1] - T[2, 1] * normal[0],
+        )
+        row[place] = np.arctan2(
+            np.hypot(np.hypot(x, y), z),
+            T[2, 0] * normal[0] + T[2, 1] * normal[1] + T[2, 2] * normal[2],
+        )
         row[place + 1] = foot[2] - eye.feet[k, 2]
         row[place + 2], row[place + 3] = foot[0] - eye.feet[k, 0], foot[1] - eye.feet[k, 1]
         place += 5
@@ -134,18 +186,26 @@ def _observe_all(structure, points, poses, eye, motion, row):
         if motion.contact[i].force[2] > 0:
             row[first + 5 * points[i].interface + 4] += motion.contact[i].force[2]
     for n in range(len(eye.marks)):
-        _displace(eye.marks[n].body, eye.marks[n].arm, eye.shapes[n], eye.center, motion, 3, row, place)
+        _displace(
+            eye.marks[n].body, eye.marks[n].arm, eye.shapes[n], eye.center, motion, 3, row, place
+        )
         place += 3
     for n in range(len(motion.ties)):
         tie = motion.ties[n]
-        row[place], row[place + 1], row[place + 2] = tie.force, tie.length - structure.links[n].length, tie.flowed
+        row[place], row[place + 1], row[place + 2] = (
+            tie.force,
+            tie.length - structure.links[n].length,
+            tie.flowed,
+        )
         row[place + 3], row[place + 4] = tie.work, tie.broken
         place += 5
 
 
 @njit
 def lost(eye, motion, row, steepest):
-    """As `overturning.fallen`, of a motion and its row; FELL where one of many bodies has fallen past the ground, z = 0."""
+    """As `overturning.fallen`, of a motion and its row; FELL where one of many bodies has fallen
+    past the ground, z = 0.
+    """
     top = np.hypot(row[1], row[2])
     if len(eye.limits):
         for b in range(len(eye.limits)):

@@ -1,8 +1,12 @@
-"""The share of the rigid loss that impacts take: energy that leaves the rigid motion at impacts, over that which a plastic impact of rigid bodies would take.
+"""The share of the rigid loss that impacts take: energy that leaves the rigid motion at impacts,
+over that which a plastic impact of rigid bodies would take.
 
-An impact begins with the step in which a point lands. For bodies that do not deform it is over at the end of it. Elastic faces meet point by point, and give back a part of what they store:
-their impact goes on while points that the rigid motion has brought together still approach, and for three times as long while they part.
-The rigid loss is that of a plastic impact (Moreau 1988), with friction, of all points which the rigid motion has brought together, from the velocities before the first landing.
+An impact begins with the step in which a point lands. For bodies that do not deform it is over at
+the end of it. Elastic faces meet point by point, and give back a part of what they store: their
+impact goes on while points that the rigid motion has brought together still approach, and for three
+times as long while they part. The rigid loss is that of a plastic impact (Moreau 1988), with
+friction, of all points which the rigid motion has brought together, from the velocities before the
+first landing.
 """
 
 from __future__ import annotations
@@ -18,20 +22,42 @@ from fecolumn.contact.tolerances import APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS
 from fecolumn.dynamics.links import strain_of_links
 from fecolumn.reduced.elastic import END
 from fecolumn.reduced.ledger import BASE as BASE_WORK
-from fecolumn.reduced.ledger import BEGAN, ENDS, IMPACT_LOSS, LEFT, LINKS, ROLLING, SPEED, TAKEN, RIGID_LOSS, rigid_kinetic, weight_energy
+from fecolumn.reduced.ledger import (
+    BEGAN,
+    ENDS,
+    IMPACT_LOSS,
+    LEFT,
+    LINKS,
+    RIGID_LOSS,
+    ROLLING,
+    SPEED,
+    TAKEN,
+    rigid_kinetic,
+    weight_energy,
+)
 
 
 @njit
 def rigid_energy(structure, motion, ledger):
-    """Energy [J] of the rigid motion, and of weight and links, less what base, rolling and links have brought: what it falls by has gone to contact, friction and vibration."""
+    """Energy [J] of the rigid motion, and of weight and links, less what base, rolling and links
+    have brought: what it falls by has gone to contact, friction and vibration.
+    """
     origin = np.zeros((len(motion.frames), 3))
-    return (rigid_kinetic(structure, motion) + weight_energy(structure, origin, motion) + strain_of_links(structure.links, motion.ties)
-            - ledger[BASE_WORK] - ledger[ROLLING] - ledger[LINKS])
+    return (
+        rigid_kinetic(structure, motion)
+        + weight_energy(structure, origin, motion)
+        + strain_of_links(structure.links, motion.ties)
+        - ledger[BASE_WORK]
+        - ledger[ROLLING]
+        - ledger[LINKS]
+    )
 
 
 @njit
 def find_together(structure, work, end):
-    """Points (k,) that the rigid motion has brought together at the end of a step: those that carry, and those no higher than the give of those that do."""
+    """Points (k,) that the rigid motion has brought together at the end of a step: those that
+    carry, and those no higher than the give of those that do.
+    """
     points, poses, before, give = work.points, work.poses[END], work.before, 0.0
     listed, count, place = present_points(work.problem), 0, np.empty(3)
     height, together = np.empty(len(listed)), np.empty(len(listed), np.int64)
@@ -46,7 +72,10 @@ def find_together(structure, work, end):
             give = max(give, -height[j])
     for j in range(len(listed)):
         i = listed[j]
-        near = points[i].beyond == OVER and height[j] <= NEAR * structure.interfaces[points[i].interface].width + give
+        near = (
+            points[i].beyond == OVER
+            and height[j] <= NEAR * structure.interfaces[points[i].interface].width + give
+        )
         if near or before[i].force[2] > 0 or end.contact[i].force[2] > 0:
             together[count] = i
             count += 1
@@ -55,15 +84,22 @@ def find_together(structure, work, end):
 
 @njit
 def _place_of(point, motion, place):
-    """place (3,): where a point of POINT is in the table frame [m], of bodies that do not deform."""
+    """Place (3,): where a point of POINT is in the table frame [m], of bodies that do not deform."""
     R = motion.rotation[point.slave]
     for a in range(3):
-        place[a] = motion.frames[point.slave].center[a] + R[a, 0] * point.arm[0] + R[a, 1] * point.arm[1] + R[a, 2] * point.arm[2]
+        place[a] = (
+            motion.frames[point.slave].center[a]
+            + R[a, 0] * point.arm[0]
+            + R[a, 1] * point.arm[1]
+            + R[a, 2] * point.arm[2]
+        )
 
 
 @njit
 def _velocities_by_motion(structure, points, poses, listed, end):
-    """Matrix (3 k, 6 nb): velocities of the listed points (k,), slave relative to master in the frames of their interfaces, by velocities and spins of the bodies."""
+    """Matrix (3 k, 6 nb): velocities of the listed points (k,), slave relative to master in the
+    frames of their interfaces, by velocities and spins of the bodies.
+    """
     J, place, arm = np.zeros((3 * len(listed), 6 * len(end.frames))), np.empty(3), np.empty(3)
     for j in range(len(listed)):
         point, Q = points[listed[j]], poses[points[listed[j]].interface].frame
@@ -79,7 +115,11 @@ def _velocities_by_motion(structure, points, poses, listed, end):
                 for a in range(3):
                     J[3 * j + c, 6 * b + a] = sign * Q[a, c]
                 # (w x arm) . q = w . (arm x q), w in the body's frame
-                x, y, z = arm[1] * Q[2, c] - arm[2] * Q[1, c], arm[2] * Q[0, c] - arm[0] * Q[2, c], arm[0] * Q[1, c] - arm[1] * Q[0, c]
+                x, y, z = (
+                    arm[1] * Q[2, c] - arm[2] * Q[1, c],
+                    arm[2] * Q[0, c] - arm[0] * Q[2, c],
+                    arm[0] * Q[1, c] - arm[1] * Q[0, c],
+                )
                 for a in range(3):
                     J[3 * j + c, 6 * b + 3 + a] = sign * (R[0, a] * x + R[1, a] * y + R[2, a] * z)
     return J
@@ -91,7 +131,10 @@ def _velocities_of(motion):
     values = np.empty(6 * len(motion.frames))
     for b in range(len(motion.frames)):
         for a in range(3):
-            values[6 * b + a], values[6 * b + 3 + a] = motion.frames[b].velocity[a], motion.frames[b].spin[a]
+            values[6 * b + a], values[6 * b + 3 + a] = (
+                motion.frames[b].velocity[a],
+                motion.frames[b].spin[a],
+            )
     return values
 
 
@@ -111,7 +154,8 @@ def _pushed(structure, J):
 
 @njit
 def begin_impact(structure, work, start, end, dt, moment, booked, ledger):
-    """Book the rigid loss of the impact that begins in a step, or goes on in it; `end` has the velocities before the impact.
+    """Book the rigid loss of the impact that begins in a step, or goes on in it; `end` has the
+    velocities before the impact.
 
     moment: fraction of the step at which points land. booked: the ledger at the start of the step.
     """
@@ -125,15 +169,32 @@ def begin_impact(structure, work, start, end, dt, moment, booked, ledger):
         for a in range(3):
             given[3 * j + a] = dt * end.contact[i].force[a]
     mobility = J @ _pushed(structure, J)
-    loss, speed = plastic_impact(mobility, friction, held, J @ _velocities_of(start), J @ _velocities_of(end), given, moment, np.zeros(N_COUNTS, np.int64))
+    loss, speed = plastic_impact(
+        mobility,
+        friction,
+        held,
+        J @ _velocities_of(start),
+        J @ _velocities_of(end),
+        given,
+        moment,
+        np.zeros(N_COUNTS, np.int64),
+    )
     if ledger[SPEED] > 0.0:
-        ledger[IMPACT_LOSS], ledger[SPEED] = max(ledger[IMPACT_LOSS], loss), max(ledger[SPEED], speed)
+        ledger[IMPACT_LOSS], ledger[SPEED] = (
+            max(ledger[IMPACT_LOSS], loss),
+            max(ledger[SPEED], speed),
+        )
         return
     if loss <= APPROACH_LEFT * ledger[IMPACT_LOSS]:
         # a point that rattles while the impact ends
         return
     _book(structure, start, booked, ledger)
-    ledger[IMPACT_LOSS], ledger[SPEED], ledger[LEFT], ledger[BEGAN] = loss, speed, rigid_energy(structure, start, booked), start.whole[0].time
+    ledger[IMPACT_LOSS], ledger[SPEED], ledger[LEFT], ledger[BEGAN] = (
+        loss,
+        speed,
+        rigid_energy(structure, start, booked),
+        start.whole[0].time,
+    )
 
 
 @njit
@@ -143,7 +204,9 @@ def follow_impact(structure, work, end, dt, ledger):
     if ledger[SPEED] > 0.0:
         listed, approach = find_together(structure, work, end), 0.0
         if len(listed):
-            velocity = _velocities_by_motion(structure, work.points, work.poses[END], listed, end) @ _velocities_of(end)
+            velocity = _velocities_by_motion(
+                structure, work.points, work.poses[END], listed, end
+            ) @ _velocities_of(end)
             for j in range(len(listed)):
                 approach = max(approach, -velocity[3 * j + 2])
         if approach <= APPROACH_LEFT * ledger[SPEED]:
@@ -154,10 +217,14 @@ def follow_impact(structure, work, end, dt, ledger):
 
 @njit
 def _book(structure, motion, booked, ledger):
-    """Book the impact that is over, if its rigid loss counts; motion: after it, booked: the ledger then."""
+    """Book the impact that is over, if its rigid loss counts; motion: after it, booked: the ledger
+    then.
+    """
     weight, width, g = np.inf, np.inf, structure.gravity
     for b in range(len(motion.frames)):
-        weight = min(weight, structure.bodies.body[b].mass * np.sqrt(g[0] ** 2 + g[1] ** 2 + g[2] ** 2))
+        weight = min(
+            weight, structure.bodies.body[b].mass * np.sqrt(g[0] ** 2 + g[1] ** 2 + g[2] ** 2)
+        )
     for k in range(len(structure.interfaces)):
         width = min(width, structure.interfaces[k].width)
     if ledger[IMPACT_LOSS] > LOSS_COUNTS * weight * width:

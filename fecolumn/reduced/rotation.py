@@ -9,7 +9,9 @@ from fecolumn._compiled import njit
 
 @njit
 def turn_by(rotation, vector, target):
-    """target = rotation exp(vector), by Rodrigues' formula; orthonormal to rounding if `rotation` is nearly so."""
+    """Target = rotation exp(vector), by Rodrigues' formula; orthonormal to rounding if `rotation`
+    is nearly so.
+    """
     x, y, z = vector[0], vector[1], vector[2]
     square = x * x + y * y + z * z
     angle = np.sqrt(square)
@@ -33,31 +35,55 @@ def orthonormal(rotation):
     product = np.empty((3, 3))
     for i in range(3):
         for j in range(3):
-            product[i, j] = rotation[0, i] * rotation[0, j] + rotation[1, i] * rotation[1, j] + rotation[2, i] * rotation[2, j]
+            product[i, j] = (
+                rotation[0, i] * rotation[0, j]
+                + rotation[1, i] * rotation[1, j]
+                + rotation[2, i] * rotation[2, j]
+            )
     for i in range(3):
         r0, r1, r2 = rotation[i, 0], rotation[i, 1], rotation[i, 2]
         for j in range(3):
-            rotation[i, j] = 1.5 * rotation[i, j] - 0.5 * (r0 * product[0, j] + r1 * product[1, j] + r2 * product[2, j])
+            rotation[i, j] = 1.5 * rotation[i, j] - 0.5 * (
+                r0 * product[0, j] + r1 * product[1, j] + r2 * product[2, j]
+            )
 
 
 @njit
 def turning(body, advance, rotation, half, spread, resistance, turn, moment, halfway):
-    """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its moment M, in the column's frame.
+    """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its
+    moment M, in the column's frame.
 
-    Energy-momentum conserving (Simo and Wong 1991): with M = sinc(|Th|/2) sum (Rh A) x r, Th . M is the work of the forces on the path
-    of rigid arms A.
+    Energy-momentum conserving (Simo and Wong 1991): with M = sinc(|Th|/2) sum (Rh A) x r, Th . M is
+    the work of the forces on the path of rigid arms A.
 
-    Args:
-        body: of BODY. advance: (3,) dt times the spin at the start. spread: (3, 3) sum of A r^T, r in the table frame. resistance: (3,) added to M.
-        turn: first guess, and the result. moment, halfway: results; the moment in the column's frame at the start.
+    Parameters
+    ----------
+    body
+        of BODY.
+    advance
+        (3,) dt times the spin at the start.
+    spread
+        (3, 3) sum of A r^T, r in the table frame.
+    resistance
+        (3,) added to M.
+    turn
+        first guess, and the result.
+    moment, halfway
+        results; the moment in the column's frame at the start.
     """
     momentum, part, inertia, inverse = np.empty(3), np.empty(3), body.inertia, body.inverse_inertia
     for i in range(3):
-        momentum[i] = 0.5 * (inertia[i, 0] * advance[0] + inertia[i, 1] * advance[1] + inertia[i, 2] * advance[2])
+        momentum[i] = 0.5 * (
+            inertia[i, 0] * advance[0] + inertia[i, 1] * advance[1] + inertia[i, 2] * advance[2]
+        )
     for _ in range(50):
         x, y, z = turn[0], turn[1], turn[2]
         quarter = (x * x + y * y + z * z) / 4
-        sinc = 1 - quarter / 6 * (1 - quarter / 20) if quarter < 1e-4 else np.sin(np.sqrt(quarter)) / np.sqrt(quarter)
+        sinc = (
+            1 - quarter / 6 * (1 - quarter / 20)
+            if quarter < 1e-4
+            else np.sin(np.sqrt(quarter)) / np.sqrt(quarter)
+        )
         part[0], part[1], part[2] = x / 2, y / 2, z / 2
         turn_by(rotation, part, halfway)
         # arms turned into the table frame: B = Rh spread
@@ -67,8 +93,15 @@ def turning(body, advance, rotation, half, spread, resistance, turn, moment, hal
             m1 += halfway[2, a] * spread[a, 0] - halfway[0, a] * spread[a, 2]
             m2 += halfway[0, a] * spread[a, 1] - halfway[1, a] * spread[a, 0]
         for i in range(3):
-            moment[i] = sinc * (rotation[0, i] * m0 + rotation[1, i] * m1 + rotation[2, i] * m2) + resistance[i]
-        b0, b1, b2 = momentum[0] + half * moment[0], momentum[1] + half * moment[1], momentum[2] + half * moment[2]
+            moment[i] = (
+                sinc * (rotation[0, i] * m0 + rotation[1, i] * m1 + rotation[2, i] * m2)
+                + resistance[i]
+            )
+        b0, b1, b2 = (
+            momentum[0] + half * moment[0],
+            momentum[1] + half * moment[1],
+            momentum[2] + half * moment[2],
+        )
         # exp(-Th) b
         square = x * x + y * y + z * z
         if square < 1e-8:

@@ -11,7 +11,7 @@ from fecolumn.contact.ball import from_center, lay_down
 from fecolumn.contact.gathered import gather_again, gathered_nodes
 from fecolumn.contact.joints import left_faces
 from fecolumn.contact.points import BASE
-from fecolumn.contact.projection import base_for_steps
+from fecolumn.contact.pose import SLAVE, find_poses, frames_at, poses_of
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
     ENDED,
@@ -28,40 +28,51 @@ from fecolumn.contact.problem import (
     OK,
     ROLLS_FAST,
 )
+from fecolumn.contact.projection import base_for_steps
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import PARTS
-from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, Stop, StepFailed, in_halves
+from fecolumn.contact.two_sided import mark_unused
+from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.links import end_links, span
 from fecolumn.dynamics.overturning import STANDS, steepest_to_come
 from fecolumn.dynamics.record import Record
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.balls import roll_balls
+from fecolumn.reduced.elastic import COORDINATE, END, START
 from fecolumn.reduced.equilibrium import equilibrate, work_of
 from fecolumn.reduced.ledger import N_PLACES, RIGID_LOSS, TAKEN
-from fecolumn.dynamics.links import end_links, span
 from fecolumn.reduced.model import scheme, structure_of
-from fecolumn.reduced.elastic import COORDINATE, END, START
 from fecolumn.reduced.observe import ENERGY, lost, observe
-from fecolumn.contact.pose import SLAVE, find_poses, frames_at, poses_of
-from fecolumn.contact.two_sided import mark_unused
 from fecolumn.reduced.step import lay_points, step
 
 # step lengths from a whole step to its smallest part
 LENGTHS = PARTS.bit_length()
 # of the halves of a step, whose end alone counts: nothing is past returning, nothing at rest
 _NO_END, _NO_REST = np.array([np.inf]), (0.0, -np.inf)
-_STOPS = {CONTACT_FAILED: Stop.CONTACT, IMPACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.ITERATIONS, OFF_BASE: Stop.OFF_BASE, OFF_PATCH: Stop.OFF_PATCH}
+_STOPS = {
+    CONTACT_FAILED: Stop.CONTACT,
+    IMPACT_FAILED: Stop.CONTACT,
+    ITERATIONS_SPENT: Stop.ITERATIONS,
+    OFF_BASE: Stop.OFF_BASE,
+    OFF_PATCH: Stop.OFF_PATCH,
+}
 
 
 @njit
 def ended(eye, motion, row, steepest, rest):
     """Whether the column is lost or at rest after a step; rest: as of `Engine.advance`."""
-    return lost(eye, motion, row, steepest) != STANDS or max(row[ENERGY], row[ENERGY] + row[ENERGY + 1] + row[ENERGY + 2] - rest[0]) <= rest[1]
+    return (
+        lost(eye, motion, row, steepest) != STANDS
+        or max(row[ENERGY], row[ENERGY] + row[ENERGY + 1] + row[ENERGY + 2] - rest[0]) <= rest[1]
+    )
 
 
 @njit
 def to_make_at_once(structure, motion, dt, done, substeps):
-    """As `rolling.part_of_step`, of the rims of a structure where these are followed; substeps: a number of `cuts.SUBSTEPS`."""
+    """As `rolling.part_of_step`, of the rims of a structure where these are followed; substeps: a
+    number of `cuts.SUBSTEPS`.
+    """
     part = PARTS
     while done % part:
         part //= 2
@@ -87,7 +98,12 @@ def way_down(interface, motion):
                 up = M[c, 0] * axes[0, 2] + M[c, 1] * axes[1, 2] + M[c, 2] * axes[2, 2]
                 normal[a] += up * R[c, a]
                 rate[a] -= R[c, a] * (M[c, 0] * other[0] + M[c, 1] * other[1] + M[c, 2] * other[2])
-    return -normal[0], -normal[1], normal[2] * rate[1] - normal[1] * rate[2], normal[0] * rate[2] - normal[2] * rate[0]
+    return (
+        -normal[0],
+        -normal[1],
+        normal[2] * rate[1] - normal[1] * rate[2],
+        normal[0] * rate[2] - normal[2] * rate[0],
+    )
 
 
 @njit
@@ -102,31 +118,98 @@ def begin_anew(elastic):
 
 
 @njit
-def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, steepest, rest, substeps, rows, ledger, counts):
-    """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k, eye.width) are filled.
+def advance(
+    structure,
+    base,
+    schemes,
+    work,
+    eye,
+    motion,
+    spare,
+    kept,
+    grounds,
+    steepest,
+    rest,
+    substeps,
+    rows,
+    ledger,
+    counts,
+):
+    """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k,
+    eye.width) are filled.
 
-    schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are still to be made, for which ROLLS_FAST asks. kept: room for
-    a Motion. steepest: (k,) as of `overturning.fallen` after each step. rest: as of `Engine.advance`.
-    substeps: for what a step is made in parts, a number of `cuts.SUBSTEPS`. A part in which a point lands is halved down to the smallest where IMPACTS are located.
+    schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are
+    still to be made, for which ROLLS_FAST asks. kept: room for a Motion. steepest: (k,) as of
+    `overturning.fallen` after each step. rest: as of `Engine.advance`. substeps: for what a step is
+    made in parts, a number of `cuts.SUBSTEPS`. A part in which a point lands is halved down to the
+    smallest where IMPACTS are located.
 
-    Without any step to make: the row of `motion` where there is one to fill, else one proximal step of the first scheme towards gravity equilibrium, from
-    `motion` to `spare`; see `start.standing`. They are here because each function that Python calls is compiled with all it calls.
+    Without any step to make: the row of `motion` where there is one to fill, else one proximal step
+    of the first scheme towards gravity equilibrium, from `motion` to `spare`; see `start.standing`.
+    They are here because each function that Python calls is compiled with all it calls.
     """
-    structure, base, schemes, work, eye, motion, spare, kept, grounds, steepest, rows, ledger, counts = borrowed(
-        (structure, base, schemes, work, eye, motion, spare, kept, grounds, steepest, rows, ledger, counts))
-    elastic, bodies, scheme, longest = work.elastic, len(motion.frames), schemes[0], len(schemes) - 1
+    (
+        structure,
+        base,
+        schemes,
+        work,
+        eye,
+        motion,
+        spare,
+        kept,
+        grounds,
+        steepest,
+        rows,
+        ledger,
+        counts,
+    ) = borrowed(
+        (
+            structure,
+            base,
+            schemes,
+            work,
+            eye,
+            motion,
+            spare,
+            kept,
+            grounds,
+            steepest,
+            rows,
+            ledger,
+            counts,
+        )
+    )
+    elastic, bodies, scheme, longest = (
+        work.elastic,
+        len(motion.frames),
+        schemes[0],
+        len(schemes) - 1,
+    )
     elastic.now[START] += 1
     if len(grounds) == 0:
         if len(rows):
             observe(structure, work.points, work.poses[END], eye, motion, ledger, 0, rows[0])
             return 0, OK
-        fall, still, bent = np.empty((bodies, 3)), np.zeros((bodies, 3)), np.empty((bodies, motion.modal.shape[2]))
+        fall, still, bent = (
+            np.empty((bodies, 3)),
+            np.zeros((bodies, 3)),
+            np.empty((bodies, motion.modal.shape[2])),
+        )
         for b in range(bodies):
             put(motion.modal[b, COORDINATE], bent[b])
             for a in range(3):
                 fall[b, a] = motion.frames[b].center[a] + scheme.half * structure.gravity[a]
         return 0, settled(structure, base, scheme, work, motion, fall, bent, still, spare, counts)
-    booked, held, now, then, swapped, made, answer, target = ledger.copy(), ledger.copy(), motion, spare, False, 0, OK, np.empty(3)
+    booked, held, now, then, swapped, made, answer, target = (
+        ledger.copy(),
+        ledger.copy(),
+        motion,
+        spare,
+        False,
+        0,
+        OK,
+        np.empty(3),
+    )
     for k in range(len(grounds)):
         before = counts[N_ITERATIONS]
         put(ledger, booked)
@@ -164,13 +247,23 @@ def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, s
                 elastic.now[START] += 1
             break
         now.whole[0].time = now.whole[0].time if part == PARTS else kept.whole[0].time + scheme.dt
-        observe(structure, work.points, work.poses[END], eye, now, ledger, counts[N_ITERATIONS] - before, rows[made])
+        observe(
+            structure,
+            work.points,
+            work.poses[END],
+            eye,
+            now,
+            ledger,
+            counts[N_ITERATIONS] - before,
+            rows[made],
+        )
         made += 1
         if ended(eye, now, rows[made - 1], steepest[k], rest):
             answer = ENDED
             break
     if swapped:
-        # a step that failed for want of the base's compliance tells by its end in `spare` where it is wanted
+        # a step that failed for want of the base's compliance tells by its end in `spare` where it
+        # is wanted
         for b in range(bodies):
             for a in range(3):
                 work.action.push[b, a] = motion.frames[b].center[a]
@@ -185,7 +278,10 @@ def advance(structure, base, schemes, work, eye, motion, spare, kept, grounds, s
 
 @njit
 def settled(structure, base, scheme, work, motion, fall, bent, still, spare, counts):
-    """A proximal step towards equilibrium: a way to end. The places of points on balls and the links are brought along, which a step does elsewhere."""
+    """A proximal step towards equilibrium: a way to end.
+
+    The places of points on balls and the links are brought along, which a step does elsewhere.
+    """
     for i in range(len(motion.contact)):
         work.before[i] = motion.contact[i]
     for when in (START, END):
@@ -198,17 +294,40 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     for joint in structure.overlaps.joints:
         if not spare.rims[joint.forward].placed:
             # once: the points stay while the bodies come to rest, by micrometres
-            mark_unused(structure.overlaps, structure.interfaces, motion.frames, work.poses[START], spare.rims)
+            mark_unused(
+                structure.overlaps,
+                structure.interfaces,
+                motion.frames,
+                work.poses[START],
+                spare.rims,
+            )
             lay_points(structure, work, motion, spare)
             break
-    answer = equilibrate(structure, base, scheme, work, motion, fall, bent, still, spare.rims, spare, counts)
+    answer = equilibrate(
+        structure, base, scheme, work, motion, fall, bent, still, spare.rims, spare, counts
+    )
     if answer == OK:
-        spare.whole[0].static += end_links(structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt)[0]
+        spare.whole[0].static += end_links(
+            structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt
+        )[0]
     return answer
 
 
-def column_engine(model, base, eye, hht: HHT, start, gravity, max_cuts: int = 4, damping_ratio: float = 0.0, substeps: str = "rolling", **laws) -> Engine:
-    """The Engine of a column: model: ColumnModel; gravity, damping_ratio, laws: as of `model.structure_of`."""
+def column_engine(
+    model,
+    base,
+    eye,
+    hht: HHT,
+    start,
+    gravity,
+    max_cuts: int = 4,
+    damping_ratio: float = 0.0,
+    substeps: str = "rolling",
+    **laws,
+) -> Engine:
+    """The Engine of a column: model: ColumnModel; gravity, damping_ratio, laws: as of
+    `model.structure_of`.
+    """
 
     def build(hht):
         return structure_of(model, hht, gravity, damping_ratio=damping_ratio, **laws)
@@ -219,23 +338,57 @@ def column_engine(model, base, eye, hht: HHT, start, gravity, max_cuts: int = 4,
 class Engine:
     """Reduced bodies on their base, their motion and their ledger.
 
-    Args:
-        build: function of an HHT that returns Structure and points, see `model.structure_of` and `structure.structure_of`.
-        base: BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
-        eye: View.
-        hht: HHT.
-        start: function of the engine that returns the first Motion; see `reduced.start`.
-        model: what `start` needs of the bodies.
-        substeps: of `cuts.SUBSTEPS`, for what a step is made in parts.
+    Parameters
+    ----------
+    build
+        function of an HHT that returns Structure and points, see `model.structure_of` and
+        `structure.structure_of`.
+    base
+        BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
+    eye
+        View.
+    hht
+        HHT.
+    start
+        function of the engine that returns the first Motion; see `reduced.start`.
+    model
+        what `start` needs of the bodies.
+    substeps
+        of `cuts.SUBSTEPS`, for what a step is made in parts.
     """
 
-    def __init__(self, build, base, eye, hht: HHT, start, max_cuts: int = 4, model=None, substeps: str = "rolling"):
-        self.model, self.base, self.eye, self.hht, self.max_cuts, self.substeps = model, base, eye, hht, max_cuts, SUBSTEPS.index(substeps)
+    def __init__(
+        self,
+        build,
+        base,
+        eye,
+        hht: HHT,
+        start,
+        max_cuts: int = 4,
+        model=None,
+        substeps: str = "rolling",
+    ):
+        self.model, self.base, self.eye, self.hht, self.max_cuts, self.substeps = (
+            model,
+            base,
+            eye,
+            hht,
+            max_cuts,
+            SUBSTEPS.index(substeps),
+        )
         self.structure, self.points = build(hht)
-        self.work, self.spare, self.kept = work_of(self.structure, self.points), self.motion_at_rest(), self.motion_at_rest()
+        self.work, self.spare, self.kept = (
+            work_of(self.structure, self.points),
+            self.motion_at_rest(),
+            self.motion_at_rest(),
+        )
         self._schemes = {}
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
-        self.base.need(base.grid.around(self.ground_places(eye.center, np.tile(np.eye(3), (len(eye.center), 1, 1))), 0))
+        self.base.need(
+            base.grid.around(
+                self.ground_places(eye.center, np.tile(np.eye(3), (len(eye.center), 1, 1))), 0
+            )
+        )
         self.surface = base_for_steps(base)
         compile_for(advance, self._arguments(self._schemes_of(hht), self.spare, self.spare))
         self.motion = start(self)
@@ -244,36 +397,81 @@ class Engine:
     def motion_at_rest(self) -> motions.Motion:
         """A Motion with zeros."""
         structure = self.structure
-        return motions.at_rest(len(self.points), structure.squares.shape[1], len(structure.squares), len(structure.interfaces), len(structure.links))
+        return motions.at_rest(
+            len(self.points),
+            structure.squares.shape[1],
+            len(structure.squares),
+            len(structure.interfaces),
+            len(structure.links),
+        )
 
     def ground_places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Places (k, 3) [m] of the nodes that may touch the base, of bodies with centres of mass (nb, 3) turned by (nb, 3, 3)."""
+        """Places (k, 3) [m] of the nodes that may touch the base, of bodies with centres of mass
+        (nb, 3) turned by (nb, 3, 3).
+        """
         points = self.points[self.points["master"] == BASE]
         arms = self.structure.bodies.arms[points["node"]]
         return centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
 
     def places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Places (P, 3) [m] of the points in the frames of their interfaces, of bodies with centres of mass (nb, 3) turned by (nb, 3, 3)."""
+        """Places (P, 3) [m] of the points in the frames of their interfaces, of bodies with centres
+        of mass (nb, 3) turned by (nb, 3, 3).
+        """
         points, interfaces = self.points, self.structure.interfaces
         each, offsets = poses_of(interfaces, centers, rotations), np.zeros((len(interfaces), 3))
         for interface, pose, offset in zip(interfaces, each, offsets):
             interpreted(from_center)(interface, pose["turned"][SLAVE, 2], offset)
-        poses, arms = each[points["interface"]], self.structure.bodies.arms[points["node"]] + offsets[points["interface"]]
+        poses, arms = (
+            each[points["interface"]],
+            self.structure.bodies.arms[points["node"]] + offsets[points["interface"]],
+        )
         table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
         return np.einsum("pba,pb->pa", poses["frame"], table - poses["origin"])
 
     def link_lengths(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Lengths (nl,) [m] of the links; arguments as of `places`."""
         frames = frames_at(centers)
-        return np.array([interpreted(span)(link, frames, rotations, np.empty(3)) for link in self.structure.links])
+        return np.array(
+            [
+                interpreted(span)(link, frames, rotations, np.empty(3))
+                for link in self.structure.links
+            ]
+        )
 
     def settle(self, scheme, motion, end) -> int:
-        """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way to end."""
+        """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way
+        to end.
+        """
         return advance(*self._arguments((scheme,) * LENGTHS, motion, end))[1]
 
-    def _arguments(self, schemes, motion, spare, grounds=np.empty((0, 3)), steepest=np.empty(0), rest=_NO_REST, rows=None) -> tuple:
+    def _arguments(
+        self,
+        schemes,
+        motion,
+        spare,
+        grounds=np.empty((0, 3)),
+        steepest=np.empty(0),
+        rest=_NO_REST,
+        rows=None,
+    ) -> tuple:
         rows = np.empty((0, self.eye.width)) if rows is None else rows
-        return (self.structure, self.surface, schemes, self.work, self.eye, motion, spare, self.kept, grounds, steepest, rest, self.substeps, rows, self.ledger, self.counts)
+        return (
+            self.structure,
+            self.surface,
+            schemes,
+            self.work,
+            self.eye,
+            motion,
+            spare,
+            self.kept,
+            grounds,
+            steepest,
+            rest,
+            self.substeps,
+            rows,
+            self.ledger,
+            self.counts,
+        )
 
     @property
     def record(self) -> Record:
@@ -288,40 +486,62 @@ class Engine:
 
     @property
     def rigid_loss_share(self) -> float | None:
-        """What impacts have taken over what those of rigid bodies would have; None where none counts, or they give back by a coefficient of restitution."""
+        """What impacts have taken over what those of rigid bodies would have; None where none
+        counts, or they give back by a coefficient of restitution.
+        """
         if self.ledger[RIGID_LOSS] == 0 or self.structure.interfaces["restitution"].any():
             return None
         return float(self.ledger[TAKEN] / self.ledger[RIGID_LOSS])
 
     def mechanical(self) -> float:
         """Kinetic, strain and gravity energy now [J]."""
-        return float(self.row()[ENERGY:ENERGY + 3].sum())
+        return float(self.row()[ENERGY : ENERGY + 3].sum())
 
     def potential(self) -> float:
         """Strain and gravity energy now [J]."""
-        return float(self.row()[ENERGY + 1:ENERGY + 3].sum())
+        return float(self.row()[ENERGY + 1 : ENERGY + 3].sum())
 
     def fallen(self, steepest: float) -> int:
-        """As `overturning.fallen`, now; steepest: tangent of the steepest inclination of apparent gravity to come."""
+        """As `overturning.fallen`, now; steepest: tangent of the steepest inclination of apparent
+        gravity to come.
+        """
         return interpreted(lost)(self.eye, self.motion, self.row(), steepest)
 
-    def advance(self, grounds: np.ndarray, steepest: np.ndarray | None = None, rest: tuple[float, float] = _NO_REST) -> tuple[np.ndarray, bool]:
-        """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k', eye.width) and whether the column is lost or at rest.
+    def advance(
+        self,
+        grounds: np.ndarray,
+        steepest: np.ndarray | None = None,
+        rest: tuple[float, float] = _NO_REST,
+    ) -> tuple[np.ndarray, bool]:
+        """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k',
+        eye.width) and whether the column is lost or at rest.
 
-        Args:
-            grounds: (k, 3).
-            steepest: (k,) as of `overturning.steepest_to_come`; of these grounds alone unless given.
-            rest: mechanical energy in gravity equilibrium, and what may be left above it of a column at rest, which ends the steps [J]; never more than
-                that is kinetic, for what has come to stand lower has less potential energy. -inf not to ask.
+        Parameters
+        ----------
+        grounds
+            (k, 3).
+        steepest
+            (k,) as of `overturning.steepest_to_come`; of these grounds alone unless given.
+        rest
+            mechanical energy in gravity equilibrium, and what may be left above it of a column at
+            rest, which ends the steps [J]; never more than that is kinetic, for what has come to
+            stand lower has less potential energy. -inf not to ask.
 
-        Raises:
-            StepFailed: no convergence after max_cuts halvings, or the column left the base; the motion is that before the step, the
-                rows of the steps made are in `made`. So they are where anything else stops the steps, a base that cannot be extended for example.
+        Raises
+        ------
+        StepFailed
+            no convergence after max_cuts halvings, or the column left the base; the motion is that
+            before the step, the rows of the steps made are in `made`. So they are where anything
+            else stops the steps, a base that cannot be extended for example.
         """
         grounds, done = np.array(grounds, float), 0
         if not np.isfinite(grounds).all():
             raise ValueError("a ground acceleration is not a finite number")
-        steepest = steepest_to_come(self.structure.gravity, grounds) if steepest is None else np.asarray(steepest, float)
+        steepest = (
+            steepest_to_come(self.structure.gravity, grounds)
+            if steepest is None
+            else np.asarray(steepest, float)
+        )
         rows = np.empty((len(grounds), self.eye.width))
         self.made = rows[:0]
         while done < len(grounds):
@@ -337,23 +557,39 @@ class Engine:
                 rows[done] = self.row()
                 done += 1
                 self.made = rows[:done]
-                kinetic, strain, gravity = rows[done - 1, ENERGY:ENERGY + 3]
-                if self.fallen(steepest[done - 1]) != STANDS or max(kinetic, kinetic + strain + gravity - rest[0]) <= rest[1]:
+                kinetic, strain, gravity = rows[done - 1, ENERGY : ENERGY + 3]
+                if (
+                    self.fallen(steepest[done - 1]) != STANDS
+                    or max(kinetic, kinetic + strain + gravity - rest[0]) <= rest[1]
+                ):
                     return rows[:done], True
         return rows, False
 
     def _steps(self, hht, grounds, rows, steepest, rest) -> tuple[int, int]:
-        made, answer = advance(*self._arguments(self._schemes_of(hht), self.motion, self.spare, grounds, steepest, rest, rows))
+        made, answer = advance(
+            *self._arguments(
+                self._schemes_of(hht), self.motion, self.spare, grounds, steepest, rest, rows
+            )
+        )
         if answer == ROLLS_FAST:
-            parts = (scheme(self.structure, self.points, HHT(hht.dt / 2**k, hht.alpha)) for k in range(1, LENGTHS))
+            parts = (
+                scheme(self.structure, self.points, HHT(hht.dt / 2**k, hht.alpha))
+                for k in range(1, LENGTHS)
+            )
             self._schemes[hht] = (*self._schemes[hht][:1], *parts)
             more, answer = self._steps(hht, grounds[made:], rows[made:], steepest[made:], rest)
             made += more
         return made, answer
 
     def _cut(self, ground, answer) -> None:
-        """The step that failed with `answer`, in two halves and these in halves as far as it needs; nothing has changed where it fails."""
-        saved, booked, row = self.motion_at_rest(), self.ledger.copy(), np.empty((1, self.eye.width))
+        """The step that failed with `answer`, in two halves and these in halves as far as it needs;
+        nothing has changed where it fails.
+        """
+        saved, booked, row = (
+            self.motion_at_rest(),
+            self.ledger.copy(),
+            np.empty((1, self.eye.width)),
+        )
         motions.copy(self.motion, saved)
 
         def take(_, target, hht):
@@ -364,7 +600,16 @@ class Engine:
 
         failure = StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
         try:
-            in_halves(take, None, self.motion.whole["ground"][0].copy(), ground, self.hht, self.max_cuts, failure, self._count_cut)
+            in_halves(
+                take,
+                None,
+                self.motion.whole["ground"][0].copy(),
+                ground,
+                self.hht,
+                self.max_cuts,
+                failure,
+                self._count_cut,
+            )
         except BaseException as error:
             motions.copy(saved, self.motion)
             self.ledger[:] = booked
@@ -389,12 +634,19 @@ class Engine:
 
     def extend_base(self, motion) -> None:
         """Make the base's compliance known under the foot and two rows of its nodes around."""
-        self.base.need(self.base.grid.around(self.ground_places(motion.frames["center"], motion.rotation), 2))
+        self.base.need(
+            self.base.grid.around(self.ground_places(motion.frames["center"], motion.rotation), 2)
+        )
         self.surface = base_for_steps(self.base)
 
     def base_to_resume(self) -> dict[str, np.ndarray]:
-        """Top nodes of the base whose compliance is known, and those that are gathered, for a checkpoint."""
-        return {"base.known": np.flatnonzero(self.surface.slot >= 0), "base.gathered": gathered_nodes(self.surface)}
+        """Top nodes of the base whose compliance is known, and those that are gathered, for a
+        checkpoint.
+        """
+        return {
+            "base.known": np.flatnonzero(self.surface.slot >= 0),
+            "base.gathered": gathered_nodes(self.surface),
+        }
 
     def resume_base(self, known: np.ndarray, gathered: np.ndarray) -> None:
         """Make known and gather the top nodes of the base that were so in a checkpoint."""

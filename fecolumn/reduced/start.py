@@ -1,4 +1,6 @@
-"""Motion at t = 0: gravity equilibrium of the standing structure, or a rigid tilt, with velocity and spin."""
+"""Motion at t = 0: gravity equilibrium of the standing structure, or a rigid tilt, with velocity
+and spin.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,13 @@ from fecolumn.contact.points import may_touch
 from fecolumn.contact.problem import FAR_BASE, OK, near_points
 from fecolumn.contact.tolerances import FIRMER_TIMES, LINKS_FIRM, SLIDES_KEPT
 from fecolumn.contact.work import move_anchors
-from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, leaning, moving, pseudo_inertia
+from fecolumn.dynamics.gravity import (
+    NoEquilibrium,
+    iterate_to_rest,
+    leaning,
+    moving,
+    pseudo_inertia,
+)
 from fecolumn.dynamics.links import end_links, fastest
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE
@@ -17,21 +25,36 @@ from fecolumn.reduced.model import resting_scheme
 
 
 def standing(engine) -> motions.Motion:
-    """Gravity equilibrium, by the same proximal steps as the full-order engine: it needs no factorisation.
+    """Gravity equilibrium, by the same proximal steps as the full-order engine: it needs no
+    factorisation.
 
-    Raises:
-        NoEquilibrium: no equilibrium, for example of a column whose centre of mass does not stand over its foot.
+    Raises
+    ------
+    NoEquilibrium
+        no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
     structure, centers = engine.structure, engine.eye.center
     bodies = structure.bodies.body
     weight = bodies["mass"].sum() * np.linalg.norm(structure.gravity)
-    # of a dome the place of contact moves by its radius times the tilt, as far as the centre of mass at that height would
-    levers = [max(np.abs(structure.bodies.arms[body["first"]:body["first"] + body["count"], 2]).max(),
-                  structure.interfaces["ball"][structure.interfaces["slave"] == b].max(initial=0.0)) for b, body in enumerate(bodies)]
-    firmness = max(pseudo_inertia(weight, lever, body["inertia"]) for body, lever in zip(bodies, levers))
+    # of a dome the place of contact moves by its radius times the tilt, as far as the centre of
+    # mass at that height would
+    levers = [
+        max(
+            np.abs(structure.bodies.arms[body["first"] : body["first"] + body["count"], 2]).max(),
+            structure.interfaces["ball"][structure.interfaces["slave"] == b].max(initial=0.0),
+        )
+        for b, body in enumerate(bodies)
+    ]
+    firmness = max(
+        pseudo_inertia(weight, lever, body["inertia"]) for body, lever in zip(bodies, levers)
+    )
     # links answer the motion of a step at once: the motion must not answer them as strongly
-    held = [(body["mass"], body["inertia"], center, np.eye(3)) for body, center in zip(bodies, centers)]
-    firmness = max(firmness, LINKS_FIRM * fastest(structure.links, structure.links["stiffness"], held)[0])
+    held = [
+        (body["mass"], body["inertia"], center, np.eye(3)) for body, center in zip(bodies, centers)
+    ]
+    firmness = max(
+        firmness, LINKS_FIRM * fastest(structure.links, structure.links["stiffness"], held)[0]
+    )
     for time in range(FIRMER_TIMES):
         try:
             return _settled(engine, 10.0**time * firmness)
@@ -62,12 +85,21 @@ def _settled(engine, firmness: float) -> motions.Motion:
             engine.extend_base(end)
         if answer != OK:
             raise _Diverged("gravity equilibrium: contact does not converge")
-        moved = max(np.abs(end.frames["center"] - start.frames["center"]).max(), np.abs(work.action.turn).max() * reach,
-                    np.abs(work.elastic.point[1] - work.elastic.point[0]).max())
+        moved = max(
+            np.abs(end.frames["center"] - start.frames["center"]).max(),
+            np.abs(work.action.turn).max() * reach,
+            np.abs(work.elastic.point[1] - work.elastic.point[0]).max(),
+        )
         steps += 1
         if steps > SLIDES_KEPT:
-            interpreted(move_anchors)(work.points, structure.interfaces, resting.springs, near_points(work.problem),
-                                      work.before, end.contact)
+            interpreted(move_anchors)(
+                work.points,
+                structure.interfaces,
+                resting.springs,
+                near_points(work.problem),
+                work.before,
+                end.contact,
+            )
         else:
             end.contact["anchor"] = work.before["anchor"]
         motions.copy(end, start)
@@ -82,20 +114,39 @@ def _settled(engine, firmness: float) -> motions.Motion:
 
 
 def tilted(engine, tilt: float, direction: float) -> motions.Motion:
-    """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest point on the base."""
+    """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest
+    point on the base.
+    """
     structure, model, motion = engine.structure, engine.model, engine.motion_at_rest()
-    turn, pivot, lift = leaning(model.reference, structure.interfaces["rim_count"][0] > 0, tilt, direction)
-    motion.frames["center"], motion.rotation[:] = turn @ (model.center - pivot) + pivot + [0.0, 0.0, lift], turn
+    turn, pivot, lift = leaning(
+        model.reference, structure.interfaces["rim_count"][0] > 0, tilt, direction
+    )
+    motion.frames["center"], motion.rotation[:] = (
+        turn @ (model.center - pivot) + pivot + [0.0, 0.0, lift],
+        turn,
+    )
     return unstrained(engine, motion)
 
 
 def unstrained(engine, motion) -> motions.Motion:
-    """A motion of which the places of the bodies are known: they fall freely from there, and links are as tight as they are."""
+    """A motion of which the places of the bodies are known: they fall freely from there, and links
+    are as tight as they are.
+    """
     motion.frames["acceleration"] = engine.structure.gravity
     motion.contact["relative"] = engine.places(motion.frames["center"], motion.rotation)
-    motion.contact["anchor"], motion.contact["located"] = motion.contact["relative"][:, :2], may_touch(engine.points, engine.structure.interfaces, motion.contact["relative"])
+    motion.contact["anchor"], motion.contact["located"] = (
+        motion.contact["relative"][:, :2],
+        may_touch(engine.points, engine.structure.interfaces, motion.contact["relative"]),
+    )
     motion.ties["length"] = engine.link_lengths(motion.frames["center"], motion.rotation)
-    motion.whole["static"] = interpreted(end_links)(engine.structure.links, motion.frames, motion.rotation, motion.ties.copy(), motion.ties, np.inf)[0]
+    motion.whole["static"] = interpreted(end_links)(
+        engine.structure.links,
+        motion.frames,
+        motion.rotation,
+        motion.ties.copy(),
+        motion.ties,
+        np.inf,
+    )[0]
     motion.ties["work"] = 0.0
     return motion
 
@@ -103,16 +154,22 @@ def unstrained(engine, motion) -> motions.Motion:
 def of_parts(engine, parts, stands: bool) -> motions.Motion:
     """The motion that the parts of a StructureModel begin with.
 
-    stands: whether they come from gravity equilibrium; else they are unstrained where the parts say.
+    stands: whether they come from gravity equilibrium; else they are unstrained where the parts
+    say.
     """
     if stands:
         motion = standing(engine)
     else:
         motion = engine.motion_at_rest()
-        motion.frames["center"], motion.rotation[:] = [part.center for part in parts], [part.rotation for part in parts]
+        motion.frames["center"], motion.rotation[:] = (
+            [part.center for part in parts],
+            [part.rotation for part in parts],
+        )
         unstrained(engine, motion)
     motion.frames["velocity"] = [part.velocity for part in parts]
-    motion.frames["spin"] = [rotation.T @ part.spin for rotation, part in zip(motion.rotation, parts)]
+    motion.frames["spin"] = [
+        rotation.T @ part.spin for rotation, part in zip(motion.rotation, parts)
+    ]
     return motion
 
 
@@ -121,6 +178,11 @@ def begin(engine, initial) -> motions.Motion:
     tilt, direction = initial.tilt_rad, np.radians(initial.direction_deg)
     motion = tilted(engine, tilt, direction) if tilt else standing(engine)
     if initial.moves:
-        motion.frames["velocity"] = moving(engine.model.reference, engine.structure.interfaces["rim_count"][0] > 0, initial, motion.frames["center"])
+        motion.frames["velocity"] = moving(
+            engine.model.reference,
+            engine.structure.interfaces["rim_count"][0] > 0,
+            initial,
+            motion.frames["center"],
+        )
         motion.frames["spin"] = motion.rotation[0].T @ np.array(initial.spin_rad_s)
     return motion

@@ -7,15 +7,24 @@ from dataclasses import dataclass
 import numpy as np
 
 #: Azimuth of the viewer from x to y, and elevation [deg]; None: across the largest lean
-VIEWS = {"lean": (None, 10.0), "front": (-90.0, 8.0), "side": (0.0, 8.0), "iso": (-62.0, 24.0), "foot": (-62.0, 16.0), "plan": (-90.0, 90.0)}
+VIEWS = {
+    "lean": (None, 10.0),
+    "front": (-90.0, 8.0),
+    "side": (0.0, 8.0),
+    "iso": (-62.0, 24.0),
+    "foot": (-62.0, 16.0),
+    "plan": (-90.0, 90.0),
+}
 # Free margin around what moves [-]
 _MARGIN = 1.06
 
 
 @dataclass(frozen=True, slots=True)
 class Camera:
-    """A parallel projection: (3,) unit vectors to the right, upwards and towards the viewer; (3,) point in the middle [m]; half the height shown [m].
-    natural: width over height [-] of what is to be seen."""
+    """A parallel projection: (3,) unit vectors to the right, upwards and towards the viewer; (3,)
+    point in the middle [m]; half the height shown [m]. natural: width over height [-] of what is to
+    be seen.
+    """
 
     right: np.ndarray
     up: np.ndarray
@@ -26,14 +35,26 @@ class Camera:
 
 
 def camera(result, view: str, times: np.ndarray, aspect: float = 1.0) -> Camera:
-    """The camera of a view that shows the column, or the structure, at all `times` [s], on pictures `aspect` times as wide as high.
+    """The camera of a view that shows the column, or the structure, at all `times` [s], on pictures
+    `aspect` times as wide as high.
 
-    Args:
-        result: Result or StructureResult.
+    Parameters
+    ----------
+    result
+        Result or StructureResult.
     """
     azimuth, elevation = VIEWS[view]
-    azimuth, elevation = np.radians(_across_lean(result, times) if azimuth is None else azimuth), np.radians(elevation)
-    toward = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
+    azimuth, elevation = (
+        np.radians(_across_lean(result, times) if azimuth is None else azimuth),
+        np.radians(elevation),
+    )
+    toward = np.array(
+        [
+            np.cos(elevation) * np.cos(azimuth),
+            np.cos(elevation) * np.sin(azimuth),
+            np.sin(elevation),
+        ]
+    )
     right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
     up = np.cross(toward, right)
     shown = result.shown(view, times)
@@ -41,11 +62,20 @@ def camera(result, view: str, times: np.ndarray, aspect: float = 1.0) -> Camera:
     middle = [extent.mean() for extent in extents]
     half = [np.ptp(extent) / 2 for extent in extents]
     focus = right * middle[0] + up * middle[1] + toward * (shown @ toward).mean()
-    return Camera(right, up, toward, focus, float(_MARGIN * max(half[1], half[0] / aspect)), float(half[0] / half[1]))
+    return Camera(
+        right,
+        up,
+        toward,
+        focus,
+        float(_MARGIN * max(half[1], half[0] / aspect)),
+        float(half[0] / half[1]),
+    )
 
 
 def _across_lean(result, times: np.ndarray) -> float:
-    """Azimuth [deg] from which the largest lean, or where it never leans the longest way, is seen at full length; from -x to x or from the front."""
+    """Azimuth [deg] from which the largest lean, or where it never leans the longest way, is seen
+    at full length; from -x to x or from the front.
+    """
     rows = slice(*np.searchsorted(result.time, [times[0], times[-1] + 1e-12]))
     way = result.way[rows, :2]
     if not len(way):

@@ -13,7 +13,9 @@ from fecolumn.schema import InputError
 
 @dataclass(frozen=True, slots=True)
 class Fields:
-    """Displacement (n_points, 3) [m], von Mises stress (n_cells,) [Pa] and contact pressure (n_points,) [Pa] of column and base, in the order of the mesh."""
+    """Displacement (n_points, 3) [m], von Mises stress (n_cells,) [Pa] and contact pressure
+    (n_points,) [Pa] of column and base, in the order of the mesh.
+    """
 
     displacement: np.ndarray
     stress: np.ndarray
@@ -23,8 +25,10 @@ class Fields:
 class FrameSeries:
     """Instants at which fields are known: read(k) gives the Fields of one.
 
-    Attributes:
-        time: (n,) [s], rising.
+    Attributes
+    ----------
+    time
+        (n,) [s], rising.
     """
 
     def __init__(self, time: np.ndarray):
@@ -44,8 +48,10 @@ class FrameSeries:
 class FieldFrames(FrameSeries):
     """The frames in a folder that `post.fields.FieldWriter` filled; one is in memory at a time.
 
-    Attributes:
-        files: of the frames; time: (n,) [s] of each, rising. points: (n_points, 3) [m] of column and base.
+    Attributes
+    ----------
+    files
+        of the frames; time: (n,) [s] of each, rising. points: (n_points, 3) [m] of column and base.
     """
 
     def __init__(self, folder: Path):
@@ -57,13 +63,17 @@ class FieldFrames(FrameSeries):
     def fits(self, solid: Solid) -> bool:
         """Whether the fields are on the mesh of `solid`."""
         points = np.vstack([solid.mesh.body.points, solid.mesh.base.points])
-        return points.shape == self.points.shape and np.allclose(points, self.points, rtol=0, atol=1e-6 * solid.height)
+        return points.shape == self.points.shape and np.allclose(
+            points, self.points, rtol=0, atol=1e-6 * solid.height
+        )
 
     def read(self, k: int) -> Fields:
         """Frame `k`.
 
-        Raises:
-            InputError: its file is damaged.
+        Raises
+        ------
+        InputError
+            its file is damaged.
         """
         return Fields(*_read(self.files[k], "displacement", "von_mises", "pressure"))
 

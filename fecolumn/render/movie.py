@@ -19,11 +19,19 @@ GIF_RATE, GIF_WIDTH = 12.5, 800
 class Movie:
     """An MP4 file that takes pictures one by one; complete once the `with` block ends.
 
-    Args:
-        file: to write. size: (width, height) [pixels], both even. fps: pictures a second.
+    Parameters
+    ----------
+    file
+        to write.
+    size
+        (width, height) [pixels], both even.
+    fps
+        pictures a second.
 
-    Raises:
-        OSError: the disk is full, or the file cannot be written.
+    Raises
+    ------
+    OSError
+        the disk is full, or the file cannot be written.
     """
 
     def __init__(self, file: Path, size: tuple[int, int], fps: float):
@@ -31,13 +39,19 @@ class Movie:
 
         self.file, self._av = file, av
         self._container = av.open(str(file), "w", format="mp4", options={"movflags": "faststart"})
-        self._stream = self._container.add_stream("libx264", rate=Fraction(fps).limit_denominator(1000), options={"crf": _QUALITY, "preset": "veryfast"})
+        self._stream = self._container.add_stream(
+            "libx264",
+            rate=Fraction(fps).limit_denominator(1000),
+            options={"crf": _QUALITY, "preset": "veryfast"},
+        )
         self._stream.width, self._stream.height = size
         self._stream.pix_fmt = "yuv420p"  # what every player takes
 
     def add(self, picture: np.ndarray) -> None:
         """Append a picture (height, width, 3), uint8."""
-        for packet in self._stream.encode(self._av.VideoFrame.from_ndarray(np.ascontiguousarray(picture), format="rgb24")):
+        for packet in self._stream.encode(
+            self._av.VideoFrame.from_ndarray(np.ascontiguousarray(picture), format="rgb24")
+        ):
             self._container.mux(packet)
 
     def __enter__(self) -> Movie:
@@ -57,9 +71,12 @@ class Movie:
 class Gif:
     """A GIF as `Movie` is an MP4; pictures are reduced to GIF_WIDTH and to one palette.
 
-    Args:
-        file, size, fps: as of `Movie`; fps at most GIF_RATE.
-        samples: pictures that have the colours of all.
+    Parameters
+    ----------
+    file, size, fps
+        as of `Movie`; fps at most GIF_RATE.
+    samples
+        pictures that have the colours of all.
     """
 
     def __init__(self, file: Path, size: tuple[int, int], fps: float, samples: list[np.ndarray]):
@@ -68,10 +85,12 @@ class Gif:
         self.file, self._av = file, av
         width = min(GIF_WIDTH, size[0])
         self._size = width, round(width * size[1] / size[0])
-        self._palette = self._image(np.concatenate(samples), (width, self._size[1] * len(samples))).quantize(_COLOURS)
+        self._palette = self._image(
+            np.concatenate(samples), (width, self._size[1] * len(samples))
+        ).quantize(_COLOURS)
         colours = np.zeros((256, 4), np.uint8)
         given = np.asarray(self._palette.getpalette(), np.uint8).reshape(-1, 3)[:256]
-        colours[:len(given), 1:], colours[:, 0] = given, 255
+        colours[: len(given), 1:], colours[:, 0] = given, 255
         self._colours = colours
         self._container = av.open(str(file), "w", format="gif", options={"loop": "0"})
         self._stream = self._container.add_stream("gif", rate=Fraction(fps).limit_denominator(1000))
@@ -88,8 +107,14 @@ class Gif:
         """Append a picture (height, width, 3), uint8."""
         from PIL import Image
 
-        numbers = np.asarray(self._image(picture, self._size).quantize(palette=self._palette, dither=Image.Dither.NONE))
-        for packet in self._stream.encode(self._av.VideoFrame.from_ndarray((numbers, self._colours), format="pal8")):
+        numbers = np.asarray(
+            self._image(picture, self._size).quantize(
+                palette=self._palette, dither=Image.Dither.NONE
+            )
+        )
+        for packet in self._stream.encode(
+            self._av.VideoFrame.from_ndarray((numbers, self._colours), format="pal8")
+        ):
             self._container.mux(packet)
 
     __enter__, __exit__ = Movie.__enter__, Movie.__exit__

@@ -1,4 +1,6 @@
-"""The movie's picture: column or structure in three dimensions, and beside it what the history says, up to the frame's time."""
+"""The movie's picture: column or structure in three dimensions, and beside it what the history
+says, up to the frame's time.
+"""
 
 from __future__ import annotations
 
@@ -25,8 +27,14 @@ _VEIL = dict(facecolor="white", alpha=0.68, linewidth=0)
 class Panel:
     """Makes pictures of frames; everything that stays is drawn once.
 
-    Args:
-        frames: Frames or StructureFrames. size: (width, height) [pixels], width at least 1.4 times the height. speed: seconds of motion in a second of the movie.
+    Parameters
+    ----------
+    frames
+        Frames or StructureFrames.
+    size
+        (width, height) [pixels], width at least 1.4 times the height.
+    speed
+        seconds of motion in a second of the movie.
     """
 
     def __init__(self, frames, size: tuple[int, int], speed: float = 1.0):
@@ -61,10 +69,22 @@ class Panel:
         each = (height - (len(strips) - 1) * gap) / len(strips)
         self._cursors = []
         for row, strip in enumerate(strips):
-            axes = figure.add_axes([left, bottom + (len(strips) - 1 - row) * (each + gap), width, each])
+            axes = figure.add_axes(
+                [left, bottom + (len(strips) - 1 - row) * (each + gap), width, each]
+            )
             draw_strip(axes, strip, last=row == len(strips) - 1)
             # of what `axvspan` draws the kind depends on matplotlib's version
-            veil = axes.add_artist(Rectangle((0, 0), 1, 1, transform=axes.get_xaxis_transform(), zorder=3, animated=True, **_VEIL))
+            veil = axes.add_artist(
+                Rectangle(
+                    (0, 0),
+                    1,
+                    1,
+                    transform=axes.get_xaxis_transform(),
+                    zorder=3,
+                    animated=True,
+                    **_VEIL,
+                )
+            )
             cursor = axes.axvline(0, color=BLACK, linewidth=0.8, zorder=4, animated=True)
             self._cursors.append((axes, veil, cursor))
         self._end = strips[0].time[-1]
@@ -79,8 +99,8 @@ class Panel:
         axes.set(xlabel=f"$u_x$ [{quantity.unit}]")
         axes.set_ylabel(f"$u_y$ [{quantity.unit}]", labelpad=1)
         axes.set_title(self.frames.result.top_title, loc="left")
-        self._trace, = axes.plot([], [], color=VERMILION, linewidth=0.9, animated=True)
-        self._top, = axes.plot([], [], "o", color=VERMILION, markersize=4, animated=True)
+        (self._trace,) = axes.plot([], [], color=VERMILION, linewidth=0.9, animated=True)
+        (self._top,) = axes.plot([], [], "o", color=VERMILION, markersize=4, animated=True)
         self._moving += [(axes, self._trace), (axes, self._top)]
 
     def _place_words(self, figure, speed: float) -> None:
@@ -88,9 +108,16 @@ class Panel:
 
         frames = self.frames
         bar, quantity = figure.add_axes(_BAR), frames.colour_quantity
-        figure.colorbar(ScalarMappable(quantity.norm(), COLOUR_MAPS[frames.colour]), cax=bar, orientation="horizontal", label=quantity.label)
+        figure.colorbar(
+            ScalarMappable(quantity.norm(), COLOUR_MAPS[frames.colour]),
+            cax=bar,
+            orientation="horizontal",
+            label=quantity.label,
+        )
         told = [f"speed × {speed:g}"] if speed != 1 else []
-        told += [f"elastic deformation × {frames.exaggeration:g}"] if frames.exaggeration != 1 else []
+        told += (
+            [f"elastic deformation × {frames.exaggeration:g}"] if frames.exaggeration != 1 else []
+        )
         figure.text(0.395, 0.955, ", ".join(told), ha="right", va="bottom")
         self._stamp = figure.text(0.02, 0.955, "", fontsize=11, va="bottom", animated=True)
 
@@ -107,8 +134,10 @@ class Panel:
             veil.set(x=frame.time, width=self._end - frame.time)
             axes.draw_artist(veil)
             axes.draw_artist(cursor)
-        first, last = np.searchsorted(self.frames.result.time, [self.frames.times[0] - 1e-9, frame.time + 1e-9])
-        way = self._way[min(first, last - 1):last]
+        first, last = np.searchsorted(
+            self.frames.result.time, [self.frames.times[0] - 1e-9, frame.time + 1e-9]
+        )
+        way = self._way[min(first, last - 1) : last]
         self._trace.set_data(*way.T)
         self._top.set_data(*way[-1:].T)
         self._plan.show(frame)
@@ -118,7 +147,7 @@ class Panel:
         self._stamp.draw(renderer)
         picture = np.asarray(self._canvas.buffer_rgba())[..., :3].copy()
         top, left = self._corner
-        picture[top:top + scene.shape[0], left:left + scene.shape[1]] = scene
+        picture[top : top + scene.shape[0], left : left + scene.shape[1]] = scene
         return picture
 
     @property
@@ -136,8 +165,12 @@ def square(axes, points: np.ndarray, wider: float) -> None:
 
 
 def draw_strip(axes, strip: Strip, last: bool) -> None:
-    """Lines of a strip over time, with their names above it; the axis of time has its label below the last one."""
-    for (values, name), (colour, dash) in zip(strip.lines, ((BLUE, "-"), (VERMILION, "--"), (GREEN, "-."), (ORANGE, ":"))):
+    """Lines of a strip over time, with their names above it; the axis of time has its label below
+    the last one.
+    """
+    for (values, name), (colour, dash) in zip(
+        strip.lines, ((BLUE, "-"), (VERMILION, "--"), (GREEN, "-."), (ORANGE, ":"))
+    ):
         axes.plot(strip.time, values, color=colour, linestyle=dash, linewidth=0.8, label=name)
     axes.set_xlim(strip.time[0], strip.time[-1])
     axes.set_ylabel(strip.label, labelpad=2)
@@ -145,7 +178,14 @@ def draw_strip(axes, strip: Strip, last: bool) -> None:
     axes.locator_params(axis="y", nbins=5)
     axes.set_title(strip.title, loc="left", pad=3)
     if len(strip.lines) > 1:
-        axes.legend(loc="lower right", bbox_to_anchor=(1.01, 0.97), ncol=len(strip.lines), borderaxespad=0, framealpha=0, columnspacing=0.9)
+        axes.legend(
+            loc="lower right",
+            bbox_to_anchor=(1.01, 0.97),
+            ncol=len(strip.lines),
+            borderaxespad=0,
+            framealpha=0,
+            columnspacing=0.9,
+        )
     if last:
         axes.set_xlabel("time [s]")
     else:

@@ -8,20 +8,29 @@ from fecolumn.case import GRAVITY
 from fecolumn.mesh.quality import MassProperties
 from fecolumn.render.pose import Poses
 
-# Share of the weight [-] below which the base's push says nothing of where it acts: the column is in flight
+# Share of the weight [-] below which the base's push says nothing of where it acts: the column is
+# in flight
 _LIGHT = 0.05
 
 
-def pressure_centre(poses: Poses, ground: np.ndarray, mass: MassProperties, times: np.ndarray, interval: float) -> np.ndarray:
-    """Centre (k, 2) [m] of the contact pressure in the mean over `interval` [s] around each of `times`; nan in flight.
+def pressure_centre(
+    poses: Poses, ground: np.ndarray, mass: MassProperties, times: np.ndarray, interval: float
+) -> np.ndarray:
+    """Centre (k, 2) [m] of the contact pressure in the mean over `interval` [s] around each of
+    `times`; nan in flight.
 
-    Over an interval the base gives the column the change of its momentum, and that of its angular momentum about its centre of mass; what impacts give
-    is part of both. With J the impulse, c the centre of mass, p the pressure's centre in the plane z = 0: (p - c) x J = change of L.
+    Over an interval the base gives the column the change of its momentum, and that of its angular
+    momentum about its centre of mass; what impacts give is part of both. With J the impulse, c the
+    centre of mass, p the pressure's centre in the plane z = 0: (p - c) x J = change of L.
 
-    Args:
-        poses: at the n rows of the history, at least three.
-        ground: (n, 3) [m/s2] acceleration of the base.
-        mass: of the column, its centre in the reference configuration.
+    Parameters
+    ----------
+    poses
+        at the n rows of the history, at least three.
+    ground
+        (n, 3) [m/s2] acceleration of the base.
+    mass
+        of the column, its centre in the reference configuration.
     """
     from scipy.integrate import cumulative_trapezoid
     from scipy.spatial.transform import Rotation
@@ -32,16 +41,23 @@ def pressure_centre(poses: Poses, ground: np.ndarray, mass: MassProperties, time
     shaken = cumulative_trapezoid(ground, time, axis=0, initial=0.0)
 
     def momentum(k):
-        """Of rows k: momentum per mass (., 3) and angular momentum (., 3), from the rows before and after."""
+        """Of rows k: momentum per mass (., 3) and angular momentum (., 3), from the rows before and
+        after.
+        """
         span = (time[k + 1] - time[k - 1])[:, None]
         where = [poses.move(mass.centre[None], k + side)[:, 0] for side in (-1, 1)]
-        spin = (Rotation.from_matrix(poses.rotation[k + 1]) * Rotation.from_matrix(poses.rotation[k - 1]).inv()).as_rotvec() / span
+        spin = (
+            Rotation.from_matrix(poses.rotation[k + 1])
+            * Rotation.from_matrix(poses.rotation[k - 1]).inv()
+        ).as_rotvec() / span
         turned = poses.rotation[k] @ mass.inertia @ poses.rotation[k].swapaxes(1, 2)
         return (where[1] - where[0]) / span, np.einsum("kij,kj->ki", turned, spin)
 
     (slow, before), (fast, after) = momentum(first), momentum(end)
     lasted = time[end] - time[first]
-    impulse = mass.mass * (fast - slow + shaken[end] - shaken[first] + lasted[:, None] * [0.0, 0.0, GRAVITY])
+    impulse = mass.mass * (
+        fast - slow + shaken[end] - shaken[first] + lasted[:, None] * [0.0, 0.0, GRAVITY]
+    )
     turning = after - before
     middle = poses.move(mass.centre[None], (first + end) // 2)[:, 0]
     pushed = impulse[:, 2] > _LIGHT * mass.mass * GRAVITY * lasted

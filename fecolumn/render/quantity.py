@@ -7,15 +7,24 @@ from dataclasses import dataclass
 import numpy as np
 
 # Prefixes that readers of each unit know, from small to large
-_PREFIXES = {"m": ((1e-6, "µm"), (1e-3, "mm"), (1.0, "m")), "rad": ((1e-6, "µrad"), (1e-3, "mrad")), "Pa": ((1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")),
-             "J": ((1e-9, "nJ"), (1e-6, "µJ"), (1e-3, "mJ"), (1.0, "J"), (1e3, "kJ"), (1e6, "MJ")), "N": ((1.0, "N"), (1e3, "kN"), (1e6, "MN")), "m/s2": ((1.0, "m/s²"),)}
-# Lengths and angles are written in the smallest unit in which they stay below so much: engineers read 800 mm, not 0.8 m
+_PREFIXES = {
+    "m": ((1e-6, "µm"), (1e-3, "mm"), (1.0, "m")),
+    "rad": ((1e-6, "µrad"), (1e-3, "mrad")),
+    "Pa": ((1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")),
+    "J": ((1e-9, "nJ"), (1e-6, "µJ"), (1e-3, "mJ"), (1.0, "J"), (1e3, "kJ"), (1e6, "MJ")),
+    "N": ((1.0, "N"), (1e3, "kN"), (1e6, "MN")),
+    "m/s2": ((1.0, "m/s²"),),
+}
+# Lengths and angles are written in the smallest unit in which they stay below so much: engineers
+# read 800 mm, not 0.8 m
 _LARGEST = {"m": 1e3, "rad": 2e3}
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """Name, unit as written, what one of that unit is in SI, the largest value in SI, and over how many decades its colours run; 0: from zero, evenly."""
+    """Name, unit as written, what one of that unit is in SI, the largest value in SI, and over how
+    many decades its colours run; 0: from zero, evenly.
+    """
 
     name: str
     unit: str
@@ -25,11 +34,19 @@ class Quantity:
 
     @classmethod
     def of(cls, name: str, unit: str, largest: float, decades: int = 0) -> Quantity:
-        """The quantity in the largest prefixed unit in which its largest value [SI] is at least 1, and lengths and angles in the smallest in which they stay readable."""
+        """The quantity in the largest prefixed unit in which its largest value [SI] is at least 1,
+        and lengths and angles in the smallest in which they stay readable.
+        """
         largest, choices = float(np.nan_to_num(abs(largest))), _PREFIXES[unit]
         least = _LARGEST.get(unit)
-        fit = [(scale, word) for scale, word in choices if (largest / scale <= least if least else largest >= scale)]
-        scale, word = (fit[0] if least else fit[-1]) if fit else (choices[-1] if least else choices[0])
+        fit = [
+            (scale, word)
+            for scale, word in choices
+            if (largest / scale <= least if least else largest >= scale)
+        ]
+        scale, word = (
+            (fit[0] if least else fit[-1]) if fit else (choices[-1] if least else choices[0])
+        )
         return cls(name, word, scale, largest, decades)
 
     @property

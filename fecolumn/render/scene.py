@@ -10,26 +10,37 @@ from fecolumn.post.style import BLACK, VERMILION
 from fecolumn.render.camera import Camera
 from fecolumn.render.frames import Frame
 
-#: Colour maps from light to dark, which all eyes tell apart and print in grey keeps (Brewer, colorbrewer2.org); at rest the column is light
+#: Colour maps from light to dark, which all eyes tell apart and print in grey keeps (Brewer,
+#: colorbrewer2.org); at rest the column is light
 COLOUR_MAPS = {"stress": "YlOrRd", "displacement": "GnBu"}
 _BASE, _EDGE = "#d9dbd6", "#4a4f54"
 # Points of the path of the top: more are not told apart
 _PATH_POINTS = 2000
 # Of links, and of bodies that have no stress
 _LINK, _RIGID = "#1f4e79", "#b9bfc4"
-# Of a quick scene: how much finer it is drawn; what is not seen to move [pixels], and to change its colour, of all colours [-]
+# Of a quick scene: how much finer it is drawn; what is not seen to move [pixels], and to change its
+# colour, of all colours [-]
 _FINER, _UNSEEN, _ALIKE = 1.5, 0.1, 1 / 256
 # Lift of lines above the base that they lie on, over the height shown [-]
 _LIFT = 2e-3
 
 
 class Scene:
-    """Column and base, or a structure on the ground, as VTK draws them; `image` gives the pixels of a frame. To be closed.
+    """Column and base, or a structure on the ground, as VTK draws them; `image` gives the pixels of
+    a frame. To be closed.
 
-    Args:
-        frames: Frames or StructureFrames, for what is drawn and the ranges of colours; the way of the top is drawn up to each frame's time. camera: Camera.
-        size: (width, height) of the images [pixels].
-        quick: smooth edges by drawing finer than `size`, which takes half the time of VTK's samples in each pixel; and draw nothing anew that nobody sees move.
+    Parameters
+    ----------
+    frames
+        Frames or StructureFrames, for what is drawn and the ranges of colours; the way of the top
+        is drawn up to each frame's time.
+    camera
+        Camera.
+    size
+        (width, height) of the images [pixels].
+    quick
+        smooth edges by drawing finer than `size`, which takes half the time of VTK's samples in
+        each pixel; and draw nothing anew that nobody sees move.
     """
 
     def __init__(self, frames, camera: Camera, size: tuple[int, int], quick: bool = False):
@@ -40,10 +51,18 @@ class Scene:
 
         self._frames, self._camera, path = frames, camera, frames.result.path
         every = max(1, -(-len(path) // _PATH_POINTS))
-        # in parallel projection what is moved towards the viewer looks the same, and nothing hides it
-        self._path, self._path_times = np.asarray(path[::every] + 2 * frames.result.height * camera.toward, np.float32), frames.result.time[::every]
+        # in parallel projection what is moved towards the viewer looks the same, and nothing hides
+        # it
+        self._path, self._path_times = (
+            np.asarray(path[::every] + 2 * frames.result.height * camera.toward, np.float32),
+            frames.result.time[::every],
+        )
         self._size, self._quick, self._last = size, quick, None
-        self._plotter = pyvista.Plotter(off_screen=True, window_size=[round(_FINER * side) for side in size] if quick else list(size), lighting="none")
+        self._plotter = pyvista.Plotter(
+            off_screen=True,
+            window_size=[round(_FINER * side) for side in size] if quick else list(size),
+            lighting="none",
+        )
         if quick:
             self._plotter.render_window.SetMultiSamples(0)
         self._plotter.set_background("white")
@@ -51,21 +70,35 @@ class Scene:
         first = frames.frame(0)
         self._column = self._add(frames.surface, first.column, first.colour)
         self._base = self._add_base(first)
-        self._lines = [(name, self._add_lines(getattr(first, name), colour, 2.0)) for name, colour in (("links", _LINK), ("struts", _EDGE)) if getattr(first, name) is not None]
-        self._trace = pyvista.lines_from_points(np.array(self._path)) if len(self._path) > 1 else None
+        self._lines = [
+            (name, self._add_lines(getattr(first, name), colour, 2.0))
+            for name, colour in (("links", _LINK), ("struts", _EDGE))
+            if getattr(first, name) is not None
+        ]
+        self._trace = (
+            pyvista.lines_from_points(np.array(self._path)) if len(self._path) > 1 else None
+        )
         if self._trace is not None:
-            self._plotter.add_mesh(self._trace, color=VERMILION, line_width=1.6 * self._line_width, lighting=False)
+            self._plotter.add_mesh(
+                self._trace, color=VERMILION, line_width=1.6 * self._line_width, lighting=False
+            )
         # where the feet stood before they moved
-        self._add_lines(frames.result.outlines + camera.toward * _LIFT * 2 * camera.half_height, BLACK, 1.2)
+        self._add_lines(
+            frames.result.outlines + camera.toward * _LIFT * 2 * camera.half_height, BLACK, 1.2
+        )
         self._light_and_look()
 
     def _add_lines(self, ends, color, width):
         """Straight lines with ends (n, 2, 3) [m]."""
         import pyvista
 
-        lines = np.column_stack([np.full(len(ends), 2), np.arange(len(ends) * 2).reshape(-1, 2)]).ravel()
+        lines = np.column_stack(
+            [np.full(len(ends), 2), np.arange(len(ends) * 2).reshape(-1, 2)]
+        ).ravel()
         mesh = pyvista.PolyData(np.array(ends, np.float32).reshape(-1, 3), lines=lines)
-        self._plotter.add_mesh(mesh, color=color, line_width=width * self._line_width, lighting=False)
+        self._plotter.add_mesh(
+            mesh, color=color, line_width=width * self._line_width, lighting=False
+        )
         return mesh
 
     def _add(self, surface, points, colour):
@@ -76,9 +109,22 @@ class Scene:
         quantity = self._frames.colour_quantity
         self._coloured(mesh)["colour"] = np.asarray(colour, np.float32)
         # the edges of bricks show how the column turns about its axis
-        self._plotter.add_mesh(mesh, scalars="colour", cmap=COLOUR_MAPS[self._frames.colour], clim=quantity.range, log_scale=quantity.decades > 0, show_scalar_bar=False,
-                               show_edges=True, edge_color=_EDGE, edge_opacity=0.35, line_width=0.5 * self._line_width, ambient=0.55, diffuse=0.5,
-                               interpolate_before_map=True, nan_color=_RIGID)
+        self._plotter.add_mesh(
+            mesh,
+            scalars="colour",
+            cmap=COLOUR_MAPS[self._frames.colour],
+            clim=quantity.range,
+            log_scale=quantity.decades > 0,
+            show_scalar_bar=False,
+            show_edges=True,
+            edge_color=_EDGE,
+            edge_opacity=0.35,
+            line_width=0.5 * self._line_width,
+            ambient=0.55,
+            diffuse=0.5,
+            interpolate_before_map=True,
+            nan_color=_RIGID,
+        )
         return mesh
 
     def _add_base(self, first: Frame):
@@ -86,17 +132,33 @@ class Scene:
 
         if first.base_colour is not None:
             return self._add(self._frames.base_surface, first.base, first.base_colour)
-        look = dict(color=_BASE, show_edges=True, edge_color=_EDGE, edge_opacity=0.35, line_width=0.5 * self._line_width, ambient=0.55, diffuse=0.5)
+        look = dict(
+            color=_BASE,
+            show_edges=True,
+            edge_color=_EDGE,
+            edge_opacity=0.35,
+            line_width=0.5 * self._line_width,
+            ambient=0.55,
+            diffuse=0.5,
+        )
         if first.base is not None:
-            mesh = pyvista.PolyData.from_regular_faces(np.array(first.base, np.float32), self._frames.base_surface.faces)
+            mesh = pyvista.PolyData.from_regular_faces(
+                np.array(first.base, np.float32), self._frames.base_surface.faces
+            )
             self._plotter.add_mesh(mesh, **look)
             return mesh
         low, high, square = self._frames.result.ground
         square = max(square, float((high - low).max()) / 200)
         low, high = np.floor(low / square) * square, np.ceil(high / square) * square
         count = np.round((high - low) / square).astype(int)
-        plane = pyvista.Plane(center=(*((low + high) / 2), 0.0), direction=(0, 0, 1), i_size=float(np.ptp([low[0], high[0]])), j_size=float(np.ptp([low[1], high[1]])),
-                              i_resolution=int(count[0]), j_resolution=int(count[1]))
+        plane = pyvista.Plane(
+            center=(*((low + high) / 2), 0.0),
+            direction=(0, 0, 1),
+            i_size=float(np.ptp([low[0], high[0]])),
+            j_size=float(np.ptp([low[1], high[1]])),
+            i_resolution=int(count[0]),
+            j_resolution=int(count[1]),
+        )
         self._plotter.add_mesh(plane, **look)
         return None
 
@@ -104,10 +166,24 @@ class Scene:
         import pyvista
 
         view, reach = self._camera, 20 * self._camera.half_height + 5 * self._frames.result.height
-        for direction, strength in ((view.toward + 0.8 * view.up - 0.5 * view.right, 0.95), (view.toward + view.right, 0.25)):
-            self._plotter.add_light(pyvista.Light(position=tuple(view.focus + reach * direction), focal_point=tuple(view.focus), intensity=strength, light_type="scene light"))
+        for direction, strength in (
+            (view.toward + 0.8 * view.up - 0.5 * view.right, 0.95),
+            (view.toward + view.right, 0.25),
+        ):
+            self._plotter.add_light(
+                pyvista.Light(
+                    position=tuple(view.focus + reach * direction),
+                    focal_point=tuple(view.focus),
+                    intensity=strength,
+                    light_type="scene light",
+                )
+            )
         self._plotter.enable_parallel_projection()
-        self._plotter.camera_position = [tuple(view.focus + reach * view.toward), tuple(view.focus), tuple(view.up)]
+        self._plotter.camera_position = [
+            tuple(view.focus + reach * view.toward),
+            tuple(view.focus),
+            tuple(view.up),
+        ]
         self._plotter.camera.parallel_scale = view.half_height
         self._plotter.camera.clipping_range = (0.2 * reach, 1.8 * reach)
 
@@ -138,11 +214,19 @@ class Scene:
         """Whether a frame differs from what was drawn by less than is seen."""
         if self._frames.from_fields:
             return False
-        pixel, (_, largest) = 2 * self._camera.half_height / self._size[1], self._frames.colour_quantity.range
-        return bool(np.abs(frame.column - column).max() < _UNSEEN * pixel and np.abs(frame.colour - colour).max() < _ALIKE * largest)
+        pixel, (_, largest) = (
+            2 * self._camera.half_height / self._size[1],
+            self._frames.colour_quantity.range,
+        )
+        return bool(
+            np.abs(frame.column - column).max() < _UNSEEN * pixel
+            and np.abs(frame.colour - colour).max() < _ALIKE * largest
+        )
 
     def _coloured(self, mesh):
-        """Where a surface keeps its colour: stress belongs to faces, displacement to points; a tube has as many of the ones as of the others."""
+        """Where a surface keeps its colour: stress belongs to faces, displacement to points; a tube
+        has as many of the ones as of the others.
+        """
         return mesh.cell_data if self._frames.colour == "stress" else mesh.point_data
 
     def _move(self, mesh, points, colour) -> None:

@@ -11,38 +11,52 @@ from fecolumn.reduced.states import read_states, signature, state_at
 from fecolumn.render.field_frames import Fields, FrameSeries
 from fecolumn.schema import InputError
 
-#: Modes of a model made anew are those of the analysis when frequencies and signatures agree to this share: states are kept in single precision
+#: Modes of a model made anew are those of the analysis when frequencies and signatures agree to
+#: this share: states are kept in single precision
 SAME = 1e-5
 
 
 def same_modes(old: np.ndarray, new: np.ndarray) -> bool:
     """Whether frequencies or signatures made anew are those that a file has."""
-    return old.shape == new.shape and np.allclose(old, new, rtol=0, atol=SAME * max(float(np.abs(old).max(initial=0.0)), 1e-300))
+    return old.shape == new.shape and np.allclose(
+        old, new, rtol=0, atol=SAME * max(float(np.abs(old).max(initial=0.0)), 1e-300)
+    )
 
 
 class StateFrames(FrameSeries):
-    """The states in a file of `reduced.states`; the model of the column, and what expands it to fields, are made when the first frame is read.
+    """The states in a file of `reduced.states`; the model of the column, and what expands it to
+    fields, are made when the first frame is read.
 
-    Attributes:
-        time: (n,) [s] of each.
+    Attributes
+    ----------
+    time
+        (n,) [s] of each.
     """
 
     def __init__(self, file: Path, case: Case):
         """Raises:
-            InputError: the file is damaged.
+        InputError: the file is damaged.
         """
         try:
             self._arrays = read_states(file)
         except (OSError, KeyError) as error:
-            raise InputError(file, "", None, f"not the states of an analysis ({error}); remove it to draw what the history alone gives") from None
+            raise InputError(
+                file,
+                "",
+                None,
+                f"not the states of an analysis ({error}); remove it to draw what the "
+                "history alone gives",
+            ) from None
         self._file, self._case, self._expand = file, case, None
         super().__init__(self._arrays["time"])
 
     def read(self, k: int) -> Fields:
         """Frame `k`.
 
-        Raises:
-            InputError: the column's modes, made anew, are others than those of the analysis.
+        Raises
+        ------
+        InputError
+            the column's modes, made anew, are others than those of the analysis.
         """
         values = self.values(k)
         return Fields(values["displacement"], values["von_mises"], values["pressure"])
@@ -69,16 +83,28 @@ class StateFrames(FrameSeries):
         return self._expand
 
     def _check(self, model) -> None:
-        if not (same_modes(self._arrays["frequencies"], model.frequencies) and same_modes(self._arrays["signature"], signature(model))):
-            raise InputError(self._file, "", None, "is of other modes than those made of this column now: deformation, stress and pressure cannot be made from it; "
-                             "--color displacement draws the history, and the case run into a new folder has them again")
+        if not (
+            same_modes(self._arrays["frequencies"], model.frequencies)
+            and same_modes(self._arrays["signature"], signature(model))
+        ):
+            raise InputError(
+                self._file,
+                "",
+                None,
+                "is of other modes than those made of this column now: deformation, "
+                "stress and pressure cannot be made from it; "
+                "--color displacement draws the history, and the case run into a new "
+                "folder has them again",
+            )
 
 
 def write_fields(frames, folder: Path, tell=lambda done: None) -> None:
     """Write the fields of all states into a folder, as `post.fields.FieldWriter` does.
 
-    Args:
-        frames: StateFrames or StructureStates.
+    Parameters
+    ----------
+    frames
+        StateFrames or StructureStates.
     """
     from fecolumn.post.fields import FieldWriter
 

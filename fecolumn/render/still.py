@@ -20,8 +20,12 @@ def still_size(natural: float, dpi: int) -> tuple[int, int]:
     return round(width * dpi), round(float(np.clip(width / natural, *_HEIGHTS_IN)) * dpi)
 
 
-def still_figure(frames, frame: Frame, image: np.ndarray, dpi: int, path: Path, formats=("png",)) -> list[Path]:
-    """Write the picture (height, width, 3) of a frame, of `still_size`, with its time and the scale of its colours; `path` without suffix."""
+def still_figure(
+    frames, frame: Frame, image: np.ndarray, dpi: int, path: Path, formats=("png",)
+) -> list[Path]:
+    """Write the picture (height, width, 3) of a frame, of `still_size`, with its time and the scale
+    of its colours; `path` without suffix.
+    """
     from matplotlib.cm import ScalarMappable
 
     tall = image.shape[0] / dpi + _ABOVE_IN
@@ -32,8 +36,16 @@ def still_figure(frames, frame: Frame, image: np.ndarray, dpi: int, path: Path, 
         axes = figure.add_axes([0, 0, 1 - _RIGHT_IN / COLUMN_WIDTH_IN, share])
         axes.imshow(image, interpolation="antialiased", aspect="auto")
         axes.axis("off")
-        told = f"$t$ = {frame.time:.3f} s" + (f", elastic deformation × {frames.exaggeration:g}" if frames.exaggeration != 1 else "")
+        told = f"$t$ = {frame.time:.3f} s" + (
+            f", elastic deformation × {frames.exaggeration:g}" if frames.exaggeration != 1 else ""
+        )
         figure.text(0.02, 1 - 0.05 / tall, told, va="top")
         quantity = frames.colour_quantity
-        figure.colorbar(ScalarMappable(quantity.norm(), COLOUR_MAPS[frames.colour]), cax=figure.add_axes([1 - 0.95 * _RIGHT_IN / COLUMN_WIDTH_IN, 0.2 * share, 0.035, 0.6 * share]), label=quantity.label)
+        figure.colorbar(
+            ScalarMappable(quantity.norm(), COLOUR_MAPS[frames.colour]),
+            cax=figure.add_axes(
+                [1 - 0.95 * _RIGHT_IN / COLUMN_WIDTH_IN, 0.2 * share, 0.035, 0.6 * share]
+            ),
+            label=quantity.label,
+        )
         return save(figure, path, formats)

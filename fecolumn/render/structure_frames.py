@@ -1,4 +1,6 @@
-"""Frames of the motion of a structure: where every point of its bodies is at an instant, and what colours it."""
+"""Frames of the motion of a structure: where every point of its bodies is at an instant, and what
+colours it.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +18,25 @@ from fecolumn.structures.drawn import link_ends
 class StructureFrame:
     """An instant.
 
-    Attributes:
-        time: [s]. column: (n, 3) [m] points of all bodies as drawn. colour: of their faces (stress [Pa], nan of bodies that have none) or of the points (displacement [m]).
-        base, base_colour: None: the ground is a plane. links: (n, 2, 3) [m] their ends, both the same of a broken one; struts: (n, 2, 3) [m] from floor to floor at the
-            corners of buildings; None where there are none.
-        pressures: of each joint (k,) [Pa] at its contact points; centres: (n_joints, 2) [m] of them in the plan of the face, nan of an open joint.
+    Attributes
+    ----------
+    time
+        [s].
+    column
+        (n, 3) [m] points of all bodies as drawn.
+    colour
+        of their faces (stress [Pa], nan of bodies that have none) or of the points (displacement
+        [m]).
+    base, base_colour
+        None: the ground is a plane.
+    links
+        (n, 2, 3) [m] their ends, both the same of a broken one
+    struts
+        (n, 2, 3) [m] from floor to floor at the corners of buildings; None where there are none.
+    pressures
+        of each joint (k,) [Pa] at its contact points
+    centres
+        (n_joints, 2) [m] of them in the plan of the face, nan of an open joint.
     """
 
     time: float
@@ -35,18 +51,29 @@ class StructureFrame:
 
 
 class StructureFrames(Scaled):
-    """Frames of an analysis from its states or fields: bodies turn steadily and move straight between two of them; deformation, stress and pressure are those of the nearest.
+    """Frames of an analysis from its states or fields: bodies turn steadily and move straight
+    between two of them; deformation, stress and pressure are those of the nearest.
 
-    Attributes as of `render.frames.Frames`: times, exaggeration, colour, colour_quantity, pressure_quantity, from_fields.
+    Attributes as of `render.frames.Frames`: times, exaggeration, colour, colour_quantity,
+    pressure_quantity, from_fields.
     """
 
     base_surface = None
 
-    def __init__(self, result, times: np.ndarray, exaggerate: float | str = 1.0, colour: str = "", like: StructureFrames | None = None):
+    def __init__(
+        self,
+        result,
+        times: np.ndarray,
+        exaggerate: float | str = 1.0,
+        colour: str = "",
+        like: StructureFrames | None = None,
+    ):
         """Frames of a StructureResult at `times` (k,) [s]; other arguments as of `Frames`.
 
-        Raises:
-            InputError: stress is asked for where no body has any.
+        Raises
+        ------
+        InputError
+            stress is asked for where no body has any.
         """
         self.result, self._states = result, result.states
         self.times = np.asarray(times, float)
@@ -54,7 +81,13 @@ class StructureFrames(Scaled):
         self._poses = [poses.at(self.times) for poses in result.poses]
         self.colour = colour or ("stress" if self._states.has_stress else "displacement")
         if self.colour == "stress" and not self._states.has_stress:
-            raise InputError("fecolumn render", "--color", colour, "no body of this structure deforms as a continuum: all are rigid, storeys or matrices")
+            raise InputError(
+                "fecolumn render",
+                "--color",
+                colour,
+                "no body of this structure deforms as a continuum: all are rigid, "
+                "storeys or matrices",
+            )
         self._deformed = self.colour == "stress" or exaggerate != 1.0
         self.from_fields, self._kept = self._deformed, (None, None)
         self._scale(exaggerate, result.height, like)
@@ -73,7 +106,10 @@ class StructureFrames(Scaled):
     def frame(self, k: int) -> StructureFrame:
         """Frame `k`."""
         solid, (local, bent, stress), number = self.result.solid, self._expanded(k), self._number[k]
-        center, rotation = np.array([poses.foot[k] for poses in self._poses]), np.array([poses.rotation[k] for poses in self._poses])
+        center, rotation = (
+            np.array([poses.foot[k] for poses in self._poses]),
+            np.array([poses.rotation[k] for poses in self._poses]),
+        )
         drawn = solid.positions(center, rotation, local + (self.exaggeration - 1) * bent)
         if self.colour == "displacement":
             moved = drawn if self.exaggeration == 1 else solid.positions(center, rotation, local)
@@ -83,20 +119,31 @@ class StructureFrames(Scaled):
             colour = np.where(cells < 0, np.nan, stress[cells])
         links, structure = None, solid.structure
         if structure.links:
-            links = np.array([link_ends(link, structure.parts, center, rotation) for link in structure.links])
+            links = np.array(
+                [link_ends(link, structure.parts, center, rotation) for link in structure.links]
+            )
             broken = self._states.broken(number)
             links[broken, 1] = links[broken, 0]
         struts = drawn[solid.struts] if len(solid.struts) else None
-        return StructureFrame(float(self.times[k]), drawn, colour, links, struts, *self._states.pressures(number))
+        return StructureFrame(
+            float(self.times[k]), drawn, colour, links, struts, *self._states.pressures(number)
+        )
 
     def _largest_elastic(self, k: int) -> float:
         return float(np.linalg.norm(self._expanded(k)[1], axis=1).max())
 
     def _pressure_quantity(self, frames: list[StructureFrame]) -> Quantity:
-        return Quantity.of("contact pressure", "Pa", max(np.percentile(np.concatenate(frame.pressures), RANGE) for frame in frames), DECADES)
+        return Quantity.of(
+            "contact pressure",
+            "Pa",
+            max(np.percentile(np.concatenate(frame.pressures), RANGE) for frame in frames),
+            DECADES,
+        )
 
     def _expanded(self, k: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """As of `StructureFields.local`; the last one is kept: a frame is asked for twice, and more than one may be of the same state."""
+        """As of `StructureFields.local`; the last one is kept: a frame is asked for twice, and more
+        than one may be of the same state.
+        """
         if self._kept[0] != self._number[k]:
             self._kept = self._number[k], self._states.local(self._number[k], self._deformed)
         return self._kept[1]

@@ -1,4 +1,6 @@
-"""What is drawn of a structure of many bodies: the outside of each, and the faces on which they stand."""
+"""What is drawn of a structure of many bodies: the outside of each, and the faces on which they
+stand.
+"""
 
 from __future__ import annotations
 
@@ -22,10 +24,21 @@ _SAME = 1e-5
 class Piece:
     """A body as it is drawn, in its own drawing.
 
-    Attributes:
-        drawing: Drawing. points: (n, 3) [m]; the last 8 floors of them are those of a building's floors.
-        faces: (n_faces, 4 or 3) of these points, a block of each kind. cells: (n_faces,) element of each face, -1 of one without.
-        floors: how many a building has. elements: (n_cells, 8, 4 or 3) of its mesh, the floors of a building and the triangles of matrices included.
+    Attributes
+    ----------
+    drawing
+        Drawing.
+    points
+        (n, 3) [m]; the last 8 floors of them are those of a building's floors.
+    faces
+        (n_faces, 4 or 3) of these points, a block of each kind.
+    cells
+        (n_faces,) element of each face, -1 of one without.
+    floors
+        how many a building has.
+    elements
+        (n_cells, 8, 4 or 3) of its mesh, the floors of a building and the triangles of matrices
+        included.
     """
 
     drawing: Drawing
@@ -37,7 +50,9 @@ class Piece:
 
     @property
     def struts(self) -> np.ndarray:
-        """(n, 2) points between which a building has its columns: corners of a floor, or of the slab, and of the floor above."""
+        """(n, 2) points between which a building has its columns: corners of a floor, or of the
+        slab, and of the floor above.
+        """
         from scipy.spatial import cKDTree
 
         if not self.floors:
@@ -53,12 +68,23 @@ class Piece:
         """The piece of a body's drawing."""
         points, faces = outside(drawing)
         if drawing.shape is None:
-            return cls(drawing, points, tuple(faces), np.full(sum(map(len, faces)), -1), 0, faces[0])
+            return cls(
+                drawing, points, tuple(faces), np.full(sum(map(len, faces)), -1), 0, faces[0]
+            )
         floors = len(floor_boxes(drawing.body)) if isinstance(drawing.body, Storeys) else 0
         elements = drawing.shape.mesh.cells
         if floors:
-            elements = np.concatenate([elements, np.arange(8 * floors).reshape(-1, 8) + len(drawing.shape.mesh.points)])
-        return cls(drawing, points, tuple(faces), _cells_of(elements, np.concatenate(faces)), floors, elements)
+            elements = np.concatenate(
+                [elements, np.arange(8 * floors).reshape(-1, 8) + len(drawing.shape.mesh.points)]
+            )
+        return cls(
+            drawing,
+            points,
+            tuple(faces),
+            _cells_of(elements, np.concatenate(faces)),
+            floors,
+            elements,
+        )
 
 
 def _cells_of(elements: np.ndarray, faces: np.ndarray) -> np.ndarray:
@@ -68,18 +94,32 @@ def _cells_of(elements: np.ndarray, faces: np.ndarray) -> np.ndarray:
     wanted = np.sort(faces, axis=1)
     _, number = np.unique(np.concatenate([every, wanted]), axis=0, return_inverse=True)
     owner = np.empty(number.max() + 1, np.int64)
-    owner[number.ravel()[:len(every)]] = np.arange(len(every)) // len(of_cell)
-    return owner[number.ravel()[len(every):]]
+    owner[number.ravel()[: len(every)]] = np.arange(len(every)) // len(of_cell)
+    return owner[number.ravel()[len(every) :]]
 
 
 @dataclass(frozen=True, slots=True)
 class Contact:
     """The slave's face of a joint as it is drawn in plan.
 
-    Attributes:
-        interface, slave: names. part: place of the slave. nodes: (k,) rows of the contact points' nodes among those of all bodies; areas: (k,) [m2].
-        normal: (3,) out of the slave. plan: (k, 2) [m] places in the plane of the face, outline: (n, 2, 2) [m] its edges there; of a level face x and y, seen from above.
-        points: numbers of the drawn points in the face, and nearest: of the nodes above that each stands for.
+    Attributes
+    ----------
+    interface, slave
+        names.
+    part
+        place of the slave.
+    nodes
+        (k,) rows of the contact points' nodes among those of all bodies
+    areas
+        (k,) [m2].
+    normal
+        (3,) out of the slave.
+    plan
+        (k, 2) [m] places in the plane of the face, outline: (n, 2, 2) [m] its edges there; of a
+        level face x and y, seen from above.
+    points
+        numbers of the drawn points in the face, and nearest: of the nodes above that each stands
+        for.
     """
 
     interface: str
@@ -99,10 +139,22 @@ class Contact:
 class StructureSolid:
     """A structure as it is drawn, upright where it stands at first.
 
-    Attributes:
-        structure: StructureModel, upright. pieces: of each part, copies the same object. surface: the outside of all bodies.
-        first, first_cell, first_node: of each part among points, elements and contact nodes of all, one more at the end.
-        contacts: of each joint. struts: (n, 2) points between which buildings have columns. outlines: (n, 2, 3) [m] of the feet on the ground.
+    Attributes
+    ----------
+    structure
+        StructureModel, upright.
+    pieces
+        of each part, copies the same object.
+    surface
+        the outside of all bodies.
+    first, first_cell, first_node
+        of each part among points, elements and contact nodes of all, one more at the end.
+    contacts
+        of each joint.
+    struts
+        (n, 2) points between which buildings have columns.
+    outlines
+        (n, 2, 3) [m] of the feet on the ground.
     """
 
     structure: StructureModel
@@ -131,45 +183,95 @@ class StructureSolid:
         return float(np.ptp(self.points[:, :2], axis=0).max())
 
     def positions(self, center: np.ndarray, rotation: np.ndarray, local: np.ndarray) -> np.ndarray:
-        """Positions (n, 3) [m] of all points of bodies with centres of mass (nb, 3) [m], turned by (nb, 3, 3), displaced by `local` (n, 3) [m] in their frames."""
+        """Positions (n, 3) [m] of all points of bodies with centres of mass (nb, 3) [m], turned by
+        (nb, 3, 3), displaced by `local` (n, 3) [m] in their frames.
+        """
         placed = np.empty((self.first[-1], 3))
         for k, part in enumerate(self.structure.parts):
             rows = slice(self.first[k], self.first[k + 1])
-            placed[rows] = center[k] + (self.points[rows] - part.center + local[rows]) @ rotation[k].T
+            placed[rows] = (
+                center[k] + (self.points[rows] - part.center + local[rows]) @ rotation[k].T
+            )
         return placed
 
 
-def structure_solid(drawings: dict[str, Drawing], structure: StructureModel, copies) -> StructureSolid:
+def structure_solid(
+    drawings: dict[str, Drawing], structure: StructureModel, copies
+) -> StructureSolid:
     """Args:
-        drawings: by body. structure: upright. copies: (body, number) of each part.
+    drawings: by body. structure: upright. copies: (body, number) of each part.
     """
     pieces = {name: Piece.of(drawing) for name, drawing in drawings.items()}
     each = tuple(pieces[name] for name, _ in copies)
-    first, first_cell = (np.cumsum([0] + [len(getattr(piece, what)) for piece in each]) for what in ("points", "elements"))
+    first, first_cell = (
+        np.cumsum([0] + [len(getattr(piece, what)) for piece in each])
+        for what in ("points", "elements")
+    )
     first_node = np.cumsum([0] + [len(part.model.arms) for part in structure.parts])
-    points = np.concatenate([piece.points - part.model.center + part.center for piece, part in zip(each, structure.parts)])
+    points = np.concatenate(
+        [
+            piece.points - part.model.center + part.center
+            for piece, part in zip(each, structure.parts)
+        ]
+    )
     faces = [faces + start for piece, start in zip(each, first) for faces in piece.faces]
-    cells = np.concatenate([np.where(piece.cells < 0, -1, piece.cells + start) for piece, start in zip(each, first_cell)])
+    cells = np.concatenate(
+        [
+            np.where(piece.cells < 0, -1, piece.cells + start)
+            for piece, start in zip(each, first_cell)
+        ]
+    )
     part = np.repeat(np.arange(len(each)), [len(piece.cells) for piece in each])
     surface = Surface(points, np.arange(len(points)), _joined(faces), cells, part)
-    contacts = tuple(_contact(joint, each[joint.slave], structure.parts[joint.slave], first_node[joint.slave], first[joint.slave]) for joint in structure.joints)
-    outlines = [_outline(each[joint.slave], structure.parts[joint.slave], joint.slave_surface) - structure.parts[joint.slave].model.center + structure.parts[joint.slave].center
-                for joint in structure.joints if joint.master == GROUND]
-    return StructureSolid(structure, each, surface, first, first_cell, first_node, contacts,
-                          np.concatenate([piece.struts + start for piece, start in zip(each, first)]), np.concatenate(outlines))
+    contacts = tuple(
+        _contact(
+            joint,
+            each[joint.slave],
+            structure.parts[joint.slave],
+            first_node[joint.slave],
+            first[joint.slave],
+        )
+        for joint in structure.joints
+    )
+    outlines = [
+        _outline(each[joint.slave], structure.parts[joint.slave], joint.slave_surface)
+        - structure.parts[joint.slave].model.center
+        + structure.parts[joint.slave].center
+        for joint in structure.joints
+        if joint.master == GROUND
+    ]
+    return StructureSolid(
+        structure,
+        each,
+        surface,
+        first,
+        first_cell,
+        first_node,
+        contacts,
+        np.concatenate([piece.struts + start for piece, start in zip(each, first)]),
+        np.concatenate(outlines),
+    )
 
 
 def _joined(faces: list[np.ndarray]) -> np.ndarray:
-    """Faces of three and four corners as one array; a triangle among quadrilaterals names its last corner twice."""
+    """Faces of three and four corners as one array; a triangle among quadrilaterals names its last
+    corner twice.
+    """
     width = max(one.shape[1] for one in faces)
-    return np.concatenate([one if one.shape[1] == width else np.column_stack([one, one[:, -1]]) for one in faces])
+    return np.concatenate(
+        [one if one.shape[1] == width else np.column_stack([one, one[:, -1]]) for one in faces]
+    )
 
 
 def _face(piece: Piece, part, name: str) -> np.ndarray:
-    """Faces (n, 3 or 4) of a piece in the plane of a surface of its part, those of one kind; of a dome those that look down."""
+    """Faces (n, 3 or 4) of a piece in the plane of a surface of its part, those of one kind; of a
+    dome those that look down.
+    """
     surface, body = part.model.surfaces[name], piece.drawing.body
     size, found = np.ptp(piece.points, axis=0).max(), []
-    near = _SAME * size + (rise(body) if name == "foot" and getattr(body, "foot_radius_m", None) else 0.0)
+    near = _SAME * size + (
+        rise(body) if name == "foot" and getattr(body, "foot_radius_m", None) else 0.0
+    )
     for faces in piece.faces:
         level = np.abs(surface.plane(piece.points - part.model.center)[:, 2]) < near
         chosen = faces[level[faces].all(axis=1)]
@@ -194,8 +296,22 @@ def _contact(joint, piece: Piece, part, first_node: int, first: int) -> Contact:
     def in_plan(arms):
         return surface.plane(arms)[..., :2] * seen
 
-    plan, outline = in_plan(model.arms[surface.nodes]), in_plan(_outline(piece, part, joint.slave_surface) - model.center)
+    plan, outline = (
+        in_plan(model.arms[surface.nodes]),
+        in_plan(_outline(piece, part, joint.slave_surface) - model.center),
+    )
     points = np.unique(_face(piece, part, joint.slave_surface))
     nearest = cKDTree(plan).query(in_plan(piece.points[points] - model.center))[1]
-    return Contact(joint.name.partition(":")[0], part.name, joint.slave, joint.master == GROUND, first_node + surface.nodes, surface.areas, surface.normal, plan, outline,
-                   first + points, nearest)
+    return Contact(
+        joint.name.partition(":")[0],
+        part.name,
+        joint.slave,
+        joint.master == GROUND,
+        first_node + surface.nodes,
+        surface.areas,
+        surface.normal,
+        plan,
+        outline,
+        first + points,
+        nearest,
+    )

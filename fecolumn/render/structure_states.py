@@ -17,24 +17,46 @@ from fecolumn.schema import InputError
 class StructureStates(FrameSeries):
     """Instants at which the bodies of a structure are known.
 
-    Attributes:
-        time: (n,) [s]. center: (n, nb, 3) [m] of mass; rotation: (n, nb, 3, 3).
+    Attributes
+    ----------
+    time
+        (n,) [s]. center: (n, nb, 3) [m] of mass; rotation: (n, nb, 3, 3).
 
-    Args:
-        file: of `reduced.states`. solid: StructureSolid. shapes: as of `StructureFields`.
+    Parameters
+    ----------
+    file
+        of `reduced.states`.
+    solid
+        StructureSolid.
+    shapes
+        as of `StructureFields`.
 
-    Raises:
-        InputError: the file is damaged, or of other bodies.
+    Raises
+    ------
+    InputError
+        the file is damaged, or of other bodies.
     """
 
     def __init__(self, file: Path, solid: StructureSolid, shapes):
         try:
             self._arrays = read_states(file)
         except (OSError, KeyError) as error:
-            raise InputError(file, "", None, f"not the states of an analysis ({error}); run the case into a new folder") from None
+            raise InputError(
+                file,
+                "",
+                None,
+                f"not the states of an analysis ({error}); run the case into a new folder",
+            ) from None
         names = [part.name for part in solid.structure.parts]
         if self._arrays["bodies"].tolist() != names:
-            raise InputError(file, "", None, f"has the states of {', '.join(self._arrays['bodies']) or 'a single column'}, not of {', '.join(names)}; run the case into a new folder")
+            raise InputError(
+                file,
+                "",
+                None,
+                "has the states of "
+                f"{', '.join(self._arrays['bodies']) or 'a single column'}, not of "
+                f"{', '.join(names)}; run the case into a new folder",
+            )
         super().__init__(self._arrays["time"])
         if not len(self.time):
             raise InputError(file, "", None, "has no states; run the case into a new folder")
@@ -66,8 +88,10 @@ class StructureStates(FrameSeries):
     def drawn(self) -> StructureFields:
         """What expands states; made when it is first asked for.
 
-        Raises:
-            InputError: the modes of a body, made anew, are others than those of the analysis.
+        Raises
+        ------
+        InputError
+            the modes of a body, made anew, are others than those of the analysis.
         """
         if self._fields is None:
             self._check()
@@ -80,8 +104,17 @@ class StructureStates(FrameSeries):
 
     def _check(self) -> None:
         parts = self._solid.structure.parts
-        for name, made in (("frequencies", [part.model.frequencies for part in parts]), ("signature", [signature(part.model) for part in parts])):
+        for name, made in (
+            ("frequencies", [part.model.frequencies for part in parts]),
+            ("signature", [signature(part.model) for part in parts]),
+        ):
             old, new = self._arrays[name], modes_of(made)
             for part, kept, one in zip(parts, old, new):
                 if not same_modes(kept, one):
-                    raise InputError(self._file, "", None, f'is of other modes of "{part.name}" than those made of it now; the case run into a new folder has them again')
+                    raise InputError(
+                        self._file,
+                        "",
+                        None,
+                        f'is of other modes of "{part.name}" than those made of it now; '
+                        "the case run into a new folder has them again",
+                    )

@@ -1,4 +1,6 @@
-"""Section: all motions together, as they moved: fans, paths in plan, directions in which what was analysed was lost."""
+"""Section: all motions together, as they moved: fans, paths in plan, directions in which what was
+analysed was lost.
+"""
 
 from __future__ import annotations
 
@@ -28,9 +30,17 @@ def all_motions(sweep: Sweep, histories: Histories, gallery: Gallery) -> Section
         return None
     shown = sweep.reference if sweep.reference in drawn else drawn[0]
     limit, own = 1.03 * sweep.limit_m, histories.of(shown)
-    in_plan = any(trace.u_top[:, 1].any() for trace in own)  # a model of a plane has no path in plan
-    caption = f"{_what(sweep)} in {count(len(own), 'motion')} {sweep.at(shown.values)}, against time. {_marked(sweep, shown)}"
-    blocks = [Paragraph(_opening(sweep, histories, len(drawn), in_plan)), gallery.draw("fan", caption, fan_figure, [Fan("", own)], limit, critical_of([shown]), 1)]
+    in_plan = any(
+        trace.u_top[:, 1].any() for trace in own
+    )  # a model of a plane has no path in plan
+    caption = (
+        f"{_what(sweep)} in {count(len(own), 'motion')} {sweep.at(shown.values)}, against "
+        f"time. {_marked(sweep, shown)}"
+    )
+    blocks = [
+        Paragraph(_opening(sweep, histories, len(drawn), in_plan)),
+        gallery.draw("fan", caption, fan_figure, [Fan("", own)], limit, critical_of([shown]), 1),
+    ]
     if in_plan:
         blocks.append(_plan(sweep, histories, shown, limit, gallery))
     if len(drawn) > 1:
@@ -43,13 +53,25 @@ def _what(sweep: Sweep) -> str:
 
 
 def _opening(sweep: Sweep, histories: Histories, drawn: int, in_plan: bool) -> str:
-    text = f"[[fan]] {'and [[plan]] show' if in_plan else 'shows'} the motions of one setting together{', [[multiples]] those of each' if drawn > 1 else ''}. "
+    text = (
+        f"[[fan]] {'and [[plan]] show' if in_plan else 'shows'} the motions of one setting "
+        f"together{', [[multiples]] those of each' if drawn > 1 else ''}. "
+    )
     if histories.missing:
-        text += f"{count(histories.missing, 'history')} of analyses that are done could not be read and {'is' if histories.missing == 1 else 'are'} not drawn. "
+        text += (
+            f"{count(histories.missing, 'history')} of analyses that are done could not be "
+            f"read and {'is' if histories.missing == 1 else 'are'} not drawn. "
+        )
     if histories.skipped:
-        text += (f"The histories of {len(sweep.motions) - len(histories.skipped)} of {len(sweep.motions)} motions are drawn, spread evenly over the "
-                 "peaks of that setting. ")
-    return text + "Histories are drawn as history.h5 has them, row by row; peaks in tables and distributions are of every step of the analysis."
+        text += (
+            f"The histories of {len(sweep.motions) - len(histories.skipped)} of "
+            f"{len(sweep.motions)} motions are drawn, spread evenly over the "
+            "peaks of that setting. "
+        )
+    return (
+        text + "Histories are drawn as history.h5 has them, row by row; peaks in tables and "
+        "distributions are of every step of the analysis."
+    )
 
 
 def _marked(sweep: Sweep, setting: Setting) -> str:
@@ -64,10 +86,27 @@ def _plan(sweep: Sweep, histories: Histories, shown: Setting, limit: float, gall
     outline = specimen_outline(sweep.case) if sweep.case and same else None
     caption = f"Paths of the top in plan, relative to the base, {sweep.at(shown.values)}"
     if len(directions[1]):
-        caption += f". Right or below: directions in which {sweep.subject.noun}s were lost, the share of each sector of 30°"
-        caption += f"; filled, {len(directions[0])} of this setting; outline, {len(directions[1])} of all settings" if len(sweep.done) > 1 else ""
-    return gallery.draw("plan", caption + ".", plan_figure, histories.of(shown), directions, "lost" if sweep.slides else "overturned",
-                        None if outline is None else outline.foot, critical_of([shown]), limit)
+        caption += (
+            f". Right or below: directions in which {sweep.subject.noun}s were lost, the "
+            "share of each sector of 30°"
+        )
+        caption += (
+            f"; filled, {len(directions[0])} of this setting; outline, "
+            f"{len(directions[1])} of all settings"
+            if len(sweep.done) > 1
+            else ""
+        )
+    return gallery.draw(
+        "plan",
+        caption + ".",
+        plan_figure,
+        histories.of(shown),
+        directions,
+        "lost" if sweep.slides else "overturned",
+        None if outline is None else outline.foot,
+        critical_of([shown]),
+        limit,
+    )
 
 
 def critical_of(settings) -> float | None:
@@ -78,22 +117,63 @@ def critical_of(settings) -> float | None:
 
 def _directions(settings) -> np.ndarray:
     """[deg] of all that was lost and tells."""
-    found = [run.get("overturn_direction_deg") if run["overturned"] else run.get("slid_off_direction_deg")
-             for setting in settings for run in setting.runs.values() if lost(run)]
+    found = [
+        run.get("overturn_direction_deg")
+        if run["overturned"]
+        else run.get("slid_off_direction_deg")
+        for setting in settings
+        for run in setting.runs.values()
+        if lost(run)
+    ]
     return np.array([angle for angle in found if angle is not None], float)
 
 
-def _multiples(sweep: Sweep, histories: Histories, drawn: list[Setting], limit: float, gallery: Gallery):
+def _multiples(
+    sweep: Sweep, histories: Histories, drawn: list[Setting], limit: float, gallery: Gallery
+):
     """A panel a setting on the same axes, ordered so that the axis of most levels runs across."""
     axes = sorted(sweep.varied, key=lambda axis: len(sweep.axes[axis]))
-    ordered = sorted(drawn, key=lambda one: [sweep.axes[axis].index(one.values[axis]) for axis in axes])
-    chosen = ordered if len(ordered) <= _PANELS else [ordered[place] for place in np.linspace(0, len(ordered) - 1, _PANELS).round().astype(int)]
+    ordered = sorted(
+        drawn, key=lambda one: [sweep.axes[axis].index(one.values[axis]) for axis in axes]
+    )
+    chosen = (
+        ordered
+        if len(ordered) <= _PANELS
+        else [
+            ordered[place]
+            for place in np.linspace(0, len(ordered) - 1, _PANELS).round().astype(int)
+        ]
+    )
     levels = [len(sweep.axes[axis]) for axis in axes]
-    across = levels[-1] if math.prod(levels) == len(ordered) and levels[-1] <= _ACROSS else min(len(chosen), _ACROSS - 1)
-    fans = [Fan("\n".join([*(axis_text(axis, one.values[axis]) for axis in axes[-3:]), _share(sweep, one)]), histories.of(one)) for one in chosen]
-    part = f" ({len(chosen)} of {len(ordered)} settings, evenly spaced in their order)" if len(chosen) < len(ordered) else ""
-    return gallery.draw("multiples", f"{_what(sweep)} in all motions, a panel for each setting{part}, varying "
-                        f"{' and '.join(axis_name(axis) for axis in axes)}; the same axes in all.", fan_figure, fans, limit, critical_of(chosen), across)
+    across = (
+        levels[-1]
+        if math.prod(levels) == len(ordered) and levels[-1] <= _ACROSS
+        else min(len(chosen), _ACROSS - 1)
+    )
+    fans = [
+        Fan(
+            "\n".join(
+                [*(axis_text(axis, one.values[axis]) for axis in axes[-3:]), _share(sweep, one)]
+            ),
+            histories.of(one),
+        )
+        for one in chosen
+    ]
+    part = (
+        f" ({len(chosen)} of {len(ordered)} settings, evenly spaced in their order)"
+        if len(chosen) < len(ordered)
+        else ""
+    )
+    return gallery.draw(
+        "multiples",
+        f"{_what(sweep)} in all motions, a panel for each setting{part}, varying "
+        f"{' and '.join(axis_name(axis) for axis in axes)}; the same axes in all.",
+        fan_figure,
+        fans,
+        limit,
+        critical_of(chosen),
+        across,
+    )
 
 
 def _share(sweep: Sweep, setting: Setting) -> str:

@@ -10,11 +10,13 @@ from fecolumn.statistics.equivalence import detectable_distance
 
 SUPPORTED, NOT_SUPPORTED, UNDECIDED = "supported", "not supported", "undecided"
 
-#: Katsamakas & Vassiliou's P(overturn). The specimen's free dimensions were chosen to come near it: never a result.
+#: Katsamakas & Vassiliou's P(overturn). The specimen's free dimensions were chosen to come near it:
+#: never a result.
 CALIBRATION_TARGET = 50 / 115
 #: Motions of the paper's ensemble.
 PAPER_MOTIONS = 115
-#: Distance that the paper's own ensemble would show. A difference that is excluded beyond it is called marginal.
+#: Distance that the paper's own ensemble would show. A difference that is excluded beyond it is
+#: called marginal.
 MARGIN = detectable_distance(PAPER_MOTIONS)
 
 
@@ -22,12 +24,18 @@ MARGIN = detectable_distance(PAPER_MOTIONS)
 class Claim:
     """One claim.
 
-    Attributes:
-        key: "a1" and so on.
-        paper: what the paper found.
-        ours: what this study finds, in sentences with its numbers.
-        rule: what decides.
-        verdict: supported, not supported or undecided.
+    Attributes
+    ----------
+    key
+        "a1" and so on.
+    paper
+        what the paper found.
+    ours
+        what this study finds, in sentences with its numbers.
+    rule
+        what decides.
+    verdict
+        supported, not supported or undecided.
     """
 
     key: str
@@ -49,4 +57,6 @@ class ClaimList:
         """Write claims.csv, the whole of every claim."""
         names = ("key", "paper", "verdict", "ours", "rule")
         rows = [tuple(getattr(claim, name) for name in names) for claim in self.claims]
-        return Table("claims", tuple(Column(name, name) for name in names), rows, "").write_csv(folder)
+        return Table("claims", tuple(Column(name, name) for name in names), rows, "").write_csv(
+            folder
+        )

@@ -5,15 +5,23 @@ from __future__ import annotations
 
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn report`."""
-    parser.add_argument("study", metavar="DIR", help="folder of fecolumn study, finished or not; the report goes to DIR/report")
-    parser.add_argument("-o", "--output", metavar="DIR", default=None, help="another folder for the report")
+    parser.add_argument(
+        "study",
+        metavar="DIR",
+        help="folder of fecolumn study, finished or not; the report goes to DIR/report",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", default=None, help="another folder for the report"
+    )
 
 
 def main(args) -> int:
     """Write the report; 0 when it is written.
 
-    Raises:
-        InputError: the folder holds no study, or nothing of it is done yet.
+    Raises
+    ------
+    InputError
+        the folder holds no study, or nothing of it is done yet.
     """
     from fecolumn.report.page import write_report
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 import numpy as np
 
 from fecolumn.post.axis_text import axis_text
@@ -13,7 +12,20 @@ from fecolumn.report.claim import CALIBRATION_TARGET
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.families import families, shortfalls
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.notation import (axis_name, count, fixed, interval, level_text, millimetres, p_value, percent, percent_interval, plain_level, sentence, setting_text)
+from fecolumn.report.notation import (
+    axis_name,
+    count,
+    fixed,
+    interval,
+    level_text,
+    millimetres,
+    p_value,
+    percent,
+    percent_interval,
+    plain_level,
+    sentence,
+    setting_text,
+)
 from fecolumn.report.pair import Pair
 from fecolumn.report.power import power
 from fecolumn.report.sweep import Setting, Sweep
@@ -23,8 +35,11 @@ from fecolumn.study.alpha import ALPHA
 
 _LINES, _PANELS, _ROWS = 7, 9, 40
 _FOLD, _LONGEST = 20, 60
-TARGET_NOTE = (f"{percent(CALIBRATION_TARGET)} is a calibration target, never a result: the specimen's size is not published, and height and "
-               "cap are there to be chosen so that P(overturn) comes near it")
+TARGET_NOTE = (
+    f"{percent(CALIBRATION_TARGET)} is a calibration target, never a result: the "
+    "specimen's size is not published, and height and "
+    "cap are there to be chosen so that P(overturn) comes near it"
+)
 
 
 def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
@@ -33,24 +48,53 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
     for name, axis in _views(sweep):
         panels = _panels(sweep, axis)
         other = [axis_name(one) for one in sweep.varied if one != axis]
-        what = f"a line for each {axis_name(axis)}" if axis else \
-            "settings of the study" if len(sweep.done) <= _LINES else "the settings of least, middle and largest P(overturn)"
-        blocks.append(gallery.draw(name, f"Distribution of the largest top displacement: {what}"
-                      + (f", a panel for each {' and '.join(other)}" if other and axis else "") + _left_out(sweep, axis, panels)
-                      + f". {'Lost' if sweep.slides else 'Overturned'} runs are censored: a distribution ends at 1 − {sweep.p_lost}. {_bands(panels)}: pointwise "
-                        f"95 % bands (Greenwood){_seen(panels)}; in the legend {sweep.p_lost} with Wilson's 95 % interval.", cdf_figure, panels))
+        what = (
+            f"a line for each {axis_name(axis)}"
+            if axis
+            else "settings of the study"
+            if len(sweep.done) <= _LINES
+            else "the settings of least, middle and largest P(overturn)"
+        )
+        blocks.append(
+            gallery.draw(
+                name,
+                f"Distribution of the largest top displacement: {what}"
+                + (f", a panel for each {' and '.join(other)}" if other and axis else "")
+                + _left_out(sweep, axis, panels)
+                + f". {'Lost' if sweep.slides else 'Overturned'} runs are censored: a "
+                f"distribution ends at 1 − {sweep.p_lost}. {_bands(panels)}: pointwise "
+                f"95 % bands (Greenwood){_seen(panels)}; in the legend {sweep.p_lost} "
+                "with Wilson's 95 % interval.",
+                cdf_figure,
+                panels,
+            )
+        )
     first = blocks[0].name
     blocks.insert(0, Paragraph(_opening(sweep, first)))
     blocks += _overturning(sweep, gallery)
     if len(sweep.done) > 1:
         blocks.append(power(sweep))
     if pairs:
-        blocks += [Paragraph("[[families]] and, pair by pair, [[comparisons]] compare settings that differ in one parameter alone. The same "
-                             "motions are in both, so the paired permutation p is the one to judge by, and that of independent samples is "
-                             "conservative; p (Holm) is the paired one, corrected for the family of tests that answer one question. The "
-                             "last column is the other side of the test, the largest distance that the data cannot exclude at 95 %."),
-                   *shortfalls(pairs), *([Paragraph(sweep.alpha_note, warning=True)] if sweep.alpha_note and ALPHA in sweep.varied else []),
-                   families(pairs), _comparisons(sweep, pairs)]
+        blocks += [
+            Paragraph(
+                "[[families]] and, pair by pair, [[comparisons]] compare settings that "
+                "differ in one parameter alone. The same "
+                "motions are in both, so the paired permutation p is the one to judge "
+                "by, and that of independent samples is "
+                "conservative; p (Holm) is the paired one, corrected for the family of "
+                "tests that answer one question. The "
+                "last column is the other side of the test, the largest distance that "
+                "the data cannot exclude at 95 %."
+            ),
+            *shortfalls(pairs),
+            *(
+                [Paragraph(sweep.alpha_note, warning=True)]
+                if sweep.alpha_note and ALPHA in sweep.varied
+                else []
+            ),
+            families(pairs),
+            _comparisons(sweep, pairs),
+        ]
     return Section("Distributions", blocks + _convergence(sweep, gallery))
 
 
@@ -61,34 +105,69 @@ def _bands(panels: list[Panel]) -> str:
 
 
 def _seen(panels: list[Panel]) -> str:
-    return ", of each line at places of its own" if any(len(panel.lines) > SHADED for panel in panels) else ""
+    return (
+        ", of each line at places of its own"
+        if any(len(panel.lines) > SHADED for panel in panels)
+        else ""
+    )
 
 
 def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
     """Axes that are drawn as lines: up to three with few levels, most levels first."""
-    axes = sorted((axis for axis in sweep.varied if len(sweep.axes[axis]) <= _LINES and sweep.lines(axis)), key=lambda axis: -len(sweep.axes[axis]))
+    axes = sorted(
+        (axis for axis in sweep.varied if len(sweep.axes[axis]) <= _LINES and sweep.lines(axis)),
+        key=lambda axis: -len(sweep.axes[axis]),
+    )
     return [(f"cdf_by_{axis.split('.')[-1]}", axis) for axis in axes[:3]] or [("cdf", None)]
 
 
 def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
     if axis is None:
         chosen = sweep.done
-        if len(chosen) > _LINES:  # of many unordered ones the least, the middle and the most dangerous
-            ranked = sorted(chosen, key=lambda one: (one.column("overturned").mean(), percentile(*one.peaks(), 0.5)))
+        if (
+            len(chosen) > _LINES
+        ):  # of many unordered ones the least, the middle and the most dangerous
+            ranked = sorted(
+                chosen,
+                key=lambda one: (one.column("overturned").mean(), percentile(*one.peaks(), 0.5)),
+            )
             chosen = [ranked[0], ranked[len(ranked) // 2], ranked[-1]]
         labels = _labels(sweep)
-        return [Panel("", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen), sweep.p_lost)]
+        return [
+            Panel("", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen), sweep.p_lost)
+        ]
     groups: dict[str, list[Setting]] = {}
-    for setting in sorted(sweep.done, key=lambda one: [sweep.axes[key].index(value) for key, value in one.values.items()]):
-        title = _in_figure({key: value for key, value in setting.values.items() if key != axis and key in sweep.varied})
+    for setting in sorted(
+        sweep.done,
+        key=lambda one: [sweep.axes[key].index(value) for key, value in one.values.items()],
+    ):
+        title = _in_figure(
+            {
+                key: value
+                for key, value in setting.values.items()
+                if key != axis and key in sweep.varied
+            }
+        )
         groups.setdefault(title, []).append(setting)
-    panels = [Panel(title, tuple((axis_text(axis, one.values[axis]), ecdf(*one.peaks())) for one in group), sweep.p_lost) for title, group in groups.items()]
+    panels = [
+        Panel(
+            title,
+            tuple((axis_text(axis, one.values[axis]), ecdf(*one.peaks())) for one in group),
+            sweep.p_lost,
+        )
+        for title, group in groups.items()
+    ]
     return panels[:_PANELS]
 
 
 def _labels(sweep: Sweep) -> dict[int, str]:
-    """What every setting is called in figures, by its identity: its values, or its number where these would be too long."""
-    texts = [_in_figure({axis: one.values[axis] for axis in sweep.varied}) or "all analyses" for one in sweep.settings]
+    """What every setting is called in figures, by its identity: its values, or its number where
+    these would be too long.
+    """
+    texts = [
+        _in_figure({axis: one.values[axis] for axis in sweep.varied}) or "all analyses"
+        for one in sweep.settings
+    ]
     if _long(texts):
         texts = [f"setting {number}" for number in range(1, len(texts) + 1)]
     return {id(one): text for one, text in zip(sweep.settings, texts)}
@@ -112,11 +191,20 @@ def _opening(sweep: Sweep, figure: str) -> str:
     fallen = sweep.reference.column("overturned")
     low, high = proportion_interval(int(fallen.sum()), fallen.size)
     median = percentile(u, over, 0.5)
-    half = " mm" if np.isfinite(median) else f" (half or more {'are lost' if fallen.sum() < over.sum() else 'overturn'})"
-    return (f"[[{figure}]] shows the distribution of the largest displacement of {sweep.subject.top}, u_max, in every setting. "
-            f"{sentence(sweep.at(sweep.reference.values))} half of the {count(over.size, 'motion')} stay below "
-            f"{millimetres(median)}{half}, and "
-            f"{int(fallen.sum())} overturn: P(overturn) = {percent(fallen.mean())}, 95 % interval {interval(low, high, percent)}.")
+    half = (
+        " mm"
+        if np.isfinite(median)
+        else f" (half or more {'are lost' if fallen.sum() < over.sum() else 'overturn'})"
+    )
+    return (
+        f"[[{figure}]] shows the distribution of the largest displacement of "
+        f"{sweep.subject.top}, u_max, in every setting. "
+        f"{sentence(sweep.at(sweep.reference.values))} half of the "
+        f"{count(over.size, 'motion')} stay below "
+        f"{millimetres(median)}{half}, and "
+        f"{int(fallen.sum())} overturn: P(overturn) = {percent(fallen.mean())}, 95 % "
+        f"interval {interval(low, high, percent)}."
+    )
 
 
 def _overturning(sweep: Sweep, gallery: Gallery) -> list:
@@ -125,36 +213,96 @@ def _overturning(sweep: Sweep, gallery: Gallery) -> list:
     for number, setting in enumerate(sweep.settings, 1):
         levels = (number, *(setting.values[axis] for axis in sweep.varied))
         if not setting.runs:
-            rows.append((*levels, setting.planned, 0, *([None] if off else []), None, None, None, None, None, None, None, None, None))
+            rows.append(
+                (
+                    *levels,
+                    setting.planned,
+                    0,
+                    *([None] if off else []),
+                    None,
+                    None,
+                    None,
+                    None,
+                    None,
+                    None,
+                    None,
+                    None,
+                    None,
+                )
+            )
             continue
         u, over = setting.peaks()
         k, n = int(setting.column("overturned").sum()), over.size
         wilson, exact = proportion_interval(k, n), proportion_interval(k, n, method="exact")
         slid = [int(over.sum()) - k] if off else []
-        rows.append((*levels, setting.planned, n, k, *slid, k / n, *wilson, *exact, *(percentile(u, over, share) for share in (0.16, 0.5, 0.84))))
-        estimates.append(Estimate(labels[id(setting)], 100 * k / n, 100 * wilson[0], 100 * wilson[1]))
-    table = Table("p_overturn", (Column("setting", "setting"), *axis_columns(sweep.varied), Column("planned", "planned"), Column("n", "run"),
-                                 Column("overturned", "over\N{SOFT HYPHEN}turned", _whole),
-                                 *((Column("slid_off", "slid off", _whole),) if off else ()),
-                                 Column("p_overturn", "P(overturn) [%]", lambda share: fixed(None if share is None else 100 * share, 1)),
-                                 Column("wilson_low wilson_high", "Wilson [%]", percent_interval),
-                                 Column("exact_low exact_high", "exact [%]", percent_interval),
-                                 Column("u_max_16_m", "u₁₆ [mm]", millimetres), Column("u_max_50_m", "u₅₀ [mm]", millimetres),
-                                 Column("u_max_84_m", "u₈₄ [mm]", millimetres)), rows,
-                  "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and Pearson), and percentiles of u_max; “overturn” "
-                  "where that share of the runs does not stand." + (" Columns that slid off their base are lost, too: distributions and percentiles, here "
-                  "and in what follows, take them with those that overturned; P(overturn) does not." if off else "") + (f" {TARGET_NOTE}." if gallery.paper else ""), folded=len(rows) > _ROWS)
+        rows.append(
+            (
+                *levels,
+                setting.planned,
+                n,
+                k,
+                *slid,
+                k / n,
+                *wilson,
+                *exact,
+                *(percentile(u, over, share) for share in (0.16, 0.5, 0.84)),
+            )
+        )
+        estimates.append(
+            Estimate(labels[id(setting)], 100 * k / n, 100 * wilson[0], 100 * wilson[1])
+        )
+    table = Table(
+        "p_overturn",
+        (
+            Column("setting", "setting"),
+            *axis_columns(sweep.varied),
+            Column("planned", "planned"),
+            Column("n", "run"),
+            Column("overturned", "over\N{SOFT HYPHEN}turned", _whole),
+            *((Column("slid_off", "slid off", _whole),) if off else ()),
+            Column(
+                "p_overturn",
+                "P(overturn) [%]",
+                lambda share: fixed(None if share is None else 100 * share, 1),
+            ),
+            Column("wilson_low wilson_high", "Wilson [%]", percent_interval),
+            Column("exact_low exact_high", "exact [%]", percent_interval),
+            Column("u_max_16_m", "u₁₆ [mm]", millimetres),
+            Column("u_max_50_m", "u₅₀ [mm]", millimetres),
+            Column("u_max_84_m", "u₈₄ [mm]", millimetres),
+        ),
+        rows,
+        "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and "
+        "Pearson), and percentiles of u_max; “overturn” "
+        "where that share of the runs does not stand."
+        + (
+            " Columns that slid off their base are lost, too: distributions and percentiles, here "
+            "and in what follows, take them with those that overturned; P(overturn) does not."
+            if off
+            else ""
+        )
+        + (f" {TARGET_NOTE}." if gallery.paper else ""),
+        folded=len(rows) > _ROWS,
+    )
     if not 2 <= len(estimates) <= _ROWS:
         return [table]
-    scale = Scale(r"$P$(overturn) [%], 95 % interval (Wilson)", (0, None),
-                  *((100 * CALIBRATION_TARGET, "calibration target 43.5 %") if gallery.paper else ()))
-    caption = "Probability of overturning in every setting." + (f" Dashed: {TARGET_NOTE}." if gallery.paper else "")
+    scale = Scale(
+        r"$P$(overturn) [%], 95 % interval (Wilson)",
+        (0, None),
+        *((100 * CALIBRATION_TARGET, "calibration target 43.5 %") if gallery.paper else ()),
+    )
+    caption = "Probability of overturning in every setting." + (
+        f" Dashed: {TARGET_NOTE}." if gallery.paper else ""
+    )
     return [gallery.draw("overturning", caption, interval_figure, [(scale, estimates)]), table]
 
 
 def axis_columns(axes) -> tuple[Column, ...]:
     """Columns of the levels of axes."""
-    return tuple(Column(axis, axis_name(axis) + (f" [{unit}]" if (unit := _unit(axis)) else ""), plain_level) for axis in axes)
+    return tuple(
+        Column(axis, axis_name(axis) + (f" [{unit}]" if (unit := _unit(axis)) else ""), plain_level)
+        for axis in axes
+    )
 
 
 def _unit(axis: str) -> str:
@@ -180,20 +328,57 @@ def _comparisons(sweep: Sweep, pairs: list[Pair]) -> Table:
     rows = []
     for pair in pairs:
         it = pair.comparison
-        rows.append((pair.axis, pair.low, pair.high, {key: value for key, value in pair.others.items() if key in sweep.varied}, it.n_a,
-                     it.ks, it.ks_p, it.ks_evidence, it.paired_p, pair.p_holm, it.ad_p, it.cvm_p, it.e50, it.correlation, it.flips,
-                     it.mcnemar_p, pair.bound))
-    columns = (Column("axis a b", "a against b", _levels, text=True), Column("at", "at", setting_words, text=True),
-               Column("n", "n"), Column("ks", "D", fixed), Column("ks_p", "p", p_value), Column("ks_evidence", "evidence", text=True),
-               Column("paired_p", "paired p", p_value), Column("p_holm", "p (Holm)", p_value), Column("ad_p", "AD p", p_value),
-               Column("cvm_p", "CvM p", p_value), Column("e50", "e₅₀", fixed), Column("correlation", "R", fixed), Column("flips", "flips"),
-               Column("mcnemar_p", "McNemar p", p_value), Column("bound_95", "D not excluded", fixed))
-    return Table("comparisons", columns, rows, "Settings compared in pairs: Kolmogorov-Smirnov distance D with p of independent samples and "
-                                               "the field's word for the evidence against one distribution; p of paired permutations; "
-                                               "Anderson-Darling and Cramér-von Mises as independent samples; error of the median e₅₀ (a "
-                                               "against b); correlation R with lost runs (overturned or slid off) at the limit; motions lost in one "
-                                               "setting alone (flips) with McNemar's p.",
-                 folded=len(rows) > _FOLD)
+        rows.append(
+            (
+                pair.axis,
+                pair.low,
+                pair.high,
+                {key: value for key, value in pair.others.items() if key in sweep.varied},
+                it.n_a,
+                it.ks,
+                it.ks_p,
+                it.ks_evidence,
+                it.paired_p,
+                pair.p_holm,
+                it.ad_p,
+                it.cvm_p,
+                it.e50,
+                it.correlation,
+                it.flips,
+                it.mcnemar_p,
+                pair.bound,
+            )
+        )
+    columns = (
+        Column("axis a b", "a against b", _levels, text=True),
+        Column("at", "at", setting_words, text=True),
+        Column("n", "n"),
+        Column("ks", "D", fixed),
+        Column("ks_p", "p", p_value),
+        Column("ks_evidence", "evidence", text=True),
+        Column("paired_p", "paired p", p_value),
+        Column("p_holm", "p (Holm)", p_value),
+        Column("ad_p", "AD p", p_value),
+        Column("cvm_p", "CvM p", p_value),
+        Column("e50", "e₅₀", fixed),
+        Column("correlation", "R", fixed),
+        Column("flips", "flips"),
+        Column("mcnemar_p", "McNemar p", p_value),
+        Column("bound_95", "D not excluded", fixed),
+    )
+    return Table(
+        "comparisons",
+        columns,
+        rows,
+        "Settings compared in pairs: Kolmogorov-Smirnov distance D with p of "
+        "independent samples and "
+        "the field's word for the evidence against one distribution; p of paired permutations; "
+        "Anderson-Darling and Cramér-von Mises as independent samples; error of the median e₅₀ (a "
+        "against b); correlation R with lost runs (overturned or slid off) at the "
+        "limit; motions lost in one "
+        "setting alone (flips) with McNemar's p.",
+        folded=len(rows) > _FOLD,
+    )
 
 
 def _convergence(sweep: Sweep, gallery: Gallery) -> list:
@@ -203,14 +388,32 @@ def _convergence(sweep: Sweep, gallery: Gallery) -> list:
         return []
     sizes = np.unique(np.round(np.geomspace(3, u.size, 24)).astype(int))
     found = cdf_convergence(u, over, sizes)
-    curves = [Curve("drawn from the ensemble, median", sizes, found.median), Curve("drawn from the ensemble, 95 %", sizes, found.upper_95),
-              Curve("bound to the true CDF, 95 % (DKW)", sizes, found.dkw_95)]
-    panels = [CurvePanel("motions $n$", r"largest distance of two CDFs", curves, {"xscale": "log", "ylim": (0, 1)}, prepare=_plain_ticks)]
+    curves = [
+        Curve("drawn from the ensemble, median", sizes, found.median),
+        Curve("drawn from the ensemble, 95 %", sizes, found.upper_95),
+        Curve("bound to the true CDF, 95 % (DKW)", sizes, found.dkw_95),
+    ]
+    panels = [
+        CurvePanel(
+            "motions $n$",
+            r"largest distance of two CDFs",
+            curves,
+            {"xscale": "log", "ylim": (0, 1)},
+            prepare=_plain_ticks,
+        )
+    ]
     last = float(found.dkw_95[-1])
-    return [gallery.draw("convergence", f"Distance of the CDF of n motions from that of all {u.size}, "
-                                                 f"{sweep.at(sweep.reference.values)}. It vanishes at n = {u.size} by construction; the "
-                                                 "distance to the distribution of all motions there could be stays below the DKW bound, "
-                                                 f"{fixed(last)} for {u.size} motions, at 95 %.", line_figure, panels)]
+    return [
+        gallery.draw(
+            "convergence",
+            f"Distance of the CDF of n motions from that of all {u.size}, "
+            f"{sweep.at(sweep.reference.values)}. It vanishes at n = {u.size} by construction; the "
+            "distance to the distribution of all motions there could be stays below the DKW bound, "
+            f"{fixed(last)} for {u.size} motions, at 95 %.",
+            line_figure,
+            panels,
+        )
+    ]
 
 
 def _plain_ticks(axes) -> None:

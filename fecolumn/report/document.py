@@ -27,7 +27,9 @@ class Paragraph:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A figure already written as name.svg, and in the formats of `files`; its drawing for a page, and that for a narrow screen, as SVG."""
+    """A figure already written as name.svg, and in the formats of `files`; its drawing for a page,
+    and that for a narrow screen, as SVG.
+    """
 
     name: str
     svg: bytes
@@ -48,16 +50,20 @@ class Figure:
 
 
 def _data_uri(svg: bytes) -> str:
-    """An image of its own, whose names cannot clash with those of other figures; paths to 0.01 of a point, which halves it."""
+    """An image of its own, whose names cannot clash with those of other figures; paths to 0.01 of a
+    point, which halves it.
+    """
     short = _PATH.sub(lambda path: _DIGITS.sub(rb"\1", path[0]), svg)
     return "data:image/svg+xml;base64," + base64.b64encode(short).decode()
 
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column of the page's table: its names in the CSV file, its heading with the unit, how its values are written.
+    """A column of the page's table: its names in the CSV file, its heading with the unit, how its
+    values are written.
 
-    A column may show several values in one cell, such as an interval; `name` then holds their names with blanks between.
+    A column may show several values in one cell, such as an interval; `name` then holds their names
+    with blanks between.
     """
 
     name: str
@@ -72,7 +78,10 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table; rows hold plain values, which the CSV file takes as they are. `folded` ones open on demand."""
+    """A table; rows hold plain values, which the CSV file takes as they are.
+
+    `folded` ones open on demand.
+    """
 
     name: str
     columns: tuple[Column, ...]
@@ -86,7 +95,12 @@ class Table:
         cells = []
         for row in self.rows:
             values = iter(row)
-            cells.append([column.form(*itertools.islice(values, len(column.names))) for column in self.columns])
+            cells.append(
+                [
+                    column.form(*itertools.islice(values, len(column.names)))
+                    for column in self.columns
+                ]
+            )
         return cells
 
     @property
@@ -97,7 +111,13 @@ class Table:
     def write_csv(self, folder: Path) -> Path:
         """Write name.csv."""
         file = folder / f"{self.name}.csv"
-        write_csv(file, [[name for column in self.columns for name in column.names], *([_plain(value) for value in row] for row in self.rows)])
+        write_csv(
+            file,
+            [
+                [name for column in self.columns for name in column.names],
+                *([_plain(value) for value in row] for row in self.rows),
+            ],
+        )
         return file
 
 
@@ -121,18 +141,23 @@ class Section:
 
 
 def numbered(sections: list[Section]) -> dict[str, str]:
-    """"Figure 1", "Table 1" of every figure and table by name."""
+    """ "Figure 1", "Table 1" of every figure and table by name."""
     labels: dict[str, str] = {}
     for kind in ("figure", "table"):
         named = [block for section in sections for block in section.blocks if block.kind == kind]
-        labels |= {block.name: f"{kind.capitalize()}\N{NO-BREAK SPACE}{place}" for place, block in enumerate(named, 1)}
+        labels |= {
+            block.name: f"{kind.capitalize()}\N{NO-BREAK SPACE}{place}"
+            for place, block in enumerate(named, 1)
+        }
     return labels
 
 
 def referenced(text: str, labels: dict[str, str]) -> str:
     """Text with its references resolved.
 
-    Raises:
-        KeyError: a figure or table that is not there.
+    Raises
+    ------
+    KeyError
+        a figure or table that is not there.
     """
     return _REFERENCE.sub(lambda match: labels[match[1]], text)

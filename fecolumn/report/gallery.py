@@ -13,7 +13,9 @@ from fecolumn.report.document import Figure
 
 @dataclass(frozen=True, slots=True)
 class Gallery:
-    """Where figures go, in which formats besides SVG, and whether the study has the axes of the paper."""
+    """Where figures go, in which formats besides SVG, and whether the study has the axes of the
+    paper.
+    """
 
     folder: Path
     paper: bool
@@ -22,12 +24,23 @@ class Gallery:
     def draw(self, name: str, caption: str, function: Callable, *args) -> Figure:
         """A figure of the page.
 
-        Args:
-            name: of its files.
-            caption: below it.
-            function: called as function(*args, path, formats) for the files, and with width_in, a column of a journal, for a telephone.
+        Parameters
+        ----------
+        name
+            of its files.
+        caption
+            below it.
+        function
+            called as function(*args, path, formats) for the files, and with width_in, a column of a
+            journal, for a telephone.
         """
         function(*args, self.folder / name, (*self.files, "svg"))
         with tempfile.TemporaryDirectory() as folder:
-            narrow, = function(*args, Path(folder) / name, ("svg",), width_in=COLUMN_WIDTH_IN)
-            return Figure(name, (self.folder / f"{name}.svg").read_bytes(), narrow.read_bytes(), caption, self.files)
+            (narrow,) = function(*args, Path(folder) / name, ("svg",), width_in=COLUMN_WIDTH_IN)
+            return Figure(
+                name,
+                (self.folder / f"{name}.svg").read_bytes(),
+                narrow.read_bytes(),
+                caption,
+                self.files,
+            )

@@ -11,7 +11,15 @@ from fecolumn.report.distributions import setting_words
 from fecolumn.report.document import Column, Paragraph, Section, Table
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.individual_claims import line_trends, spread
-from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres, p_value, percent
+from fecolumn.report.notation import (
+    axis_name,
+    count,
+    fixed,
+    interval,
+    millimetres,
+    p_value,
+    percent,
+)
 from fecolumn.report.sweep import Line, Sweep
 from fecolumn.study.alpha import ALPHA
 
@@ -20,26 +28,62 @@ _VARIABLES, _MATRICES, _FOLD = 6, 4, 20
 
 def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
     """The section; None where no motion was run in two settings."""
-    matrices = [figure for axis in sweep.varied[:_MATRICES] if (figure := _matrix(sweep, axis, gallery))]
+    matrices = [
+        figure for axis in sweep.varied[:_MATRICES] if (figure := _matrix(sweep, axis, gallery))
+    ]
     if not matrices:
         return None
     found = spread(sweep.done)
-    text = f"One by one, the same motion gives different peaks in different settings: {' and '.join(f'[[{one.name}]]' for one in matrices)}. "
+    text = (
+        "One by one, the same motion gives different peaks in different settings: "
+        f"{' and '.join(f'[[{one.name}]]' for one in matrices)}. "
+    )
     if found.motions:
-        text += (f"Of the {count(found.motions, 'motion')} run in all {found.settings} settings, {found.flipped} "
-                 f"({percent(found.flipped / found.motions)}) {'are lost' if sweep.slides else 'overturn'} in some and stand in others")
-        text += (f"; of those that always stand, the largest peak is {fixed(float(np.median(found.factor)))} times the smallest in the median."
-                 if found.factor.size else ".")
+        text += (
+            f"Of the {count(found.motions, 'motion')} run in all {found.settings} "
+            f"settings, {found.flipped} "
+            f"({percent(found.flipped / found.motions)}) "
+            f"{'are lost' if sweep.slides else 'overturn'} in some and stand in others"
+        )
+        text += (
+            "; of those that always stand, the largest peak is "
+            f"{fixed(float(np.median(found.factor)))} times the smallest in the median."
+            if found.factor.size
+            else "."
+        )
     blocks = [Paragraph(text), *matrices]
-    rows = [row for axis in sweep.varied if all(isinstance(level, (int, float)) for level in sweep.axes[axis]) for row in _trends(sweep, axis)]
+    rows = [
+        row
+        for axis in sweep.varied
+        if all(isinstance(level, (int, float)) for level in sweep.axes[axis])
+        for row in _trends(sweep, axis)
+    ]
     if rows:
-        columns = (Column("axis", "along", axis_name, text=True), Column("at", "at", setting_words, text=True), Column("levels", "levels"),
-                   Column("n", "n"), Column("rising", "rise"), Column("falling", "fall"), Column("tau", "mean τ", fixed),
-                   Column("tau_low tau_high", "95 %", interval), Column("p", "p", p_value), Column("p_holm", "p (Holm)", p_value))
-        blocks.append(Table("trends", columns, rows,
-                            "Trend of the peak of one and the same motion along a parameter: motions whose peak rises or falls on the "
-                            "whole, mean Kendall τ with its 95 % interval over the motions, p of no trend (Page; sign test for two levels). "
-                            f"Runs that {sweep.lost} rank above all that stand.", folded=len(rows) > _FOLD))
+        columns = (
+            Column("axis", "along", axis_name, text=True),
+            Column("at", "at", setting_words, text=True),
+            Column("levels", "levels"),
+            Column("n", "n"),
+            Column("rising", "rise"),
+            Column("falling", "fall"),
+            Column("tau", "mean τ", fixed),
+            Column("tau_low tau_high", "95 %", interval),
+            Column("p", "p", p_value),
+            Column("p_holm", "p (Holm)", p_value),
+        )
+        blocks.append(
+            Table(
+                "trends",
+                columns,
+                rows,
+                "Trend of the peak of one and the same motion along a parameter: "
+                "motions whose peak rises or falls on the "
+                "whole, mean Kendall τ with its 95 % interval over the motions, p of "
+                "no trend (Page; sign test for two levels). "
+                f"Runs that {sweep.lost} rank above all that stand.",
+                folded=len(rows) > _FOLD,
+            )
+        )
     if ALPHA in sweep.varied and sweep.alpha_note:
         blocks.append(Paragraph(sweep.alpha_note, warning=True))
     blocks.append(_motions(sweep))
@@ -47,28 +91,64 @@ def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
 
 
 def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
-    """Scatter matrix of the levels of an axis, all else as in the reference setting where that line is there."""
+    """Scatter matrix of the levels of an axis, all else as in the reference setting where that line
+    is there.
+    """
     lines = sweep.lines(axis)
     if not lines:
         return None
     wanted = {key: sweep.reference.values[key] for key in sweep.varied if key != axis}
     line = next((one for one in lines if one.others == wanted), lines[len(lines) // 2])
     if len(line.settings) > _VARIABLES:
-        line = Line(axis, line.others, tuple(line.settings[k] for k in np.linspace(0, len(line.settings) - 1, _VARIABLES).astype(int)))
+        line = Line(
+            axis,
+            line.others,
+            tuple(
+                line.settings[k]
+                for k in np.linspace(0, len(line.settings) - 1, _VARIABLES).astype(int)
+            ),
+        )
     u, over = line.peaks()
-    variables = [Variable(axis_text(axis, level), *pair) for level, pair in zip(line.levels, zip(u, over))]
+    variables = [
+        Variable(axis_text(axis, level), *pair) for level, pair in zip(line.levels, zip(u, over))
+    ]
     name = f"scatter_by_{axis.split('.')[-1]}"
     at = f" {sweep.at(line.others)}" if line.others else ""
-    return gallery.draw(name, f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} values of {axis_name(axis)}{at}, one "
-                              f"against the other. Shaded strip: {sweep.lost}; open red diamonds: lost in one of the two alone (flips). R with "
-                              f"lost runs at {millimetres(sweep.limit_m)} mm.", pair_figure, variables, sweep.limit_m)
+    return gallery.draw(
+        name,
+        f"Largest top displacement of {count(u.shape[1], 'motion')} at {len(variables)} "
+        f"values of {axis_name(axis)}{at}, one "
+        f"against the other. Shaded strip: {sweep.lost}; open red diamonds: lost in one "
+        "of the two alone (flips). R with "
+        f"lost runs at {millimetres(sweep.limit_m)} mm.",
+        pair_figure,
+        variables,
+        sweep.limit_m,
+    )
 
 
 def _trends(sweep: Sweep, axis: str) -> list[tuple]:
     rows = []
     for one in line_trends(sweep, axis):
-        it, at = one.trend, {key: value for key, value in one.line.others.items() if key in sweep.varied}
-        rows.append((axis, at, it.levels, it.n, it.rising, it.falling, it.tau, it.tau_low, it.tau_high, it.p, one.p_holm))
+        it, at = (
+            one.trend,
+            {key: value for key, value in one.line.others.items() if key in sweep.varied},
+        )
+        rows.append(
+            (
+                axis,
+                at,
+                it.levels,
+                it.n,
+                it.rising,
+                it.falling,
+                it.tau,
+                it.tau_low,
+                it.tau_high,
+                it.p,
+                one.p_holm,
+            )
+        )
     return rows
 
 
@@ -78,11 +158,36 @@ def _motions(sweep: Sweep) -> Table:
     for motion in sweep.motions:
         runs = [setting.runs[motion] for setting in sweep.done if motion in setting.runs]
         peaks = np.array([run["u_max_m"] for run in runs if not lost(run)])
-        fallen, slid = sum(bool(run["overturned"]) for run in runs), [sum(bool(run.get("slid_off")) for run in runs)] if sweep.slides else []
+        fallen, slid = (
+            sum(bool(run["overturned"]) for run in runs),
+            [sum(bool(run.get("slid_off")) for run in runs)] if sweep.slides else [],
+        )
         low, high = (float(peaks.min()), float(peaks.max())) if peaks.size else (None, None)
-        rows.append((runs[0].get("motion") or motion.strip("[]'\""), len(runs), fallen, *slid, low, high, high / low if low else None))
-    return Table("motions", (Column("motion", "motion", text=True), Column("n", "settings"), Column("overturned", "overturned"),
-                             *((Column("slid_off", "slid off"),) if sweep.slides else ()),
-                             Column("u_max_smallest_m", "smallest [mm]", millimetres), Column("u_max_largest_m", "largest [mm]", millimetres),
-                             Column("factor", "factor", fixed)), rows,
-                 "Every motion over all settings: runs that overturned" + (" or slid off" if sweep.slides else "") + ", smallest and largest peak of those that stood, and their ratio.", folded=True)
+        rows.append(
+            (
+                runs[0].get("motion") or motion.strip("[]'\""),
+                len(runs),
+                fallen,
+                *slid,
+                low,
+                high,
+                high / low if low else None,
+            )
+        )
+    return Table(
+        "motions",
+        (
+            Column("motion", "motion", text=True),
+            Column("n", "settings"),
+            Column("overturned", "overturned"),
+            *((Column("slid_off", "slid off"),) if sweep.slides else ()),
+            Column("u_max_smallest_m", "smallest [mm]", millimetres),
+            Column("u_max_largest_m", "largest [mm]", millimetres),
+            Column("factor", "factor", fixed),
+        ),
+        rows,
+        "Every motion over all settings: runs that overturned"
+        + (" or slid off" if sweep.slides else "")
+        + ", smallest and largest peak of those that stood, and their ratio.",
+        folded=True,
+    )

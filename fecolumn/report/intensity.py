@@ -21,10 +21,20 @@ NOT_FOUND = (InputError, OSError, ValueError, KeyError, TypeError)
 class Runs:
     """n runs and the intensity of their motions.
 
-    Attributes:
-        measures: (n, 2) PGV [m/s] and PGA [m/s2].
-        motion: (n,) name of the motion, whatever its scale. record: (n,) its file, whatever its scale and direction.
-        u_max: (n,) [m]; of no meaning where the column was lost. lost: (n,) bool, overturned or slid off its base. overturned: (n,) bool.
+    Attributes
+    ----------
+    measures
+        (n, 2) PGV [m/s] and PGA [m/s2].
+    motion
+        (n,) name of the motion, whatever its scale.
+    record
+        (n,) its file, whatever its scale and direction.
+    u_max
+        (n,) [m]; of no meaning where the column was lost.
+    lost
+        (n,) bool, overturned or slid off its base.
+    overturned
+        (n,) bool.
     """
 
     measures: np.ndarray
@@ -38,8 +48,10 @@ class Runs:
 class Intensities:
     """Reader of motions and of their peak values, which it keeps.
 
-    Args:
-        folder: of the study.
+    Parameters
+    ----------
+    folder
+        of the study.
     """
 
     def __init__(self, folder: Path):
@@ -48,8 +60,9 @@ class Intensities:
     def motion(self, run: dict) -> GroundMotion:
         """Ground motion of an analysis as applied, at its own step.
 
-        Raises:
-            One of NOT_FOUND: the motion is not to be found.
+        Raises
+        ------
+        One of NOT_FOUND: the motion is not to be found.
         """
         from fecolumn.motions.load import unsampled
 
@@ -58,14 +71,18 @@ class Intensities:
     def peaks(self, run: dict) -> tuple[float, float]:
         """PGV [m/s] and PGA [m/s2] of the motion of an analysis, RotD50.
 
-        Raises:
-            One of NOT_FOUND: the motion is not to be found.
+        Raises
+        ------
+        One of NOT_FOUND: the motion is not to be found.
         """
         from fecolumn.motions.intensity import peak_values
         from fecolumn.motions.load import unsampled
 
         motion, folder = self._table(run)
-        scale, unscaled = abs(motion.scale), dataclasses.replace(motion, scale=1.0, free_vibration_s=0.0, delay_s=0.0)
+        scale, unscaled = (
+            abs(motion.scale),
+            dataclasses.replace(motion, scale=1.0, free_vibration_s=0.0, delay_s=0.0),
+        )
         if unscaled not in self._known:
             pga, pgv, _ = peak_values(unsampled(unscaled, folder))
             self._known[unscaled] = pgv, pga
@@ -75,14 +92,26 @@ class Intensities:
     def of_runs(self, settings: list[Setting]) -> Runs:
         """All runs of settings.
 
-        Raises:
-            One of NOT_FOUND: a motion is not to be found.
+        Raises
+        ------
+        One of NOT_FOUND: a motion is not to be found.
         """
         runs = [(name, run) for setting in settings for name, run in setting.runs.items()]
-        u, lost = (np.concatenate(values) for values in zip(*(setting.peaks() for setting in settings)))
-        records = ["|".join((table.source, table.source_y, table.source_z)) for table in (self._table(run)[0] for _, run in runs)]
-        return Runs(np.array([self.peaks(run) for _, run in runs]), np.array([name for name, _ in runs]), np.array(records), u, lost,
-                    np.concatenate([setting.column("overturned").astype(bool) for setting in settings]))
+        u, lost = (
+            np.concatenate(values) for values in zip(*(setting.peaks() for setting in settings))
+        )
+        records = [
+            "|".join((table.source, table.source_y, table.source_z))
+            for table in (self._table(run)[0] for _, run in runs)
+        ]
+        return Runs(
+            np.array([self.peaks(run) for _, run in runs]),
+            np.array([name for name, _ in runs]),
+            np.array(records),
+            u,
+            lost,
+            np.concatenate([setting.column("overturned").astype(bool) for setting in settings]),
+        )
 
     def _table(self, run: dict):
         from fecolumn.case import Motion
@@ -98,4 +127,3 @@ def across_scales(settings) -> list[tuple[dict, list[Setting]]]:
         values = {key: value for key, value in setting.values.items() if key != SCALE}
         groups.setdefault(repr(values), (values, []))[1].append(setting)
     return list(groups.values())
-

@@ -9,12 +9,24 @@ from fecolumn.post.axis_text import axis_unit, axis_words, level_number
 
 ALL = "all analyses"  # where nothing tells settings apart
 MINUS, DASH, THIN = "\N{MINUS SIGN}", "\N{EM DASH}", "\N{NARROW NO-BREAK SPACE}"
-_SYMBOLS = {"integration.dt_s": "\N{GREEK CAPITAL LETTER DELTA}t", "integration.alpha_hht": "\N{GREEK SMALL LETTER ALPHA}",
-            "contact.friction_coefficient": "\N{GREEK SMALL LETTER MU}", "material.youngs_modulus_pa": "E"}
-_TYPESET = [(re.compile(pattern), replacement) for pattern, replacement in (
-    (r"\bu_max\b", "<i>u</i><sub>max</sub>"), (r"\bu([₀-₉]{2})", r"<i>u</i>\1"), (r"\be([₀-₉]{2})", r"<i>e</i>\1"),
-    (r"\bP\(", "<i>P</i>("), (r"Δt\b", "Δ<i>t</i>"), (r"([αμτ])", r"<i>\1</i>"),
-    (r"\b([pnRD])(?=[\s\u202f]?(?:=|&lt;)|\Z)", r"<i>\1</i>"))]
+_SYMBOLS = {
+    "integration.dt_s": "\N{GREEK CAPITAL LETTER DELTA}t",
+    "integration.alpha_hht": "\N{GREEK SMALL LETTER ALPHA}",
+    "contact.friction_coefficient": "\N{GREEK SMALL LETTER MU}",
+    "material.youngs_modulus_pa": "E",
+}
+_TYPESET = [
+    (re.compile(pattern), replacement)
+    for pattern, replacement in (
+        (r"\bu_max\b", "<i>u</i><sub>max</sub>"),
+        (r"\bu([₀-₉]{2})", r"<i>u</i>\1"),
+        (r"\be([₀-₉]{2})", r"<i>e</i>\1"),
+        (r"\bP\(", "<i>P</i>("),
+        (r"Δt\b", "Δ<i>t</i>"),
+        (r"([αμτ])", r"<i>\1</i>"),
+        (r"\b([pnRD])(?=[\s\u202f]?(?:=|&lt;)|\Z)", r"<i>\1</i>"),
+    )
+]
 _PERCENT = re.compile(r"(\d) %")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -36,7 +48,9 @@ def fixed(value, decimals: int = 2) -> str:
     """Number to a fixed count of decimals, so that a column lines up; a dash where there is none."""
     if value is None or not math.isfinite(value):
         return DASH
-    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)  # + 0.0: what rounds to nothing has no sign
+    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace(
+        "-", MINUS
+    )  # + 0.0: what rounds to nothing has no sign
 
 
 def percent(share) -> str:
@@ -57,17 +71,17 @@ def p_value(p) -> str:
 
 
 def p_clause(p) -> str:
-    """"p = 0.03" or "p < 0.001"."""
+    """ "p = 0.03" or "p < 0.001"."""
     return f"p{THIN}{p_value(p)}" if p < 0.001 else f"p{THIN}={THIN}{p_value(p)}"
 
 
 def interval(low, high, form=fixed) -> str:
-    """"[low, high]"."""
+    """ "[low, high]"."""
     return f"[{form(low)}, {form(high)}]"
 
 
 def percent_interval(low, high) -> str:
-    """"[34.8, 52.6]" of two shares, in per cent."""
+    """ "[34.8, 52.6]" of two shares, in per cent."""
     return DASH if low is None else interval(100 * low, 100 * high, lambda value: fixed(value, 1))
 
 
@@ -75,14 +89,20 @@ def typeset(text: str):
     """Plain text as HTML: escaped, symbols in italics, true apostrophes."""
     from markupsafe import Markup, escape
 
-    html = str(escape(_PERCENT.sub("\\1\N{NO-BREAK SPACE}%", text.replace("'", "\N{RIGHT SINGLE QUOTATION MARK}"))))
+    html = str(
+        escape(
+            _PERCENT.sub(
+                "\\1\N{NO-BREAK SPACE}%", text.replace("'", "\N{RIGHT SINGLE QUOTATION MARK}")
+            )
+        )
+    )
     for pattern, replacement in _TYPESET:
         html = pattern.sub(replacement, html)
     return Markup(html)
 
 
 def count(n: int, noun: str) -> str:
-    """"1 motion", "3 motions"; "1 analysis", "3 analyses"."""
+    """ "1 motion", "3 motions"; "1 analysis", "3 analyses"."""
     plural = {"analysis": "analyses", "history": "histories"}.get(noun, noun + "s")
     return f"{n} {noun if n == 1 else plural}"
 
@@ -121,5 +141,9 @@ def setting_text(values: dict) -> str:
     if not values:
         return ALL
     equals = "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}"
-    return ", ".join(level_text(key, value) if isinstance(value, dict) else f"{axis_name(key)}{equals}{level_text(key, value)}"
-                     for key, value in values.items())
+    return ", ".join(
+        level_text(key, value)
+        if isinstance(value, dict)
+        else f"{axis_name(key)}{equals}{level_text(key, value)}"
+        for key, value in values.items()
+    )

@@ -1,4 +1,6 @@
-"""The report of a study: its sections put together and written as one HTML page with figures and tables beside it."""
+"""The report of a study: its sections put together and written as one HTML page with figures and
+tables beside it.
+"""
 
 from __future__ import annotations
 
@@ -39,18 +41,29 @@ from fecolumn.study.store import DONE, FAILED
 
 
 def write_report(folder, output=None, files=("pdf", "png")) -> Path:
-    """Write index.html, its figures and its tables into `output`, or folder/report; returns the page.
+    """Write index.html, its figures and its tables into `output`, or folder/report; returns the
+    page.
 
-    Args:
-        files: formats in which every figure lies beside the page, besides the SVG that the page shows; none for the words and tables
-            alone, in half the time.
+    Parameters
+    ----------
+    files
+        formats in which every figure lies beside the page, besides the SVG that the page shows;
+        none for the words and tables alone, in half the time.
 
-    Raises:
-        InputError: the folder holds no study, or none of its analyses is done; `output` is neither new nor empty nor of an earlier report.
+    Raises
+    ------
+    InputError
+        the folder holds no study, or none of its analyses is done; `output` is neither new nor
+        empty nor of an earlier report.
     """
     sweep = read_sweep(folder)
     if not sweep.done:
-        raise InputError(folder, "", None, f"none of its {sweep.analyses} analyses is done; nothing to report yet")
+        raise InputError(
+            folder,
+            "",
+            None,
+            f"none of its {sweep.analyses} analyses is done; nothing to report yet",
+        )
     target = Path(output) if output else Path(folder) / "report"
     with written(target, "report", alone=True) as draft:
         for part in ("figures", "tables"):
@@ -71,77 +84,166 @@ def has_claims(sweep: Sweep) -> bool:
 
 def claims_of(sweep: Sweep, pairs: list[Pair]) -> list[Claim]:
     """The paper's claims (a) to (d) put to the study."""
-    return [*individual_claims(sweep, (DT, ALPHA)), *distribution_claims(pairs, sweep.alpha_note), *cost_claims(sweep)]
+    return [
+        *individual_claims(sweep, (DT, ALPHA)),
+        *distribution_claims(pairs, sweep.alpha_note),
+        *cost_claims(sweep),
+    ]
 
 
 def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
     pairs = read_pairs(sweep)
     claims = claims_of(sweep, pairs) if gallery.paper else []
     intensities, histories = Intensities(sweep.folder), read_histories(sweep)
-    parts = [specimen(sweep, gallery, intensities), _claims_section(sweep, claims) if claims else None, distributions(sweep, pairs, gallery), models(sweep, gallery), podium(sweep, gallery),
-             all_motions(sweep, histories, gallery), explorer(sweep, histories), individual(sweep, gallery), sensitivity_section(sweep, gallery), incremental(sweep, gallery, intensities),
-             fragility(sweep, gallery, intensities), timing(sweep, gallery), audit(sweep, gallery), provenance(sweep)]
+    parts = [
+        specimen(sweep, gallery, intensities),
+        _claims_section(sweep, claims) if claims else None,
+        distributions(sweep, pairs, gallery),
+        models(sweep, gallery),
+        podium(sweep, gallery),
+        all_motions(sweep, histories, gallery),
+        explorer(sweep, histories),
+        individual(sweep, gallery),
+        sensitivity_section(sweep, gallery),
+        incremental(sweep, gallery, intensities),
+        fragility(sweep, gallery, intensities),
+        timing(sweep, gallery),
+        audit(sweep, gallery),
+        provenance(sweep),
+    ]
     return [part for part in parts if part]
 
 
 def _claims_section(sweep: Sweep, claims: list[Claim]) -> Section:
-    text = ("Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three time steps and five values of α, and found (a) that "
-            "single peaks depend on both without trend, (b) that the distribution does not depend on the time step once it is small, (c) "
-            f"that α is then marginal, (d) what it costs. On their P(overturn): {TARGET_NOTE}. What follows judges each finding on this "
-            "study by a rule stated beforehand; “supported” says that this study shows the same, “undecided” that it cannot tell.")
-    table = Table("verdicts", (Column("claim", "claim", text=True), Column("paper", "the paper’s finding", text=True),
-                               Column("verdict", "here", lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"), text=True)),
-                  [(claim.key, claim.paper, claim.verdict) for claim in claims], "The paper’s findings and this study’s verdicts.")
-    return Section("The paper’s findings", [Paragraph(text), power(sweep, MARGIN, ", those of the paper"), table, ClaimList(claims)])
+    text = (
+        "Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three "
+        "time steps and five values of α, and found (a) that "
+        "single peaks depend on both without trend, (b) that the distribution does not "
+        "depend on the time step once it is small, (c) "
+        "that α is then marginal, (d) what it costs. On their P(overturn): "
+        f"{TARGET_NOTE}. What follows judges each finding on this "
+        "study by a rule stated beforehand; “supported” says that this study shows the "
+        "same, “undecided” that it cannot tell."
+    )
+    table = Table(
+        "verdicts",
+        (
+            Column("claim", "claim", text=True),
+            Column("paper", "the paper’s finding", text=True),
+            Column(
+                "verdict",
+                "here",
+                lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"),
+                text=True,
+            ),
+        ),
+        [(claim.key, claim.paper, claim.verdict) for claim in claims],
+        "The paper’s findings and this study’s verdicts.",
+    )
+    return Section(
+        "The paper’s findings",
+        [Paragraph(text), power(sweep, MARGIN, ", those of the paper"), table, ClaimList(claims)],
+    )
 
 
 def _html(sweep: Sweep, sections: list[Section]) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
 
-    pages = Environment(loader=PackageLoader("fecolumn.report", "."), autoescape=True, undefined=StrictUndefined)
+    pages = Environment(
+        loader=PackageLoader("fecolumn.report", "."), autoescape=True, undefined=StrictUndefined
+    )
     labels = numbered(sections)
 
     def files(*names: str) -> Markup:
         return Markup("\n".join((Path(__file__).parent / name).read_text() for name in names))
 
     return pages.get_template("page.html").render(
-        title=sweep.title, byline=_byline(sweep), abstract=_abstract(sweep, sections), sections=sections, labels=labels,
-        style=files("page.css", "explorer.css"), script=files("chart.js", "explorer.js"), plain=lambda words: referenced(words, labels),
-        text=lambda words: typeset(referenced(words, labels)))
+        title=sweep.title,
+        byline=_byline(sweep),
+        abstract=_abstract(sweep, sections),
+        sections=sections,
+        labels=labels,
+        style=files("page.css", "explorer.css"),
+        script=files("chart.js", "explorer.js"),
+        plain=lambda words: referenced(words, labels),
+        text=lambda words: typeset(referenced(words, labels)),
+    )
 
 
 def _byline(sweep: Sweep) -> str:
-    return (f"fecolumn, {datetime.date.today():%-d %B %Y}. {count(sweep.analyses, 'analysis')}: {count(len(sweep.settings), 'setting')} × "
-            f"{count(len(sweep.motions), 'motion')}")
+    return (
+        f"fecolumn, {datetime.date.today():%-d %B %Y}. "
+        f"{count(sweep.analyses, 'analysis')}: {count(len(sweep.settings), 'setting')} "
+        "× "
+        f"{count(len(sweep.motions), 'motion')}"
+    )
 
 
 def _abstract(sweep: Sweep, sections: list[Section]) -> str:
-    done, failed, total = sum(row["state"] == DONE for row in sweep.rows), sum(row["state"] == FAILED for row in sweep.rows), sweep.analyses
+    done, failed, total = (
+        sum(row["state"] == DONE for row in sweep.rows),
+        sum(row["state"] == FAILED for row in sweep.rows),
+        sweep.analyses,
+    )
     shares = {id(setting): setting.column("overturned").mean() for setting in sweep.done}
     low, high = min(shares.values()), max(shares.values())
-    parts = [f"{count(len(sweep.motions), 'ground motion')} {'was' if len(sweep.motions) == 1 else 'were'} run through {sweep.subject.article}"
-             + (f", varying {_listed([axis_name(axis) for axis in sweep.varied])} in {count(len(sweep.settings), 'setting')}." if sweep.varied else ".")]
+    parts = [
+        f"{count(len(sweep.motions), 'ground motion')} "
+        f"{'was' if len(sweep.motions) == 1 else 'were'} run through "
+        f"{sweep.subject.article}"
+        + (
+            f", varying {_listed([axis_name(axis) for axis in sweep.varied])} in "
+            f"{count(len(sweep.settings), 'setting')}."
+            if sweep.varied
+            else "."
+        )
+    ]
     if done < total:
-        parts.append(f"{total - done - failed} of {total} analyses not run yet" + (f", {failed} failed." if failed else ".") if total - done - failed
-                     else f"{failed} of {total} analyses failed.")
+        parts.append(
+            f"{total - done - failed} of {total} analyses not run yet"
+            + (f", {failed} failed." if failed else ".")
+            if total - done - failed
+            else f"{failed} of {total} analyses failed."
+        )
     if sweep.cut:
         parts.append(f"{sweep.cut}.")
     over = sweep.reference.column("overturned")
     bounds = proportion_interval(int(over.sum()), over.size)
     if len(sweep.done) > 1:
-        parts.append(f"P(overturn) lies between {percent(low)} and {percent(high)}; {sweep.at(sweep.reference.values)} it is "
-                     f"{percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
+        parts.append(
+            f"P(overturn) lies between {percent(low)} and {percent(high)}; "
+            f"{sweep.at(sweep.reference.values)} it is "
+            f"{percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])})."
+        )
     else:
-        parts.append(f"P(overturn) is {percent(over.mean())} (95 % interval {percent(bounds[0])} to {percent(bounds[1])}).")
-    told = next((block for section in sections for block in section.blocks if isinstance(block, ClaimList)), None)
+        parts.append(
+            f"P(overturn) is {percent(over.mean())} (95 % interval {percent(bounds[0])} "
+            f"to {percent(bounds[1])})."
+        )
+    told = next(
+        (block for section in sections for block in section.blocks if isinstance(block, ClaimList)),
+        None,
+    )
     if told:
         claims = told.claims
-        tally = {verdict: [claim.key for claim in claims if claim.verdict == verdict] for verdict in dict.fromkeys(c.verdict for c in claims)}
-        parts.append(f"Of {len(claims)} findings of {told.authors} put to it, " + _listed([
-            f"{len(keys)} {'is' if len(keys) == 1 else 'are'} {verdict}" + ("" if verdict == SUPPORTED else f" ({'; '.join(keys)})")
-            for verdict, keys in tally.items()]) + ".")
+        tally = {
+            verdict: [claim.key for claim in claims if claim.verdict == verdict]
+            for verdict in dict.fromkeys(c.verdict for c in claims)
+        }
+        parts.append(
+            f"Of {len(claims)} findings of {told.authors} put to it, "
+            + _listed(
+                [
+                    f"{len(keys)} {'is' if len(keys) == 1 else 'are'} {verdict}"
+                    + ("" if verdict == SUPPORTED else f" ({'; '.join(keys)})")
+                    for verdict, keys in tally.items()
+                ]
+            )
+            + "."
+        )
     return " ".join(parts)
+
 
 def _listed(words: list[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

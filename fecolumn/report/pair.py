@@ -21,13 +21,24 @@ FINE_STEPS, WITH_COARSE_STEP = "time steps of 1 ms and below", "with a time step
 class Pair:
     """Two settings that differ in one axis.
 
-    Attributes:
-        axis, low, high: the axis and its two levels.
-        others: values of all other axes.
-        comparison: of the low level (a) with the high one (b), over the motions done in both.
-        distance, bound: largest distance of the two CDFs, and what the data exclude at 95 %.
-        family: the tests that are judged together. comparisons: how many they are.
-        p_holm: paired p of the distance, corrected for the family. p_lost: name of the share of columns that the distributions end short of.
+    Attributes
+    ----------
+    axis, low, high
+        the axis and its two levels.
+    others
+        values of all other axes.
+    comparison
+        of the low level (a) with the high one (b), over the motions done in both.
+    distance, bound
+        largest distance of the two CDFs, and what the data exclude at 95 %.
+    family
+        the tests that are judged together.
+    comparisons
+        how many they are.
+    p_holm
+        paired p of the distance, corrected for the family.
+    p_lost
+        name of the share of columns that the distributions end short of.
     """
 
     axis: str
@@ -44,9 +55,15 @@ class Pair:
 
 
 def read_pairs(sweep: Sweep) -> list[Pair]:
-    """Every pair that differs in one axis, or where these are too many, the extreme levels of each line."""
+    """Every pair that differs in one axis, or where these are too many, the extreme levels of each
+    line.
+    """
     lines = [line for axis in sweep.varied for line in sweep.lines(axis)]
-    spans = [(line, low, high) for line in lines for low, high in itertools.combinations(range(len(line.settings)), 2)]
+    spans = [
+        (line, low, high)
+        for line in lines
+        for low, high in itertools.combinations(range(len(line.settings)), 2)
+    ]
     if len(spans) > _MOST:
         spans = [(line, 0, len(line.settings) - 1) for line in lines][:_MOST]
     found = []
@@ -62,9 +79,21 @@ def read_pairs(sweep: Sweep) -> list[Pair]:
     for family in dict.fromkeys(families):
         members = [place for place, name in enumerate(families) if name == family]
         corrected |= dict(zip(members, holm([found[place][1].paired_p for place in members])))
-    return [Pair(line.axis, *line.levels, line.others, result, distance, bound, families[place], families.count(families[place]),
-                 float(corrected[place]), sweep.p_lost)
-            for place, (line, result, distance, bound) in enumerate(found)]
+    return [
+        Pair(
+            line.axis,
+            *line.levels,
+            line.others,
+            result,
+            distance,
+            bound,
+            families[place],
+            families.count(families[place]),
+            float(corrected[place]),
+            sweep.p_lost,
+        )
+        for place, (line, result, distance, bound) in enumerate(found)
+    ]
 
 
 def _family(line: Line) -> str:

@@ -18,9 +18,13 @@ _LEAST_MOTIONS = 5
 class Rank:
     """An axis, the levels compared, and its effect.
 
-    Attributes:
-        low, high: extreme levels, or for an axis of many levels the ranges (least, largest) of its outer quarters.
-        settings: settings of all other parameters over which the effect is averaged.
+    Attributes
+    ----------
+    low, high
+        extreme levels, or for an axis of many levels the ranges (least, largest) of its outer
+        quarters.
+    settings
+        settings of all other parameters over which the effect is averaged.
     """
 
     axis: str
@@ -31,9 +35,18 @@ class Rank:
 
 
 def ranking(sweep: Sweep) -> list[Rank]:
-    """Axes by the distance of the CDF between their extreme levels, the largest first; not the engines, which have none and a section of their own."""
-    found = [rank for axis in sweep.varied if axis != ENGINE for rank in [_sampled(sweep, axis) if len(sweep.axes[axis]) > _SAMPLED else _crossed(sweep, axis)]
-             if rank]
+    """Axes by the distance of the CDF between their extreme levels, the largest first; not the
+    engines, which have none and a section of their own.
+    """
+    found = [
+        rank
+        for axis in sweep.varied
+        if axis != ENGINE
+        for rank in [
+            _sampled(sweep, axis) if len(sweep.axes[axis]) > _SAMPLED else _crossed(sweep, axis)
+        ]
+        if rank
+    ]
     return sorted(found, key=lambda rank: -rank.effect.distance)
 
 
@@ -55,7 +68,13 @@ def _sampled(sweep: Sweep, axis: str) -> Rank | None:
     low, high = samples[:quarter], samples[-quarter:] if quarter else []
     if not quarter:
         return None
-    return _effect(axis, (low[0].values[axis], low[-1].values[axis]), (high[0].values[axis], high[-1].values[axis]), low, high)
+    return _effect(
+        axis,
+        (low[0].values[axis], low[-1].values[axis]),
+        (high[0].values[axis], high[-1].values[axis]),
+        low,
+        high,
+    )
 
 
 def _effect(axis: str, low, high, at_low: list[Setting], at_high: list[Setting]) -> Rank | None:

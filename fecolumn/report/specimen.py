@@ -1,4 +1,6 @@
-"""Section at the top: the specimen, one of its ground motions, and what all analyses have in common."""
+"""Section at the top: the specimen, one of its ground motions, and what all analyses have in
+common.
+"""
 
 from __future__ import annotations
 
@@ -22,17 +24,44 @@ def specimen(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sectio
         return None
     tilt = next((run.get("critical_tilt_rad") for run in sweep.reference.runs.values()), None)
     same = {axis: levels[0] for axis, levels in sweep.axes.items() if len(levels) == 1}
-    text = f"[[specimen]] shows {'one of the ground motions' if outline is None else 'what was analysed'}. "
+    text = (
+        "[[specimen]] shows "
+        f"{'one of the ground motions' if outline is None else 'what was analysed'}. "
+    )
     if outline is not None:
-        text += f"Specimen: {outline.words}{' in the first setting; others vary it' if varied else ''}. "
+        text += (
+            "Specimen: "
+            f"{outline.words}{' in the first setting; others vary it' if varied else ''}. "
+        )
     text += told + (f"In all analyses {setting_text(same)}." if same else "")
-    shown = [words for words, there in (("the specimen to scale and its foot, enlarged", outline is not None),
-                                        ("the motion of median PGV in the setting of reference", motion is not None)) if there]
-    return Section("Specimen and motions", [Paragraph(text), gallery.draw("specimen", f"{sentence(', and '.join(shown))}.", specimen_figure, outline, tilt, motion)])
+    shown = [
+        words
+        for words, there in (
+            ("the specimen to scale and its foot, enlarged", outline is not None),
+            ("the motion of median PGV in the setting of reference", motion is not None),
+        )
+        if there
+    ]
+    return Section(
+        "Specimen and motions",
+        [
+            Paragraph(text),
+            gallery.draw(
+                "specimen",
+                f"{sentence(', and '.join(shown))}.",
+                specimen_figure,
+                outline,
+                tilt,
+                motion,
+            ),
+        ],
+    )
 
 
 def _middle(sweep: Sweep, intensities: Intensities):
-    """The motion of median PGV of the reference setting, None where it is not to be found, and what is said of all."""
+    """The motion of median PGV of the reference setting, None where it is not to be found, and what
+    is said of all.
+    """
     runs = list(sweep.reference.runs.values())
     try:
         pgv = np.array([intensities.peaks(run)[0] for run in runs])
@@ -41,4 +70,8 @@ def _middle(sweep: Sweep, intensities: Intensities):
         return None, ""
     low, high = pgv.min(), pgv.max()
     reach = f"{fixed(low)} m/s" if np.isclose(low, high) else f"{fixed(low)} to {fixed(high)} m/s"
-    return motion, f"{sentence(sweep.at(sweep.reference.values))} the {count(len(runs), 'motion')} have peak ground velocities of {reach} (RotD50). "
+    return (
+        motion,
+        f"{sentence(sweep.at(sweep.reference.values))} the {count(len(runs), 'motion')} "
+        f"have peak ground velocities of {reach} (RotD50). ",
+    )

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """noun: what overturns. article: the noun as it is introduced. top: what u_max is the displacement of."""
+    """noun: what overturns. article: the noun as it is introduced. top: what u_max is the
+    displacement of.
+    """
 
     noun: str
     article: str
@@ -16,11 +18,15 @@ class Subject:
 
 _COLUMN = Subject("column", "a free-standing column", "the top of the column")
 # by the table of the case, the first that it has
-_OTHERS = {"bodies": Subject("structure", "a structure of free-standing bodies", "the top of the structure"),
-           "frame": Subject("frame", "a rocking frame", "the beam of the frame"),
-           "wobbling_frame": Subject("frame", "a wobbling frame", "the slab of the frame"),
-           "podium": Subject("podium", "a building on a rocking storey", "the roof of the building"),
-           "block": Subject("block", "a rocking block", "the top of the block")}
+_OTHERS = {
+    "bodies": Subject(
+        "structure", "a structure of free-standing bodies", "the top of the structure"
+    ),
+    "frame": Subject("frame", "a rocking frame", "the beam of the frame"),
+    "wobbling_frame": Subject("frame", "a wobbling frame", "the slab of the frame"),
+    "podium": Subject("podium", "a building on a rocking storey", "the roof of the building"),
+    "block": Subject("block", "a rocking block", "the top of the block"),
+}
 
 
 def subject_of(case: dict) -> Subject:

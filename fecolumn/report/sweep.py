@@ -27,10 +27,14 @@ PAPER_CHOICE = {DT: 1e-3, ALPHA: -0.2}
 class Setting:
     """One combination of parameters and its runs.
 
-    Attributes:
-        values: value of each axis that is not the motion, by dotted key.
-        planned, failed: analyses.
-        runs: summary of each analysis that is done, by motion.
+    Attributes
+    ----------
+    values
+        value of each axis that is not the motion, by dotted key.
+    planned, failed
+        analyses.
+    runs
+        summary of each analysis that is done, by motion.
     """
 
     values: dict[str, Any]
@@ -41,17 +45,25 @@ class Setting:
     def column(self, name: str, motions=None) -> np.ndarray:
         """A number of the summaries, one a motion (nan where it is not stated)."""
         runs = self.runs if motions is None else {motion: self.runs[motion] for motion in motions}
-        return np.array([np.nan if run.get(name) is None else run[name] for run in runs.values()], float)
+        return np.array(
+            [np.nan if run.get(name) is None else run[name] for run in runs.values()], float
+        )
 
     def peaks(self, motions=None) -> tuple[np.ndarray, np.ndarray]:
-        """u_max [m], nan where the column overturned or slid off its base, and whether it did, one a motion."""
-        lost = self.column("overturned", motions).astype(bool) | (self.column("slid_off", motions) == 1)
+        """u_max [m], nan where the column overturned or slid off its base, and whether it did, one
+        a motion.
+        """
+        lost = self.column("overturned", motions).astype(bool) | (
+            self.column("slid_off", motions) == 1
+        )
         return np.where(lost, np.nan, self.column("u_max_m", motions)), lost
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """Settings along one axis, all else equal; `settings` in rising order of the axis' levels, each with runs."""
+    """Settings along one axis, all else equal; `settings` in rising order of the axis' levels, each
+    with runs.
+    """
 
     axis: str
     others: dict[str, Any]
@@ -75,14 +87,26 @@ class Line:
 class Sweep:
     """A study read for its report.
 
-    Attributes:
-        folder: of the study. title: of it.
-        axes: levels of each axis that is not the motion, numbers rising, others as they stand in the study.
-        settings: in the order of the study; those without a finished run included.
-        rows: the ledger.
-        analyses: number of all analyses; of a job array at work the ledger has not all of them yet.
-        limit_m: displacement that every overturned column exceeded [m]: the cap of the study, or the largest peak of those that stood.
-        case: tables of one case of the study, {} where no result folder has one.
+    Attributes
+    ----------
+    folder
+        of the study.
+    title
+        of it.
+    axes
+        levels of each axis that is not the motion, numbers rising, others as they stand in the
+        study.
+    settings
+        in the order of the study; those without a finished run included.
+    rows
+        the ledger.
+    analyses
+        number of all analyses; of a job array at work the ledger has not all of them yet.
+    limit_m
+        displacement that every overturned column exceeded [m]: the cap of the study, or the largest
+        peak of those that stood.
+    case
+        tables of one case of the study, {} where no result folder has one.
     """
 
     folder: Path
@@ -111,7 +135,9 @@ class Sweep:
     @cached_property
     def slides(self) -> bool:
         """Whether any column slid off its base: what is lost is then more than what overturned."""
-        return any(run.get("slid_off") for setting in self.settings for run in setting.runs.values())
+        return any(
+            run.get("slid_off") for setting in self.settings for run in setting.runs.values()
+        )
 
     @property
     def lost(self) -> str:
@@ -130,7 +156,9 @@ class Sweep:
 
     @property
     def p_lost(self) -> str:
-        """Name of the share of columns that are lost, where no figure parts what overturned from what slid off."""
+        """Name of the share of columns that are lost, where no figure parts what overturned from
+        what slid off.
+        """
         return P_LOST if self.slides else P_OVERTURN
 
     @property
@@ -140,8 +168,14 @@ class Sweep:
 
     @cached_property
     def reference(self) -> Setting:
-        """The paper's choice where the study has it, else the setting with most runs, the middle one of equals."""
-        chosen = [s for s in self.done if all(s.values.get(axis) == value for axis, value in PAPER_CHOICE.items())]
+        """The paper's choice where the study has it, else the setting with most runs, the middle
+        one of equals.
+        """
+        chosen = [
+            s
+            for s in self.done
+            if all(s.values.get(axis) == value for axis, value in PAPER_CHOICE.items())
+        ]
         most = max(len(s.runs) for s in self.done)
         equals = chosen or [s for s in self.done if len(s.runs) == most]
         return equals[0] if chosen else equals[len(equals) // 2]
@@ -152,18 +186,27 @@ class Sweep:
         return f"in {ALL}" if words == ALL else f"at {words}"
 
     def words(self, values: dict) -> str:
-        """Values of the axes that vary, such as "Δt = 0.001 s, α = −0.2"; those of one value alone are told once, at the top."""
+        """Values of the axes that vary, such as "Δt = 0.001 s, α = −0.2"; those of one value alone
+        are told once, at the top.
+        """
         return setting_text({axis: values[axis] for axis in self.varied if axis in values})
 
     def groups(self, axis: str) -> list[tuple[dict[str, Any], tuple[Setting, ...]]]:
-        """Values of the other axes, and the settings with runs that have them, in rising order of the axis' levels."""
+        """Values of the other axes, and the settings with runs that have them, in rising order of
+        the axis' levels.
+        """
         groups: dict[str, list[Setting]] = {}
         for setting in self.done:
             others = {key: setting.values[key] for key in self.varied if key != axis}
             groups.setdefault(repr(others), []).append(setting)
         order = {repr(level): place for place, level in enumerate(self.axes[axis])}
-        return [({key: group[0].values[key] for key in self.varied if key != axis}, tuple(sorted(group, key=lambda s: order[repr(s.values[axis])])))
-                for group in groups.values()]
+        return [
+            (
+                {key: group[0].values[key] for key in self.varied if key != axis},
+                tuple(sorted(group, key=lambda s: order[repr(s.values[axis])])),
+            )
+            for group in groups.values()
+        ]
 
     def lines(self, axis: str) -> list[Line]:
         """Every line along an axis with at least two levels that have runs of common motions."""
@@ -173,27 +216,49 @@ class Sweep:
 
 def common_motions(settings) -> list[str]:
     """Motions done in all of the settings, in the order of the first."""
-    return [motion for motion in settings[0].runs if all(motion in setting.runs for setting in settings[1:])]
+    return [
+        motion
+        for motion in settings[0].runs
+        if all(motion in setting.runs for setting in settings[1:])
+    ]
 
 
 def read_sweep(folder) -> Sweep:
     """The study in a folder, finished or not.
 
-    Raises:
-        InputError: the folder holds no study.
+    Raises
+    ------
+    InputError
+        the folder holds no study.
     """
     folder, study = Path(folder), read_study(folder)
     groups: dict[str, list[dict]] = {}
     for row in study.rows:
-        groups.setdefault(repr([item for item in row["axes"].items() if item[0] not in ENSEMBLE_AXES]), []).append(row)
+        groups.setdefault(
+            repr([item for item in row["axes"].items() if item[0] not in ENSEMBLE_AXES]), []
+        ).append(row)
     settings = tuple(_setting(rows) for rows in groups.values())
     axes: dict[str, dict] = {}
     for setting in settings:
         for key, value in setting.values.items():
             axes.setdefault(key, {})[repr(value)] = value
-    case = next(filter(None, (_case(folder / "analyses" / row["id"]) for row in study.rows if row["state"] == DONE)), {})
-    return Sweep(folder, study.title, {key: _ordered(list(levels.values())) for key, levels in axes.items()}, settings, study.rows, study.analyses,
-                 float(case.get("overturn", {}).get("displacement_m", 0.0)) or _largest_peak(settings), case)
+    case = next(
+        filter(
+            None,
+            (_case(folder / "analyses" / row["id"]) for row in study.rows if row["state"] == DONE),
+        ),
+        {},
+    )
+    return Sweep(
+        folder,
+        study.title,
+        {key: _ordered(list(levels.values())) for key, levels in axes.items()},
+        settings,
+        study.rows,
+        study.analyses,
+        float(case.get("overturn", {}).get("displacement_m", 0.0)) or _largest_peak(settings),
+        case,
+    )
 
 
 def _largest_peak(settings) -> float:
@@ -202,14 +267,19 @@ def _largest_peak(settings) -> float:
 
 
 def _setting(rows: list[dict]) -> Setting:
-    runs = {repr([value for key, value in row["axes"].items() if key in ENSEMBLE_AXES]): row["summary"]
-            for row in rows if row["state"] == DONE and row["summary"]}
+    runs = {
+        repr([value for key, value in row["axes"].items() if key in ENSEMBLE_AXES]): row["summary"]
+        for row in rows
+        if row["state"] == DONE and row["summary"]
+    }
     values = {key: value for key, value in rows[0]["axes"].items() if key not in ENSEMBLE_AXES}
     return Setting(values, len(rows), sum(row["state"] == FAILED for row in rows), runs)
 
 
 def _ordered(levels: list) -> list:
-    numbers = all(isinstance(level, (int, float)) and not isinstance(level, bool) for level in levels)
+    numbers = all(
+        isinstance(level, (int, float)) and not isinstance(level, bool) for level in levels
+    )
     return sorted(levels) if numbers else levels
 
 
@@ -222,6 +292,10 @@ def _case(folder: Path) -> dict:
     try:
         tables = read_tables(folder)
         float(tables.get("overturn", {}).get("displacement_m", 0.25))
-        return tables if all(isinstance(table, (dict, str, type(None))) for table in tables.values()) else {}
+        return (
+            tables
+            if all(isinstance(table, (dict, str, type(None))) for table in tables.values())
+            else {}
+        )
     except (ValueError, KeyError, TypeError, AttributeError):
         return {}

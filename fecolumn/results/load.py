@@ -12,8 +12,10 @@ from fecolumn.schema import InputError
 def load(folder) -> AnalysisResult | StudyResult:
     """The analysis or the study in a result folder, finished or not.
 
-    Raises:
-        InputError: no such folder, or one that holds neither.
+    Raises
+    ------
+    InputError
+        no such folder, or one that holds neither.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -22,4 +24,6 @@ def load(folder) -> AnalysisResult | StudyResult:
         return StudyResult(folder)
     if (folder / "case.json").exists():
         return AnalysisResult(folder)
-    raise InputError(folder, "", None, "holds neither an analysis (case.json) nor a study (study.json)")
+    raise InputError(
+        folder, "", None, "holds neither an analysis (case.json) nor a study (study.json)"
+    )

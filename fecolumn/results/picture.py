@@ -10,12 +10,16 @@ from pathlib import Path
 class Picture:
     """A figure as PNG and PDF.
 
-    Attributes:
-        png: its bytes, which a notebook shows.
+    Attributes
+    ----------
+    png
+        its bytes, which a notebook shows.
     """
 
     def __init__(self, draw):
-        """draw: function that writes the figure to the files of a path without suffix, and returns them."""
+        """draw: function that writes the figure to the files of a path without suffix, and returns
+        them.
+        """
         self._draw = draw
         with tempfile.TemporaryDirectory() as folder:
             files = draw(Path(folder) / "figure")
@@ -30,4 +34,7 @@ class Picture:
         path = path.with_suffix("") if path.suffix in (".png", ".pdf") else path
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory() as folder:
-            return [Path(shutil.copy(file, path.with_name(path.name + file.suffix))) for file in self._draw(Path(folder) / "figure")]
+            return [
+                Path(shutil.copy(file, path.with_name(path.name + file.suffix)))
+                for file in self._draw(Path(folder) / "figure")
+            ]

@@ -8,17 +8,31 @@ from fecolumn.results.study import StudyResult
 
 
 def run_study(file, folder, workers: int = 1, quiet: bool = False) -> StudyResult:
-    """Do what is missing of a study file, as `fecolumn study` does, with its tables and its figure in the folder.
+    """Do what is missing of a study file, as `fecolumn study` does, with its tables and its figure
+    in the folder.
 
-    Analyses are made by processes of their own, which do not run the script anew: it needs no `if __name__ == "__main__":`.
+    Analyses are made by processes of their own, which do not run the script anew: it needs no `if
+    __name__ == "__main__":`.
 
-    Args:
-        file: TOML file of the study. folder: of its results. workers: analyses at a time. quiet: no progress on stderr.
+    Parameters
+    ----------
+    file
+        TOML file of the study.
+    folder
+        of its results.
+    workers
+        analyses at a time.
+    quiet
+        no progress on stderr.
 
-    Raises:
-        InputError: the study cannot be run as it is written, or the folder is another's.
-        StudyError: workers cannot start, or the disk is full.
-        KeyboardInterrupt: Ctrl-C; what is done is kept.
+    Raises
+    ------
+    InputError
+        the study cannot be run as it is written, or the folder is another's.
+    StudyError
+        workers cannot start, or the disk is full.
+    KeyboardInterrupt
+        Ctrl-C; what is done is kept.
     """
     import io
 

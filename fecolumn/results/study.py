@@ -22,7 +22,9 @@ from fecolumn.study.store import DONE, read_study
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """An analysis of a study in the ledger, as `study.table` asks for it: its id, and the values that name its ensemble."""
+    """An analysis of a study in the ledger, as `study.table` asks for it: its id, and the values
+    that name its ensemble.
+    """
 
     id: str
     combination: dict
@@ -30,7 +32,9 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Members:
-    """Title and analyses of a study that is read from its folder, in the place of its `study.plan.Plan`."""
+    """Title and analyses of a study that is read from its folder, in the place of its
+    `study.plan.Plan`.
+    """
 
     title: str
     analyses: tuple[Member, ...]
@@ -39,8 +43,10 @@ class Members:
 class StudyResult:
     """What is in the folder of `fecolumn.study`, finished or not.
 
-    Attributes:
-        folder: Path.
+    Attributes
+    ----------
+    folder
+        Path.
     """
 
     def __init__(self, folder):
@@ -73,28 +79,45 @@ class StudyResult:
     def chosen(self, choice: dict | None = None) -> list[dict]:
         """Rows that are done and have the values of `choice`, such as {"integration.dt_s": 1e-3}.
 
-        Raises:
-            InputError: an axis or a value that the study does not have.
+        Raises
+        ------
+        InputError
+            an axis or a value that the study does not have.
         """
         rows = [row for row in self.rows if row["state"] == DONE]
         for key, value in (choice or {}).items():
             if key not in self.axes:
-                raise InputError(self.folder, key, value, f"is no axis of this study; its axes: {', '.join(self.axes)}")
+                raise InputError(
+                    self.folder,
+                    key,
+                    value,
+                    f"is no axis of this study; its axes: {', '.join(self.axes)}",
+                )
             if not any(same_value(one, value) for one in self.axes[key]):
-                raise InputError(self.folder, key, value, f"is no value of this axis; it has {', '.join(map(str, self.axes[key][:8]))}")
+                raise InputError(
+                    self.folder,
+                    key,
+                    value,
+                    f"is no value of this axis; it has {', '.join(map(str, self.axes[key][:8]))}",
+                )
             rows = [row for row in rows if same_value(row["axes"][key], value)]
         return rows
 
     def ecdf(self, choice: dict | None = None) -> Ecdf:
-        """Empirical distribution of the largest displacement of the top [m]; what was lost counts as larger than all.
+        """Empirical distribution of the largest displacement of the top [m]; what was lost counts
+        as larger than all.
 
-        Raises:
-            InputError: as of `chosen`, or nothing of it is done.
+        Raises
+        ------
+        InputError
+            as of `chosen`, or nothing of it is done.
         """
         summaries = [row["summary"] for row in self.chosen(choice)]
         if not summaries:
             raise InputError(self.folder, "", None, "none of these analyses is done")
-        return ecdf([summary["u_max_m"] for summary in summaries], [lost(summary) for summary in summaries])
+        return ecdf(
+            [summary["u_max_m"] for summary in summaries], [lost(summary) for summary in summaries]
+        )
 
     def analyses(self, choice: dict | None = None) -> list[AnalysisResult]:
         """The results of single analyses, where the study has kept their folders."""
@@ -102,20 +125,26 @@ class StudyResult:
         return [AnalysisResult(folder) for folder in folders if folder.is_dir()]
 
     def columns(self) -> dict[str, list]:
-        """One list an axis, then state, outcome and peak; the peak of what was lost is nan, its displacement is where the analysis stopped."""
+        """One list an axis, then state, outcome and peak; the peak of what was lost is nan, its
+        displacement is where the analysis stopped.
+        """
         table = {key: [row["axes"][key] for row in self.rows] for key in self.axes}
         summaries = [row["summary"] or {} for row in self.rows]
         table["state"] = [row["state"] for row in self.rows]
         table["outcome"] = [summary.get("outcome", "") for summary in summaries]
         table["lost"] = [bool(summary) and lost(summary) for summary in summaries]
-        table["u_max_m"] = [summary["u_max_m"] if summary and not lost(summary) else np.nan for summary in summaries]
+        table["u_max_m"] = [
+            summary["u_max_m"] if summary and not lost(summary) else np.nan for summary in summaries
+        ]
         table["steps"] = [summary.get("steps", 0) for summary in summaries]
         return table
 
     def to_pandas(self):
         """DataFrame of `columns`, an analysis a row, its id the index."""
         pandas = installed("pandas", "to_pandas")
-        return pandas.DataFrame(self.columns(), index=pandas.Index([row["id"] for row in self.rows], name="id"))
+        return pandas.DataFrame(
+            self.columns(), index=pandas.Index([row["id"] for row in self.rows], name="id")
+        )
 
     @property
     def plot(self) -> StudyPlots:
@@ -135,10 +164,15 @@ class StudyResult:
         from fecolumn.study.table import table_text
 
         text = table_text(self._members(), self.rows) if self.done else "nothing is done yet"
-        return f"<p>{html.escape(self.title)}: {self.done} of {len(self.rows)} analyses done</p><pre>{html.escape(text)}</pre>"
+        return (
+            f"<p>{html.escape(self.title)}: {self.done} of {len(self.rows)} analyses "
+            f"done</p><pre>{html.escape(text)}</pre>"
+        )
 
     def _members(self) -> Members:
-        return Members(self.title, tuple(Member(row["id"], setting_of(row["axes"])) for row in self.rows))
+        return Members(
+            self.title, tuple(Member(row["id"], setting_of(row["axes"])) for row in self.rows)
+        )
 
 
 class StudyPlots:
@@ -148,9 +182,15 @@ class StudyPlots:
         self.result = result
 
     def cdf(self) -> Picture:
-        """Distributions of the largest displacement, with bands: a line a setting, as of `fecolumn study`."""
+        """Distributions of the largest displacement, with bands: a line a setting, as of `fecolumn
+        study`.
+        """
         from fecolumn.study.table import write_figure
 
         if not self.result.done:
-            raise InputError(self.result.folder, "", None, "none of its analyses is done; nothing to draw yet")
-        return Picture(lambda path: write_figure(self.result._members(), self.result.rows, path.parent))
+            raise InputError(
+                self.result.folder, "", None, "none of its analyses is done; nothing to draw yet"
+            )
+        return Picture(
+            lambda path: write_figure(self.result._members(), self.result.rows, path.parent)
+        )

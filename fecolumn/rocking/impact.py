@@ -1,7 +1,9 @@
-"""Impact laws of rocking bodies: angular velocity after over before, the impulse acting where the body lands.
+"""Impact laws of rocking bodies: angular velocity after over before, the impulse acting where the
+body lands.
 
-Every law keeps the angular momentum about the point the body lands on (Housner 1963): the impact is plastic there, and without impulse at
-the point the body leaves. The manual derives them (fecolumn help rocking).
+Every law keeps the angular momentum about the point the body lands on (Housner 1963): the impact is
+plastic there, and without impulse at the point the body leaves. The manual derives them (fecolumn
+help rocking).
 """
 
 from __future__ import annotations
@@ -10,8 +12,10 @@ import math
 
 
 def housner_restitution(slenderness: float) -> float:
-    """Of a rectangular block, 1 - 3/2 sin^2 alpha (Housner 1963); 0, it stops, for alpha above 54.7 degrees."""
-    return max(1.0 - 1.5 * math.sin(slenderness)**2, 0.0)
+    """Of a rectangular block, 1 - 3/2 sin^2 alpha (Housner 1963); 0, it stops, for alpha above 54.7
+    degrees.
+    """
+    return max(1.0 - 1.5 * math.sin(slenderness) ** 2, 0.0)
 
 
 def rectangular_restitution(aspect: float) -> float:
@@ -19,26 +23,39 @@ def rectangular_restitution(aspect: float) -> float:
     return max((2 * aspect**2 - 1) / (2 * (aspect**2 + 1)), 0.0)
 
 
-def body_restitution(mass: float, central_inertia: float, left: tuple[float, float], landed: tuple[float, float]) -> float:
-    """Of any rigid body whose centre of mass is at `left` (x, z) [m] from the edge it leaves and at `landed` from that it lands on.
+def body_restitution(
+    mass: float, central_inertia: float, left: tuple[float, float], landed: tuple[float, float]
+) -> float:
+    """Of any rigid body whose centre of mass is at `left` (x, z) [m] from the edge it leaves and at
+    `landed` from that it lands on.
 
-    Args:
-        mass: [kg]. central_inertia: about the centre of mass [kg m2].
+    Parameters
+    ----------
+    mass
+        [kg].
+    central_inertia
+        about the centre of mass [kg m2].
     """
     momentum = central_inertia + mass * (left[0] * landed[0] + left[1] * landed[1])
-    return max(momentum / (central_inertia + mass * (landed[0]**2 + landed[1]**2)), 0.0)
+    return max(momentum / (central_inertia + mass * (landed[0] ** 2 + landed[1] ** 2)), 0.0)
 
 
 def one_sided_restitution(slenderness: float) -> float:
-    """Of a rectangular block that strikes a rigid wall behind it and goes back the way it came; a share of the speed, at least 0.
+    """Of a rectangular block that strikes a rigid wall behind it and goes back the way it came; a
+    share of the speed, at least 0.
 
-    It lands on its other foot edge, strikes the wall with the top edge above that, and lands on the first foot edge again, each time keeping its
-    angular momentum: (1 - 3/2 sin^2 alpha)^2 (3/2 cos^2 alpha - 1) (Sorrentino, Kunnath, Monti and Scalora 2008). Tests on walls find less.
+    It lands on its other foot edge, strikes the wall with the top edge above that, and lands on the
+    first foot edge again, each time keeping its angular momentum: (1 - 3/2 sin^2 alpha)^2 (3/2
+    cos^2 alpha - 1) (Sorrentino, Kunnath, Monti and Scalora 2008). Tests on walls find less.
     """
-    return max(housner_restitution(slenderness)**2 * (1.5 * math.cos(slenderness)**2 - 1.0), 0.0)
+    return max(
+        housner_restitution(slenderness) ** 2 * (1.5 * math.cos(slenderness) ** 2 - 1.0), 0.0
+    )
 
 
 def frame_restitution(slenderness: float, mass_ratio: float) -> float:
-    """Of a rocking frame, gamma its beam's mass over that of all columns (Makris and Vassiliou 2013); gamma = 0 is the block's."""
-    kept = 1.0 - 1.5 * math.sin(slenderness)**2 + 3.0 * mass_ratio * math.cos(2 * slenderness)
+    """Of a rocking frame, gamma its beam's mass over that of all columns (Makris and Vassiliou
+    2013); gamma = 0 is the block's.
+    """
+    kept = 1.0 - 1.5 * math.sin(slenderness) ** 2 + 3.0 * mass_ratio * math.cos(2 * slenderness)
     return max(kept / (1.0 + 3.0 * mass_ratio), 0.0)

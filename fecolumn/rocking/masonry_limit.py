@@ -1,13 +1,16 @@
-"""Limit analysis of dry-jointed walls of rigid blocks by linear programming: the load multiplier that begins to move them, and how.
+"""Limit analysis of dry-jointed walls of rigid blocks by linear programming: the load multiplier
+that begins to move them, and how.
 
-Blocks (weights down, `multiplier` times weights sideways) touch along straight joints. A joint carries a compression n_1, n_2 >= 0 at either
-end and a shear |s| <= mu (n_1 + n_2). The largest multiplier in equilibrium is a linear programme (Livesley 1978), solved by HiGHS; the
-duals of equilibrium are the velocities of its mechanism.
+Blocks (weights down, `multiplier` times weights sideways) touch along straight joints. A joint
+carries a compression n_1, n_2 >= 0 at either end and a shear |s| <= mu (n_1 + n_2). The largest
+multiplier in equilibrium is a linear programme (Livesley 1978), solved by HiGHS; the duals of
+equilibrium are the velocities of its mechanism.
 
-Normality makes a joint that slides dilate by mu: so the multiplier is an upper bound. Coulomb friction does not dilate. Then a multiplier must
-have forces and a mechanism that go together (sliding only where s = mu n, opening only where n = 0), and there may be many such; Gilbert,
-Casapulla and Ahmed (2006) find one by a series of linear programmes: |s| <= mu n' + slope (n - n'), n' from the programme before, slope -> 0,
-until what holds at n' holds at n.
+Normality makes a joint that slides dilate by mu: so the multiplier is an upper bound. Coulomb
+friction does not dilate. Then a multiplier must have forces and a mechanism that go together
+(sliding only where s = mu n, opening only where n = 0), and there may be many such; Gilbert,
+Casapulla and Ahmed (2006) find one by a series of linear programmes: |s| <= mu n' + slope (n - n'),
+n' from the programme before, slope -> 0, until what holds at n' holds at n.
 """
 
 from __future__ import annotations
@@ -26,9 +29,14 @@ _CLOSE = 1e-6
 class Joint:
     """Straight contact between two blocks.
 
-    Attributes:
-        first, second: blocks, -1 for the ground; the first is pressed by the normal.
-        ends: (2, 2) its end points [m]. normal: (2,) unit vector from the second block into the first.
+    Attributes
+    ----------
+    first, second
+        blocks, -1 for the ground; the first is pressed by the normal.
+    ends
+        (2, 2) its end points [m].
+    normal
+        (2,) unit vector from the second block into the first.
     """
 
     first: int
@@ -41,13 +49,25 @@ class Joint:
 class Collapse:
     """What a limit analysis finds.
 
-    Attributes:
-        multiplier: of the horizontal loads. normal: (joints, 2) compression at the ends [N]; shear: (joints,) on the first block along the
-            normal turned by a right angle to the left [N].
-        velocity: (blocks, 3) of the mechanism: x, y of the centre and counter-clockwise turn, such that the loads' power is 1.
-        dilatancy: dilation over slip that the mechanism needs: the friction coefficient where it is associated.
-        residual: largest |s| - mu n over all joints, over the total weight; above 0 the forces are not those of the friction asked for.
-        iterations: linear programmes solved.
+    Attributes
+    ----------
+    multiplier
+        of the horizontal loads.
+    normal
+        (joints, 2) compression at the ends [N]
+    shear
+        (joints,) on the first block along the normal turned by a right angle to the left [N].
+    velocity
+        (blocks, 3) of the mechanism: x, y of the centre and counter-clockwise turn, such that the
+        loads' power is 1.
+    dilatancy
+        dilation over slip that the mechanism needs: the friction coefficient where it is
+        associated.
+    residual
+        largest |s| - mu n over all joints, over the total weight; above 0 the forces are not those
+        of the friction asked for.
+    iterations
+        linear programmes solved.
     """
 
     multiplier: float
@@ -63,9 +83,16 @@ class Collapse:
 class Wall:
     """Rectangular blocks in their places.
 
-    Attributes:
-        boxes: (blocks, 4) left, bottom, right, top [m]. weights: (blocks,) [N]. joints: between blocks, and to the ground.
-        loads: (blocks,) horizontal loads at the centres [N] for a multiplier of 1; towards +x positive.
+    Attributes
+    ----------
+    boxes
+        (blocks, 4) left, bottom, right, top [m].
+    weights
+        (blocks,) [N].
+    joints
+        between blocks, and to the ground.
+    loads
+        (blocks,) horizontal loads at the centres [N] for a multiplier of 1; towards +x positive.
     """
 
     boxes: np.ndarray
@@ -80,86 +107,151 @@ class Wall:
 
 
 def wall_of_boxes(boxes, unit_weight: float, depth: float = 1.0) -> Wall:
-    """Wall of rectangles, those at the lowest level standing on rough ground; loads are the weights, towards +x.
+    """Wall of rectangles, those at the lowest level standing on rough ground; loads are the
+    weights, towards +x.
 
-    Args:
-        boxes: (blocks, 4) left, bottom, right, top [m]; they must not overlap.
-        unit_weight: [N/m3]. depth: [m].
+    Parameters
+    ----------
+    boxes
+        (blocks, 4) left, bottom, right, top [m]; they must not overlap.
+    unit_weight
+        [N/m3].
+    depth
+        [m].
     """
     boxes = np.asarray(boxes, float)
     near = _CLOSE * (boxes[:, 2:] - boxes[:, :2]).min()
     joints, ground = [], boxes[:, 1].min()
     for i, (left, bottom, right, top) in enumerate(boxes):
         if bottom < ground + near:
-            joints.append(Joint(i, -1, np.array([[left, bottom], [right, bottom]]), np.array([0.0, 1.0])))
+            joints.append(
+                Joint(i, -1, np.array([[left, bottom], [right, bottom]]), np.array([0.0, 1.0]))
+            )
         for j, (x0, y0, x1, y1) in enumerate(boxes):
             if abs(bottom - y1) < near and min(right, x1) - max(left, x0) > near:
-                joints.append(Joint(i, j, np.array([[max(left, x0), bottom], [min(right, x1), bottom]]), np.array([0.0, 1.0])))
+                joints.append(
+                    Joint(
+                        i,
+                        j,
+                        np.array([[max(left, x0), bottom], [min(right, x1), bottom]]),
+                        np.array([0.0, 1.0]),
+                    )
+                )
             if abs(left - x1) < near and min(top, y1) - max(bottom, y0) > near:
-                joints.append(Joint(i, j, np.array([[left, max(bottom, y0)], [left, min(top, y1)]]), np.array([1.0, 0.0])))
+                joints.append(
+                    Joint(
+                        i,
+                        j,
+                        np.array([[left, max(bottom, y0)], [left, min(top, y1)]]),
+                        np.array([1.0, 0.0]),
+                    )
+                )
     weights = unit_weight * depth * np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)
     return Wall(boxes, weights, tuple(joints), weights.copy())
 
 
-def running_bond(blocks: int, courses: int, length: float, height: float, unit_weight: float = 1e4) -> Wall:
-    """Wall of `blocks` blocks a course in running bond, the lowest course beginning and ending with a half block.
+def running_bond(
+    blocks: int, courses: int, length: float, height: float, unit_weight: float = 1e4
+) -> Wall:
+    """Wall of `blocks` blocks a course in running bond, the lowest course beginning and ending with
+    a half block.
 
-    Args:
-        length, height: of a block [m]. unit_weight: [N/m3].
+    Parameters
+    ----------
+    length, height
+        of a block [m].
+    unit_weight
+        [N/m3].
     """
     boxes = []
     for course in range(courses):
         cuts = np.arange(blocks + 1) * length
         if course % 2 == 0:
             cuts = np.concatenate([[0.0], cuts[:-1] + length / 2, cuts[-1:]])
-        boxes += [(x0, course * height, x1, (course + 1) * height) for x0, x1 in zip(cuts[:-1], cuts[1:])]
+        boxes += [
+            (x0, course * height, x1, (course + 1) * height) for x0, x1 in zip(cuts[:-1], cuts[1:])
+        ]
     return wall_of_boxes(boxes, unit_weight)
 
 
 def associated(wall: Wall, friction: float) -> Collapse:
-    """Largest multiplier with sliding that dilates by the friction coefficient: an upper bound of Coulomb friction's.
+    """Largest multiplier with sliding that dilates by the friction coefficient: an upper bound of
+    Coulomb friction's.
 
-    Raises:
-        ValueError: the wall does not stand under its weight, or no multiplier makes it move.
+    Raises
+    ------
+    ValueError
+        the wall does not stand under its weight, or no multiplier makes it move.
     """
     slope, kept = np.full(len(wall.joints), friction), np.zeros(len(wall.joints))
     multiplier, normal, shear, velocity = _programme(wall, slope, kept)
-    return Collapse(multiplier, normal, shear, velocity, friction, _residual(wall, normal, shear, friction), 1)
+    return Collapse(
+        multiplier, normal, shear, velocity, friction, _residual(wall, normal, shear, friction), 1
+    )
 
 
-def non_associated(wall: Wall, friction: float, *, starts: int = 1, seed: int = 0, dilatancy: float = 1e-4, tolerance: float = 1e-6,
-                   most: int = 200) -> Collapse:
-    """Multiplier with sliding that does not dilate, by a series of linear programmes after Gilbert, Casapulla and Ahmed (2006).
+def non_associated(
+    wall: Wall,
+    friction: float,
+    *,
+    starts: int = 1,
+    seed: int = 0,
+    dilatancy: float = 1e-4,
+    tolerance: float = 1e-6,
+    most: int = 200,
+) -> Collapse:
+    """Multiplier with sliding that does not dilate, by a series of linear programmes after Gilbert,
+    Casapulla and Ahmed (2006).
 
-    Of the forces that a programme leaves open those nearest to the last ones are taken: so the series ends where the forces repeat themselves.
-    Other starts may end at other multipliers, all of them possible; the least one found is returned.
+    Of the forces that a programme leaves open those nearest to the last ones are taken: so the
+    series ends where the forces repeat themselves. Other starts may end at other multipliers, all
+    of them possible; the least one found is returned.
 
-    Args:
-        friction: Coulomb coefficient.
-        starts: the associated solution's forces first, then random ones of `seed`.
-        dilatancy: last slope of the sliding surfaces, nearly 0: with 0 a mechanism could slide without work.
-        tolerance: of the forces beyond Coulomb's cone, over the total weight.
-        most: linear programmes of a start.
+    Parameters
+    ----------
+    friction
+        Coulomb coefficient.
+    starts
+        the associated solution's forces first, then random ones of `seed`.
+    dilatancy
+        last slope of the sliding surfaces, nearly 0: with 0 a mechanism could slide without work.
+    tolerance
+        of the forces beyond Coulomb's cone, over the total weight.
+    most
+        linear programmes of a start.
 
-    Raises:
-        ValueError: as `associated`; or no start converged.
+    Raises
+    ------
+    ValueError
+        as `associated`; or no start converged.
     """
     first, rng, found = associated(wall, friction), np.random.default_rng(seed), []
     for start in range(starts):
         normal = first.normal.sum(axis=1)
         if start:
-            normal = wall.weights.mean() * rng.exponential(3.0, len(normal)) * rng.integers(0, 2, len(normal))
+            normal = (
+                wall.weights.mean()
+                * rng.exponential(3.0, len(normal))
+                * rng.integers(0, 2, len(normal))
+            )
         slope = friction
         for iteration in range(2, most + 1):
             slope = max(0.7 * slope, dilatancy)
-            multiplier, ends, shear, velocity = _programme(wall, np.full(len(normal), slope), (friction - slope) * normal, normal)
+            multiplier, ends, shear, velocity = _programme(
+                wall, np.full(len(normal), slope), (friction - slope) * normal, normal
+            )
             residual = _residual(wall, ends, shear, friction)
             if slope == dilatancy and residual < tolerance:
-                found.append(Collapse(multiplier, ends, shear, velocity, slope, residual, iteration))
+                found.append(
+                    Collapse(multiplier, ends, shear, velocity, slope, residual, iteration)
+                )
                 break
             normal = 0.4 * normal + 0.6 * ends.sum(axis=1)
     if not found:
-        raise ValueError(f"limit analysis has not converged in {most} linear programmes: multiplier {multiplier:.6g}, forces {residual:.1e} of the weight beyond friction")
+        raise ValueError(
+            f"limit analysis has not converged in {most} linear programmes: multiplier "
+            f"{multiplier:.6g}, forces {residual:.1e} of the weight beyond friction"
+        )
     return min(found, key=lambda one: one.multiplier)
 
 
@@ -168,7 +260,9 @@ def _residual(wall: Wall, normal, shear, friction: float) -> float:
 
 
 def _programme(wall: Wall, slope, kept, near=None):
-    """Multiplier, forces and mechanism for |s| <= kept + slope (n_1 + n_2) at each joint; of many forces those nearest to compressions `near`."""
+    """Multiplier, forces and mechanism for |s| <= kept + slope (n_1 + n_2) at each joint; of many
+    forces those nearest to compressions `near`.
+    """
     joints, blocks = len(wall.joints), len(wall.boxes)
     centres = wall.centres
     rows, columns, values = [], [], []
@@ -182,7 +276,11 @@ def _programme(wall: Wall, slope, kept, near=None):
 
     for number, joint in enumerate(wall.joints):
         along = np.array([-joint.normal[1], joint.normal[0]])
-        for place, force, at in ((0, joint.normal, joint.ends[0]), (1, joint.normal, joint.ends[1]), (2, along, joint.ends[0])):
+        for place, force, at in (
+            (0, joint.normal, joint.ends[0]),
+            (1, joint.normal, joint.ends[1]),
+            (2, along, joint.ends[0]),
+        ):
             act(joint.first, 3 * number + place, force, at)
             act(joint.second, 3 * number + place, -force, at)
     scale = wall.weights.sum()
@@ -195,32 +293,56 @@ def _programme(wall: Wall, slope, kept, near=None):
     right = np.zeros(3 * blocks)
     right[1::3] = wall.weights / scale
     number, ones = np.arange(joints), np.ones(joints)
-    first, second, shear, distance = 3 * number, 3 * number + 1, 3 * number + 2, 3 * joints + 1 + number
+    first, second, shear, distance = (
+        3 * number,
+        3 * number + 1,
+        3 * number + 2,
+        3 * joints + 1 + number,
+    )
 
     def limit(*terms):
         """Rows of sum of (coefficients, columns)."""
-        return coo_matrix((np.concatenate([coefficients for coefficients, _ in terms]), (np.tile(number, len(terms)), np.concatenate([at for _, at in terms]))),
-                          shape=(joints, size))
+        return coo_matrix(
+            (
+                np.concatenate([coefficients for coefficients, _ in terms]),
+                (np.tile(number, len(terms)), np.concatenate([at for _, at in terms])),
+            ),
+            shape=(joints, size),
+        )
 
-    limits = vstack([limit((ones, shear), (-slope, first), (-slope, second)), limit((-ones, shear), (-slope, first), (-slope, second)),
-                     limit((ones, first), (ones, second), (-ones, distance)), limit((-ones, first), (-ones, second), (-ones, distance))]).tocsr()
+    limits = vstack(
+        [
+            limit((ones, shear), (-slope, first), (-slope, second)),
+            limit((-ones, shear), (-slope, first), (-slope, second)),
+            limit((ones, first), (ones, second), (-ones, distance)),
+            limit((-ones, first), (-ones, second), (-ones, distance)),
+        ]
+    ).tocsr()
     near = np.zeros(joints) if near is None else near
     most = np.concatenate([kept, kept, near, -near]) / scale
     bounds = [(0, None), (0, None), (None, None)] * joints + [(None, None)] + [(0, None)] * joints
     cost = np.zeros(size)
     cost[3 * joints] = -1
-    found = linprog(cost, limits[:2 * joints], most[:2 * joints], equal, right, bounds, method="highs")
+    found = linprog(
+        cost, limits[: 2 * joints], most[: 2 * joints], equal, right, bounds, method="highs"
+    )
     if found.status == 3:
         raise ValueError("no multiplier makes the wall move: it is held by its joints")
     if found.status != 0:
-        raise ValueError(f"the wall does not stand under its own weight, or the linear programme failed ({found.message})")
-    multiplier, velocity = float(found.x[3 * joints]), found.eqlin.marginals.reshape(blocks, 3) / scale
+        raise ValueError(
+            "the wall does not stand under its own weight, or the linear programme "
+            f"failed ({found.message})"
+        )
+    multiplier, velocity = (
+        float(found.x[3 * joints]),
+        found.eqlin.marginals.reshape(blocks, 3) / scale,
+    )
     if near.any():
         bounds[3 * joints] = (multiplier - 1e-9, None)
         cost[:] = 0
-        cost[3 * joints + 1:] = 1
+        cost[3 * joints + 1 :] = 1
         nearest = linprog(cost, limits, most, equal, right, bounds, method="highs")
         found = nearest if nearest.status == 0 else found
-    forces = scale * found.x[:3 * joints].reshape(joints, 3)
+    forces = scale * found.x[: 3 * joints].reshape(joints, 3)
     power = float(velocity[:, 0] @ wall.loads)
     return multiplier, forces[:, :2], forces[:, 2], velocity / power if power else velocity

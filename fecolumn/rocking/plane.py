@@ -1,4 +1,6 @@
-"""Rocking structures of one degree of freedom in the planes of x and y: from their mass, edges and restraints to a response."""
+"""Rocking structures of one degree of freedom in the planes of x and y: from their mass, edges and
+restraints to a response.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,19 @@ from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.model import Response
 from fecolumn.rocking.restraint import Restraint
 from fecolumn.rocking.rocker import Rocker
-from fecolumn.rocking.swing import EDGE, FALL, GRAVITY, LOSS, P2, PEAK, RATE, TILT, TIME, WORK, rock_one
+from fecolumn.rocking.swing import (
+    EDGE,
+    FALL,
+    GRAVITY,
+    LOSS,
+    P2,
+    PEAK,
+    RATE,
+    TILT,
+    TIME,
+    WORK,
+    rock_one,
+)
 
 # Times the free motion that is followed is doubled for a fall that is bound to come
 _PATIENCE = 8
@@ -21,12 +35,30 @@ _PATIENCE = 8
 class Plane:
     """A structure that rocks in the vertical plane of one axis; pairs are of the sides + and -.
 
-    Attributes:
-        axis: 0 for x, 1 for y.
-        mass: [kg]. edges: horizontal distance of the centre of mass from each edge (2,) [m]; height: of that centre over the edges [m].
-        inertia: about each edge (2,) [kg m2]. restitution: of the angular velocity as it leaves a side (2,).
-        top: height y [m] of the point whose displacement counts. top_inside: its distance c inside each edge (2,) [m].
-        restraints: (2,) of each side. friction: Coulomb coefficient, which is only checked. only: side it can lean to alone; 0 both.
+    Attributes
+    ----------
+    axis
+        0 for x, 1 for y.
+    mass
+        [kg].
+    edges
+        horizontal distance of the centre of mass from each edge (2,) [m]
+    height
+        of that centre over the edges [m].
+    inertia
+        about each edge (2,) [kg m2].
+    restitution
+        of the angular velocity as it leaves a side (2,).
+    top
+        height y [m] of the point whose displacement counts.
+    top_inside
+        its distance c inside each edge (2,) [m].
+    restraints
+        (2,) of each side.
+    friction
+        Coulomb coefficient, which is only checked.
+    only
+        side it can lean to alone; 0 both.
     """
 
     axis: int
@@ -51,9 +83,17 @@ class Plane:
             tendon.append(tuple(one / inertia for one in restraint.tendon))
             thrust.append((force * height / inertia, force * inside / inertia))
         radius = tuple(math.hypot(edge, self.height) for edge in self.edges)
-        return Rocker(alpha=tuple(math.atan2(edge, self.height) for edge in self.edges),
-                      p2=tuple(self.mass * GRAVITY * r / inertia for r, inertia in zip(radius, self.inertia)), restitution=self.restitution, radius=radius,
-                      mass=self.mass, springs=tuple(springs), tendon=tuple(tendon), thrust=tuple(thrust), only=self.only)
+        return Rocker(
+            alpha=tuple(math.atan2(edge, self.height) for edge in self.edges),
+            p2=tuple(self.mass * GRAVITY * r / inertia for r, inertia in zip(radius, self.inertia)),
+            restitution=self.restitution,
+            radius=radius,
+            mass=self.mass,
+            springs=tuple(springs),
+            tendon=tuple(tendon),
+            thrust=tuple(thrust),
+            only=self.only,
+        )
 
     @property
     def sides(self) -> tuple[int, ...]:
@@ -61,39 +101,68 @@ class Plane:
         return (self.only,) if self.only else (1, -1)
 
     def moved(self, lean, side) -> np.ndarray:
-        """Displacement (n, 2) of the top, along the axis and up [m], at a lean >= 0 on a side; both arrays (n,)."""
+        """Displacement (n, 2) of the top, along the axis and up [m], at a lean >= 0 on a side; both
+        arrays (n,).
+        """
         inside = np.where(np.asarray(side) >= 0, *self.top_inside)
         along = self.top * np.sin(lean) + inside * (1 - np.cos(lean))
-        return np.column_stack([np.where(np.asarray(side) >= 0, along, -along), inside * np.sin(lean) - self.top * (1 - np.cos(lean))])
+        return np.column_stack(
+            [
+                np.where(np.asarray(side) >= 0, along, -along),
+                inside * np.sin(lean) - self.top * (1 - np.cos(lean)),
+            ]
+        )
 
     def pushover(self, displacement, side: int = 1) -> np.ndarray:
-        """Horizontal force at the top [N] that holds the structure at a displacement of the top >= 0 [m], from virtual work."""
+        """Horizontal force at the top [N] that holds the structure at a displacement of the top >=
+        0 [m], from virtual work.
+        """
         rocker, inside = self.rocker, self.top_inside[0 if side > 0 else 1]
         reach = math.hypot(self.top, inside)
         start = math.atan2(inside, self.top)
-        lean = start - np.arcsin(np.clip(math.sin(start) - np.asarray(displacement, float) / reach, -1, 1))
+        lean = start - np.arcsin(
+            np.clip(math.sin(start) - np.asarray(displacement, float) / reach, -1, 1)
+        )
         return rocker.restoring(lean, side) / (self.top * np.cos(lean) + inside * np.sin(lean))
 
     def uplift(self, side: int = 1) -> float:
-        """Ground acceleration against a side that lifts the structure onto it [g], without vertical motion."""
+        """Ground acceleration against a side that lifts the structure onto it [g], without vertical
+        motion.
+        """
         rocker, k = self.rocker, 0 if side > 0 else 1
-        return float(rocker.restoring(0.0, side)) / (self.mass * GRAVITY * rocker.radius[k] * math.cos(rocker.alpha[k]))
+        return float(rocker.restoring(0.0, side)) / (
+            self.mass * GRAVITY * rocker.radius[k] * math.cos(rocker.alpha[k])
+        )
 
     def verge(self) -> tuple[float, float, float]:
-        """Least critical tilt of its sides [rad], displacement of the top there [m], energy that takes it there [J]."""
+        """Least critical tilt of its sides [rad], displacement of the top there [m], energy that
+        takes it there [J].
+        """
         rocker = self.rocker
         found = []
         for side in self.sides:
             tilt = rocker.critical(side)
-            found.append((tilt, abs(float(self.moved(tilt, side)[0, 0])), float(sum(rocker.potential(tilt, side)))))
+            found.append(
+                (
+                    tilt,
+                    abs(float(self.moved(tilt, side)[0, 0])),
+                    float(sum(rocker.potential(tilt, side))),
+                )
+            )
         return min(found)
 
-    def respond(self, motion: GroundMotion, free_s: float, tilt: float, rate: float) -> PlaneResponse:
-        """Motion in this plane, at every sample of the motion; a fall that is bound to come is followed to its end."""
+    def respond(
+        self, motion: GroundMotion, free_s: float, tilt: float, rate: float
+    ) -> PlaneResponse:
+        """Motion in this plane, at every sample of the motion; a fall that is bound to come is
+        followed to its end.
+        """
         ground, row = motion.acceleration[:, [self.axis, 2]], self.rocker.row
         for patience in range(_PATIENCE):
-            longer = free_s if patience == 0 else free_s + 2.0**patience / row[P2]**0.5
-            states, impacts, found = rock_one(ground, motion.dt, row, free_s=longer, tilt=tilt, tilt_rate=rate)
+            longer = free_s if patience == 0 else free_s + 2.0**patience / row[P2] ** 0.5
+            states, impacts, found = rock_one(
+                ground, motion.dt, row, free_s=longer, tilt=tilt, tilt_rate=rate
+            )
             fallen = bool(found[PEAK] > math.pi / 2)
             if not fallen or found[FALL] >= 0:
                 break
@@ -111,7 +180,12 @@ class PlaneResponse:
 
     def cut(self, n: int) -> PlaneResponse:
         """Its first n states."""
-        return PlaneResponse(self.plane, self.states[:n], self.impacts[self.impacts <= self.states[n - 1, TIME]], self.fallen)
+        return PlaneResponse(
+            self.plane,
+            self.states[:n],
+            self.impacts[self.impacts <= self.states[n - 1, TIME]],
+            self.fallen,
+        )
 
     @property
     def energy(self) -> dict[str, np.ndarray]:
@@ -121,41 +195,81 @@ class PlaneResponse:
         gravity, strain = np.zeros(len(lean)), np.zeros(len(lean))
         for one in (1, -1):
             gravity[side == one], strain[side == one] = rocker.potential(lean[side == one], one)
-        kinetic = 0.5 * np.where(side > 0, *plane.inertia) * states[:, RATE]**2
+        kinetic = 0.5 * np.where(side > 0, *plane.inertia) * states[:, RATE] ** 2
         work, impact = plane.mass * states[:, WORK], plane.mass * states[:, LOSS]
         total = kinetic + strain + gravity
-        return dict(kinetic=kinetic, strain=strain, gravity=gravity, base_work=work, impact=impact, closure=total - total[0] - work - impact)
+        return dict(
+            kinetic=kinetic,
+            strain=strain,
+            gravity=gravity,
+            base_work=work,
+            impact=impact,
+            closure=total - total[0] - work - impact,
+        )
 
     def base_force(self, ground: np.ndarray) -> np.ndarray:
-        """Force of the base (n, 2) along the axis and up [N], between impacts, from the momentum of the whole; `ground` (n, 2) [m/s2]."""
+        """Force of the base (n, 2) along the axis and up [N], between impacts, from the momentum of
+        the whole; `ground` (n, 2) [m/s2].
+        """
         plane, rocker, states = self.plane, self.plane.rocker, self.states
         side = np.sign(states[:, EDGE])
         k = np.where(side < 0, 1, 0)
         lean, rate = np.abs(states[:, TILT]), states[:, RATE] * side
-        alpha, radius, p2 = (np.array(values)[k] for values in (rocker.alpha, rocker.radius, rocker.p2))
+        alpha, radius, p2 = (
+            np.array(values)[k] for values in (rocker.alpha, rocker.radius, rocker.p2)
+        )
         lever = alpha - lean
-        held = np.where(k == 0, rocker.restoring(lean, 1), rocker.restoring(lean, -1)) / np.array(plane.inertia)[k]
-        turn = np.where(side == 0, 0.0, -p2 / GRAVITY * (ground[:, 1] * np.sin(lever) + side * ground[:, 0] * np.cos(lever)) - held)
+        held = (
+            np.where(k == 0, rocker.restoring(lean, 1), rocker.restoring(lean, -1))
+            / np.array(plane.inertia)[k]
+        )
+        turn = np.where(
+            side == 0,
+            0.0,
+            -p2 / GRAVITY * (ground[:, 1] * np.sin(lever) + side * ground[:, 0] * np.cos(lever))
+            - held,
+        )
         along = radius * (turn * np.cos(lever) + rate**2 * np.sin(lever)) * side
         up = radius * (turn * np.sin(lever) - rate**2 * np.cos(lever)) * np.abs(side)
         pull = np.where(k == 0, plane.restraints[0].pull(lean), plane.restraints[1].pull(lean))
-        tension = np.where(k == 0, plane.restraints[0].tension(lean), plane.restraints[1].tension(lean))
-        return np.column_stack([plane.mass * (ground[:, 0] + along) + np.where(side < 0, -1, 1) * pull, plane.mass * (GRAVITY + ground[:, 1] + up) + tension])
+        tension = np.where(
+            k == 0, plane.restraints[0].tension(lean), plane.restraints[1].tension(lean)
+        )
+        return np.column_stack(
+            [
+                plane.mass * (ground[:, 0] + along) + np.where(side < 0, -1, 1) * pull,
+                plane.mass * (GRAVITY + ground[:, 1] + up) + tension,
+            ]
+        )
 
 
-def respond(planes: tuple[Plane, ...], motion: GroundMotion, free_s: float, every_s: float, tilt: float, rate: float, direction: float) -> Response:
-    """Response of structures that rock in planes of their own, each as if the other did not move; arguments as of Model.respond.
+def respond(
+    planes: tuple[Plane, ...],
+    motion: GroundMotion,
+    free_s: float,
+    every_s: float,
+    tilt: float,
+    rate: float,
+    direction: float,
+) -> Response:
+    """Response of structures that rock in planes of their own, each as if the other did not move;
+    arguments as of Model.respond.
 
     The tilts of two planes add as the legs of a right angle. It ends where the first of them falls.
     """
     lean = (math.cos(direction), math.sin(direction))
-    found = [plane.respond(motion, free_s, tilt * lean[plane.axis], rate * lean[plane.axis]) for plane in planes]
-    lengths = [len(one.states) for one in found if one.fallen] or [min(len(one.states) for one in found)]
+    found = [
+        plane.respond(motion, free_s, tilt * lean[plane.axis], rate * lean[plane.axis])
+        for plane in planes
+    ]
+    lengths = [len(one.states) for one in found if one.fallen] or [
+        min(len(one.states) for one in found)
+    ]
     rows, fallen = min(lengths), any(one.fallen for one in found)
     found = [one.cut(rows) if len(one.states) >= rows else one for one in found]
     found = [one if len(one.states) == rows else _held(one, rows, motion.dt) for one in found]
     ground = np.zeros((rows, 3))
-    ground[:min(rows, len(motion.acceleration))] = motion.acceleration[:rows]
+    ground[: min(rows, len(motion.acceleration))] = motion.acceleration[:rows]
     notes, peaks, u_top, tilts = [], {}, np.zeros((rows, 3)), np.zeros(rows)
     for one in found:
         states, axis = one.states, one.plane.axis
@@ -169,9 +283,15 @@ def respond(planes: tuple[Plane, ...], motion: GroundMotion, free_s: float, ever
     return Response(
         time=max(found, key=lambda one: one.states[-1, TIME]).states[kept, TIME],
         coordinates={f"theta_{'xy'[one.plane.axis]}": one.states[kept, TILT] for one in found},
-        units={f"theta_{'xy'[one.plane.axis]}": "rad" for one in found}, tilt=tilts[kept], u_top=u_top[kept], overturned=fallen,
-        impact_times=np.sort(np.concatenate([one.impacts for one in found])), energy={name: sum(one[name] for one in energies)[kept] for name in energies[0]},
-        notes=tuple(notes), peaks=peaks)
+        units={f"theta_{'xy'[one.plane.axis]}": "rad" for one in found},
+        tilt=tilts[kept],
+        u_top=u_top[kept],
+        overturned=fallen,
+        impact_times=np.sort(np.concatenate([one.impacts for one in found])),
+        energy={name: sum(one[name] for one in energies)[kept] for name in energies[0]},
+        notes=tuple(notes),
+        peaks=peaks,
+    )
 
 
 def _held(one: PlaneResponse, rows: int, dt: float) -> PlaneResponse:
@@ -182,7 +302,9 @@ def _held(one: PlaneResponse, rows: int, dt: float) -> PlaneResponse:
 
 
 def _forces(one: PlaneResponse, ground, peaks: dict) -> list[str]:
-    """Note the largest friction and tension demanded in `peaks`, and tell of more friction than there is."""
+    """Note the largest friction and tension demanded in `peaks`, and tell of more friction than
+    there is.
+    """
     force, name, mu = one.base_force(ground), "xy"[one.plane.axis], one.plane.friction
     upward = np.abs(one.states[:, TILT]) < math.pi / 4  # what has fallen slides as it likes
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -190,10 +312,17 @@ def _forces(one: PlaneResponse, ground, peaks: dict) -> list[str]:
     peaks[f"friction demanded along {name} [-]"] = float(demanded.max())
     if any(restraint.tendons for restraint in one.plane.restraints):
         lean = np.abs(one.states[:, TILT])
-        peaks[f"tension of the tendons, {name} [N]"] = float(one.plane.restraints[0].tension(lean).max())
+        peaks[f"tension of the tendons, {name} [N]"] = float(
+            one.plane.restraints[0].tension(lean).max()
+        )
     if not demanded.max() > mu:
         return []
     first = int(np.argmax(demanded > mu))
     most = "more than any" if math.isinf(demanded.max()) else f"{demanded.max():.3g}"
-    return [f"rocking along {name} demands a friction coefficient of {most}, from {one.states[upward][first, TIME]:.3f} s on for {(demanded > mu).mean():.1%} of the time; "
-            f"there is {mu:g}: it would slide{' or leave the ground' if math.isinf(demanded.max()) else ''}"]
+    return [
+        f"rocking along {name} demands a friction coefficient of {most}, from "
+        f"{one.states[upward][first, TIME]:.3f} s on for {(demanded > mu).mean():.1%} "
+        "of the time; "
+        f"there is {mu:g}: it would "
+        f"slide{' or leave the ground' if math.isinf(demanded.max()) else ''}"
+    ]

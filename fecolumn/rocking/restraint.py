@@ -11,13 +11,22 @@ import numpy as np
 class Restraint:
     """Springs, tendon and thrust of a structure, for one side it leans to.
 
-    A point at height y, at the horizontal distance c inside the edge, moves by u = y sin phi + c (1 - cos phi) in the lean phi.
+    A point at height y, at the horizontal distance c inside the edge, moves by u = y sin phi + c (1
+    - cos phi) in the lean phi.
 
-    Attributes:
-        springs: (n, 3) stiffness K [N/m], height y [m], distance c [m]: horizontal springs to fixed points far away, free of force upright.
-        bed: (n, 4) stiffness over height K' [N/m2], bottom and top [m], c [m]: springs smeared over the height.
-        tendons: (n, 3) stiffness K_t [N/m], prestress P [N], 2 c times the number of joints it crosses [m]: stretched by that times sin(phi/2).
-        thrust: (H, y, c) horizontal force [N] towards the lean at a point [m].
+    Attributes
+    ----------
+    springs
+        (n, 3) stiffness K [N/m], height y [m], distance c [m]: horizontal springs to fixed points
+        far away, free of force upright.
+    bed
+        (n, 4) stiffness over height K' [N/m2], bottom and top [m], c [m]: springs smeared over the
+        height.
+    tendons
+        (n, 3) stiffness K_t [N/m], prestress P [N], 2 c times the number of joints it crosses [m]:
+        stretched by that times sin(phi/2).
+    thrust
+        (H, y, c) horizontal force [N] towards the lean at a point [m].
     """
 
     springs: tuple = ()
@@ -32,7 +41,9 @@ class Restraint:
         for stiffness, height, inside in self.springs:
             found += stiffness * np.array([height**2, height * inside, inside**2])
         for stiffness, low, high, inside in self.bed:
-            found += stiffness * np.array([(high**3 - low**3) / 3, (high**2 - low**2) / 2 * inside, (high - low) * inside**2])
+            found += stiffness * np.array(
+                [(high**3 - low**3) / 3, (high**2 - low**2) / 2 * inside, (high - low) * inside**2]
+            )
         return tuple(found.tolist())
 
     @property
@@ -47,12 +58,23 @@ class Restraint:
 
     @property
     def tendon(self) -> tuple[float, float]:
-        """Sums K_t (e/2)^2 and P e/2 over the tendons, e their stretch over sin(phi/2) [N m]: moment K_t (e/2)^2 sin phi + P e/2 cos(phi/2)."""
-        return (sum(stiffness * (reach / 2)**2 for stiffness, _, reach in self.tendons), sum(force * reach / 2 for _, force, reach in self.tendons))
+        """Sums K_t (e/2)^2 and P e/2 over the tendons, e their stretch over sin(phi/2) [N m]:
+        moment K_t (e/2)^2 sin phi + P e/2 cos(phi/2).
+        """
+        return (
+            sum(stiffness * (reach / 2) ** 2 for stiffness, _, reach in self.tendons),
+            sum(force * reach / 2 for _, force, reach in self.tendons),
+        )
 
     def tension(self, lean) -> np.ndarray:
         """Of all tendons together [N]."""
-        return sum((force + stiffness * reach * np.sin(np.asarray(lean) / 2) for stiffness, force, reach in self.tendons), 0.0 * np.asarray(lean))
+        return sum(
+            (
+                force + stiffness * reach * np.sin(np.asarray(lean) / 2)
+                for stiffness, force, reach in self.tendons
+            ),
+            0.0 * np.asarray(lean),
+        )
 
     def pull(self, lean) -> np.ndarray:
         """Horizontal force of springs and thrust on the structure, against the lean [N]."""

@@ -9,11 +9,23 @@ FREQUENCIES = tuple(0.25 * number for number in range(1, 41))
 _POINTS = 801  # amplitudes of the grid: steps of 0.33 %
 
 
-def spectra_table(slenderness: float, restitution: float, shapes=SHAPES, frequencies=FREQUENCIES, *, show=lambda text: None) -> list[tuple[str, float, Band]]:
+def spectra_table(
+    slenderness: float,
+    restitution: float,
+    shapes=SHAPES,
+    frequencies=FREQUENCIES,
+    *,
+    show=lambda text: None,
+) -> list[tuple[str, float, Band]]:
     """(shape, w_p/p, band) of all that overturns, in this order; `show` is told what is done."""
     found = []
     for shape in shapes:
         for frequency in frequencies:
-            found += [(shape, frequency, band) for band in overturning_bands(shape, frequency, slenderness, points=_POINTS, restitution=restitution)]
+            found += [
+                (shape, frequency, band)
+                for band in overturning_bands(
+                    shape, frequency, slenderness, points=_POINTS, restitution=restitution
+                )
+            ]
         show(f"{shape}: {len(frequencies)} frequencies done")
     return found

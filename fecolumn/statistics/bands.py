@@ -1,7 +1,9 @@
-"""Confidence bands of distributions and of probabilities: pointwise, simultaneous, and by resampling.
+"""Confidence bands of distributions and of probabilities: pointwise, simultaneous, and by
+resampling.
 
-A pointwise band holds the true F with the stated confidence at one u chosen beforehand, a simultaneous one at all u
-together. A curve of another ensemble may leave a pointwise band somewhere although both ensembles have one distribution.
+A pointwise band holds the true F with the stated confidence at one u chosen beforehand, a
+simultaneous one at all u together. A curve of another ensemble may leave a pointwise band somewhere
+although both ensembles have one distribution.
 """
 
 from __future__ import annotations
@@ -13,18 +15,25 @@ import numpy as np
 
 
 def greenwood(cdf, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
-    """Pointwise band F +- z sqrt(F (1 - F) / n), clipped to [0, 1] (Greenwood 1926; what MATLAB's `ecdf` draws).
+    """Pointwise band F +- z sqrt(F (1 - F) / n), clipped to [0, 1] (Greenwood 1926; what MATLAB's
+    `ecdf` draws).
 
-    Greenwood's variance is the binomial one here, as all censored runs lie beyond all others. Too narrow where n F or
-    n (1 - F) is below about 5, and of no width where F is 0 or 1: `wilson` is not.
+    Greenwood's variance is the binomial one here, as all censored runs lie beyond all others. Too
+    narrow where n F or n (1 - F) is below about 5, and of no width where F is 0 or 1: `wilson` is
+    not.
 
-    Args:
-        cdf: (m,) F.
-        n: size of the sample, overturned runs included.
-        confidence: level, in (0, 1).
+    Parameters
+    ----------
+    cdf
+        (m,) F.
+    n
+        size of the sample, overturned runs included.
+    confidence
+        level, in (0, 1).
 
-    Returns:
-        lower, upper: (m,) each.
+    Returns
+    -------
+    lower, upper: (m,) each.
     """
     cdf = np.asarray(cdf, float)
     reach = normal_quantile(confidence) * np.sqrt(cdf * (1 - cdf) / n)
@@ -32,15 +41,22 @@ def greenwood(cdf, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.nda
 
 
 def wilson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
-    """Score interval of a probability after k of n runs (Wilson 1927, J. Am. Stat. Assoc. 22); close to its level on average.
+    """Score interval of a probability after k of n runs (Wilson 1927, J.
 
-    Args:
-        k: (m,) counts in [0, n]: runs that overturned, or n F for a pointwise band of F.
-        n: all runs, at least 1.
-        confidence: level, in (0, 1).
+    Am. Stat. Assoc. 22); close to its level on average.
 
-    Returns:
-        lower, upper: (m,) each.
+    Parameters
+    ----------
+    k
+        (m,) counts in [0, n]: runs that overturned, or n F for a pointwise band of F.
+    n
+        all runs, at least 1.
+    confidence
+        level, in (0, 1).
+
+    Returns
+    -------
+    lower, upper: (m,) each.
     """
     k = _counts(k, n)
     z2, p = normal_quantile(confidence) ** 2, k / n
@@ -50,9 +66,11 @@ def wilson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]
 
 
 def clopper_pearson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
-    """Exact interval of a probability after k of n runs, never below its level, wider than Wilson's.
+    """Exact interval of a probability after k of n runs, never below its level, wider than
+    Wilson's.
 
-    Quantiles of beta distributions (Clopper & Pearson 1934, Biometrika 26). Arguments and result as of `wilson`.
+    Quantiles of beta distributions (Clopper & Pearson 1934, Biometrika 26). Arguments and result as
+    of `wilson`.
     """
     from scipy.stats import beta
 
@@ -65,12 +83,16 @@ def clopper_pearson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np
 def dkw(ecdf, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
     """Simultaneous band F +- `dkw_distance`, clipped to [0, 1].
 
-    Args:
-        ecdf: an `Ecdf`.
-        confidence: level, in (0, 1).
+    Parameters
+    ----------
+    ecdf
+        an `Ecdf`.
+    confidence
+        level, in (0, 1).
 
-    Returns:
-        lower, upper: at ecdf.x, (m,) each.
+    Returns
+    -------
+    lower, upper: at ecdf.x, (m,) each.
     """
     reach = dkw_distance(ecdf.n, confidence)
     return np.maximum(ecdf.cdf - reach, 0.0), np.minimum(ecdf.cdf + reach, 1.0)
@@ -79,29 +101,41 @@ def dkw(ecdf, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
 def dkw_distance(n, confidence: float = 0.95):
     """Largest distance sup |F_n - F| at a confidence: sqrt(ln(2 / (1 - confidence)) / (2 n)).
 
-    Dvoretzky, Kiefer & Wolfowitz (1956) with the constant of Massart (1990, Ann. Probab. 18); holds for any F and n.
+    Dvoretzky, Kiefer & Wolfowitz (1956) with the constant of Massart (1990, Ann. Probab. 18); holds
+    for any F and n.
     """
     if not 0 < confidence < 1:
         raise ValueError(f"confidence = {confidence}: must lie in (0, 1)")
     return np.sqrt(math.log(2 / (1 - confidence)) / (2 * np.asarray(n, float)))[()]
 
 
-def bootstrap_band(u_max, overturned, grid, confidence: float = 0.95, resamples: int = 2000,
-                   seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
-    """Pointwise percentile band of F by drawing runs anew with replacement (Efron 1979, Ann. Stat. 7).
+def bootstrap_band(
+    u_max, overturned, grid, confidence: float = 0.95, resamples: int = 2000, seed: int = 0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Pointwise percentile band of F by drawing runs anew with replacement (Efron 1979, Ann.
+
+    Stat. 7).
 
     Close to Greenwood's band and, like it, of no width beyond the extreme runs.
 
-    Args:
-        u_max: (n,) [m]; ignored where the run overturned.
-        overturned: (n,) True where the column overturned.
-        grid: (m,) rising displacements at which F is wanted [m].
-        confidence: level, in (0, 1).
-        resamples: number of samples drawn.
-        seed: of the generator.
+    Parameters
+    ----------
+    u_max
+        (n,) [m]; ignored where the run overturned.
+    overturned
+        (n,) True where the column overturned.
+    grid
+        (m,) rising displacements at which F is wanted [m].
+    confidence
+        level, in (0, 1).
+    resamples
+        number of samples drawn.
+    seed
+        of the generator.
 
-    Returns:
-        lower, upper: (m,) each.
+    Returns
+    -------
+    lower, upper: (m,) each.
     """
     from fecolumn.statistics.ecdf import censored
 

@@ -1,4 +1,6 @@
-"""Maximum likelihood of yes-no data by statsmodels: P(yes) = link(X c); data whose likelihood has no maximum are refused."""
+"""Maximum likelihood of yes-no data by statsmodels: P(yes) = link(X c); data whose likelihood has
+no maximum are refused.
+"""
 
 from __future__ import annotations
 
@@ -16,21 +18,31 @@ class DegenerateData(ValueError):
 def fit_binary(x: np.ndarray, yes: np.ndarray, link: str, groups=None):
     """Fit c of P(yes) = link(x c) by Newton's method.
 
-    With `groups` the covariance of c is that of runs that hang together within a group: H^-1 (sum of g g^T over the groups) H^-1 G / (G - 1),
-    with the score g of each of G groups (Liang & Zeger 1986, Biometrika 73).
+    With `groups` the covariance of c is that of runs that hang together within a group: H^-1 (sum
+    of g g^T over the groups) H^-1 G / (G - 1), with the score g of each of G groups (Liang & Zeger
+    1986, Biometrika 73).
 
-    Args:
-        x: (n, p) with a column of ones first.
-        yes: (n,) bool.
-        link: "probit" or "logit"; both likelihoods are concave.
-        groups: (n,) label of each run; None takes all runs as independent.
+    Parameters
+    ----------
+    x
+        (n, p) with a column of ones first.
+    yes
+        (n,) bool.
+    link
+        "probit" or "logit"; both likelihoods are concave.
+    groups
+        (n,) label of each run; None takes all runs as independent.
 
-    Returns:
-        The result of statsmodels (`params`, `llf`, `get_influence()`, ...), covariance (p, p) of c, number of groups or None.
+    Returns
+    -------
+    The result of statsmodels (`params`, `llf`, `get_influence()`, ...), covariance (p, p) of c,
+        number of groups or None.
 
-    Raises:
-        DegenerateData: all or none yes; a column that repeats others; a plane that parts yes from no (Albert & Anderson 1984,
-            Biometrika 71); one group only.
+    Raises
+    ------
+    DegenerateData
+        all or none yes; a column that repeats others; a plane that parts yes from no (Albert &
+        Anderson 1984, Biometrika 71); one group only.
     """
     from statsmodels.discrete.discrete_model import Logit, Probit
 
@@ -42,23 +54,35 @@ def fit_binary(x: np.ndarray, yes: np.ndarray, link: str, groups=None):
             raise ValueError(f"groups {group.shape} and {yes.shape} runs: must have one length")
         if (count := labels.size) < 2:
             raise DegenerateData("all runs are of one motion: nothing is known of others")
-        options, factor = dict(cov_type="cluster", cov_kwds={"groups": group, "use_correction": False}), count / (count - 1)
+        options, factor = (
+            dict(cov_type="cluster", cov_kwds={"groups": group, "use_correction": False}),
+            count / (count - 1),
+        )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of data that all but part: told below
         fit = {"probit": Probit, "logit": Logit}[link](yes.astype(float), x).fit(
-            method="newton", maxiter=_MAX_ITERATIONS, tol=_TOLERANCE, disp=False, **options)
+            method="newton", maxiter=_MAX_ITERATIONS, tol=_TOLERANCE, disp=False, **options
+        )
     if not fit.mle_retvals["converged"]:
-        raise DegenerateData("the likelihood rises without end: the data all but part into yes and no")
+        raise DegenerateData(
+            "the likelihood rises without end: the data all but part into yes and no"
+        )
     return fit, factor * fit.cov_params(), count
 
 
-def maximize(function, start: np.ndarray, inside=lambda c: True) -> tuple[np.ndarray, np.ndarray, float]:
+def maximize(
+    function, start: np.ndarray, inside=lambda c: True
+) -> tuple[np.ndarray, np.ndarray, float]:
     """Maximum of a concave function by damped Newton steps: (c, inverse of -Hessian, value).
 
-    Args:
-        function: c -> (value, gradient (p,), minus Hessian (p, p)).
-        start: (p,).
-        inside: c -> whether c is allowed.
+    Parameters
+    ----------
+    function
+        c -> (value, gradient (p,), minus Hessian (p, p)).
+    start
+        (p,).
+    inside
+        c -> whether c is allowed.
     """
     c, (value, gradient, information) = start, function(start)
     for _ in range(_MAX_ITERATIONS):
@@ -66,7 +90,10 @@ def maximize(function, start: np.ndarray, inside=lambda c: True) -> tuple[np.nda
         decrement, size = float(gradient @ step), 1.0
         if decrement < _TOLERANCE:
             return c, np.linalg.inv(information), float(value)
-        while not inside(c + size * step) or function(c + size * step)[0] < value + 0.1 * size * decrement:
+        while (
+            not inside(c + size * step)
+            or function(c + size * step)[0] < value + 0.1 * size * decrement
+        ):
             size /= 2
             if size < 1e-10:
                 raise DegenerateData("the likelihood has no maximum that Newton's method finds")
@@ -79,23 +106,36 @@ def refuse_degenerate(x: np.ndarray, yes: np.ndarray) -> None:
     """Raise DegenerateData where the likelihood has no finite maximum."""
     k, n = int(yes.sum()), yes.size
     if k in (0, n):
-        raise DegenerateData(f"{'none' if k == 0 else 'all'} of {n} runs overturned: only a bound of P(overturn) can be told: proportion_interval")
-    # columns alike but for one part in 1e5, such as peaks of pulses of one shape, leave the information singular to rounding
+        raise DegenerateData(
+            f"{'none' if k == 0 else 'all'} of {n} runs overturned: only a bound of "
+            "P(overturn) can be told: proportion_interval"
+        )
+    # columns alike but for one part in 1e5, such as peaks of pulses of one shape, leave the
+    # information singular to rounding
     spread = x[:, 1:] - x[:, 1:].mean(axis=0)
     size = np.maximum(np.abs(spread).max(axis=0), 1e-9 * np.abs(x[:, 1:]).max(axis=0) + 1e-300)
     if np.linalg.matrix_rank(spread / size, tol=1e-5 * np.sqrt(len(x))) < spread.shape[1]:
-        raise DegenerateData("the intensity measures do not vary, or not independently of each other")
+        raise DegenerateData(
+            "the intensity measures do not vary, or not independently of each other"
+        )
     if _separated(x, yes):
-        raise DegenerateData("the intensity parts all runs that overturned from all that stood: the slope of the fragility is unbounded")
+        raise DegenerateData(
+            "the intensity parts all runs that overturned from all that stood: the "
+            "slope of the fragility is unbounded"
+        )
 
 
 def _separated(x: np.ndarray, yes: np.ndarray) -> bool:
-    """Whether some c has x c >= 0 for all yes and <= 0 for all no, not all of them 0 (Konis 2007, linear programme)."""
+    """Whether some c has x c >= 0 for all yes and <= 0 for all no, not all of them 0 (Konis 2007,
+    linear programme).
+    """
     if x.shape[1] == 2:
         low, high = x[~yes, 1], x[yes, 1]
         return bool(low.max() <= high.min() or high.max() <= low.min())
     from scipy.optimize import linprog
 
     signed = np.where(yes, 1.0, -1.0)[:, None] * (x / np.abs(x).max(axis=0))
-    found = linprog(-signed.sum(axis=0), A_ub=-signed, b_ub=np.zeros(yes.size), bounds=(-1, 1), method="highs")
+    found = linprog(
+        -signed.sum(axis=0), A_ub=-signed, b_ub=np.zeros(yes.size), bounds=(-1, 1), method="highs"
+    )
     return bool(-found.fun > 1e-7)

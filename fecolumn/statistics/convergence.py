@@ -14,17 +14,24 @@ _CELLS = 4_000_000
 
 @dataclass(frozen=True, slots=True)
 class CdfConvergence:
-    """Distance sup |F_n - F_N| of sub-ensembles of n motions, drawn without replacement, from the whole of N.
+    """Distance sup |F_n - F_N| of sub-ensembles of n motions, drawn without replacement, from the
+    whole of N.
 
-    Drawn so, F_n meets F_N at n = N whatever F_N itself is worth: the distance is smaller by sqrt((N - n) / (N - 1)), the
-    finite-population factor, than that from the distribution of all motions there could be, which dkw_95 bounds.
+    Drawn so, F_n meets F_N at n = N whatever F_N itself is worth: the distance is smaller by
+    sqrt((N - n) / (N - 1)), the finite-population factor, than that from the distribution of all
+    motions there could be, which dkw_95 bounds.
 
-    Attributes:
-        sizes: (m,) n.
-        median, upper_95: (m,) 50 % and 95 % quantile of the distance.
-        expected_median, expected_95: (m,) the same of a sample of n from a continuous distribution (Kolmogorov), times the
-            finite-population factor; ties, as overturned runs are, make the distance smaller.
-        dkw_95: (m,) bound of the distance of F_n from the true F at 95 % (Massart 1990).
+    Attributes
+    ----------
+    sizes
+        (m,) n.
+    median, upper_95
+        (m,) 50 % and 95 % quantile of the distance.
+    expected_median, expected_95
+        (m,) the same of a sample of n from a continuous distribution (Kolmogorov), times the
+        finite-population factor; ties, as overturned runs are, make the distance smaller.
+    dkw_95
+        (m,) bound of the distance of F_n from the true F at 95 % (Massart 1990).
     """
 
     sizes: np.ndarray
@@ -35,34 +42,54 @@ class CdfConvergence:
     dkw_95: np.ndarray
 
 
-def cdf_convergence(u_max, overturned, sizes, resamples: int = 1000, seed: int = 0) -> CdfConvergence:
+def cdf_convergence(
+    u_max, overturned, sizes, resamples: int = 1000, seed: int = 0
+) -> CdfConvergence:
     """Convergence of the CDF with the number of motions.
 
-    Args:
-        u_max: (N,) [m]; ignored where the run overturned.
-        overturned: (N,) True where the column overturned.
-        sizes: (m,) numbers of motions, from 1 to N.
-        resamples: sub-ensembles of each size.
-        seed: of the generator.
+    Parameters
+    ----------
+    u_max
+        (N,) [m]; ignored where the run overturned.
+    overturned
+        (N,) True where the column overturned.
+    sizes
+        (m,) numbers of motions, from 1 to N.
+    resamples
+        sub-ensembles of each size.
+    seed
+        of the generator.
 
-    Raises:
-        ValueError: a size outside [1, N]; as of `ecdf`.
+    Raises
+    ------
+    ValueError
+        a size outside [1, N]; as of `ecdf`.
     """
     from scipy.stats import kstwo
 
     u, sizes = np.sort(censored(u_max, overturned)), np.asarray(sizes, int)
     total = u.size
     if sizes.ndim != 1 or not sizes.size or sizes.min() < 1 or sizes.max() > total:
-        raise ValueError(f"sizes = {sizes.tolist()}: must be a list of numbers in [1, {total}], the number of motions")
+        raise ValueError(
+            f"sizes = {sizes.tolist()}: must be a list of numbers in [1, {total}], the "
+            "number of motions"
+        )
     end = np.cumsum(np.unique(u, return_counts=True)[1])
     rng, quantiles = np.random.default_rng(seed), []
     for n in sizes:
         distances = np.empty(resamples)
         for start in range(0, resamples, max(1, _CELLS // total)):
-            part = distances[start:start + max(1, _CELLS // total)]
+            part = distances[start : start + max(1, _CELLS // total)]
             drawn = rng.permuted(np.broadcast_to(np.arange(total) < n, (part.size, total)), axis=1)
             part[:] = np.abs(np.cumsum(drawn, axis=1)[:, end - 1] / n - end / total).max(axis=1)
         quantiles.append(np.quantile(distances, (0.5, 0.95)))
     median, upper = np.transpose(quantiles)
     factor = np.sqrt((total - sizes) / max(total - 1, 1))
-    return CdfConvergence(sizes, median, upper, factor * kstwo.ppf(0.5, sizes), factor * kstwo.ppf(0.95, sizes), dkw_distance(sizes))
+    return CdfConvergence(
+        sizes,
+        median,
+        upper,
+        factor * kstwo.ppf(0.5, sizes),
+        factor * kstwo.ppf(0.95, sizes),
+        dkw_distance(sizes),
+    )

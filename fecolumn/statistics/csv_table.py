@@ -9,17 +9,26 @@ from fecolumn.schema import InputError
 
 
 def read_csv(path: Path, needed: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """Header, and each line's number in the file and its cells; lines that are blank or begin with # are left out.
+    """Header, and each line's number in the file and its cells; lines that are blank or begin with
+    # are left out.
 
-    Args:
-        needed: what columns there must be, for the message of a file without lines.
+    Parameters
+    ----------
+    needed
+        what columns there must be, for the message of a file without lines.
 
-    Raises:
-        InputError: no such file, not text in UTF-8, no line below the header.
+    Raises
+    ------
+    InputError
+        no such file, not text in UTF-8, no line below the header.
     """
     try:
         with open(path, encoding="utf-8-sig", newline="") as file:
-            lines = [(number, line) for number, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
+            lines = [
+                (number, line)
+                for number, line in enumerate(file, 1)
+                if line.strip() and not line.startswith("#")
+            ]
     except FileNotFoundError:
         raise InputError(path, "", None, "no such file") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -27,4 +36,6 @@ def read_csv(path: Path, needed: str) -> tuple[list[str], list[tuple[int, list[s
     table = list(csv.reader([line for _, line in lines], skipinitialspace=True))
     if len(table) < 2:
         raise InputError(path, "", None, f"holds no line below its header; needed are {needed}")
-    return [name.strip() for name in table[0]], [(number, row) for (number, _), row in zip(lines[1:], table[1:])]
+    return [name.strip() for name in table[0]], [
+        (number, row) for (number, _), row in zip(lines[1:], table[1:])
+    ]

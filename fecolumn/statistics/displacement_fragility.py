@@ -1,4 +1,6 @@
-"""Peak displacement over intensity, where overturned runs tell only that it exceeds the overturn displacement."""
+"""Peak displacement over intensity, where overturned runs tell only that it exceeds the overturn
+displacement.
+"""
 
 from __future__ import annotations
 
@@ -19,13 +21,20 @@ class DisplacementFragility:
 
     The law is meant for u up to the cap; beyond it nothing was seen.
 
-    Attributes:
-        coefficients: (k + 1,) c, with u in m.
-        sigma: logarithmic standard deviation [-].
-        covariance: (k + 2, k + 2) of (c, sigma), inverse of the observed information by the delta method.
-        loglik: log-likelihood of ln u at the maximum.
-        n, overturned: runs, and how many were censored.
-        cap_m: displacement at which overturned runs are censored [m].
+    Attributes
+    ----------
+    coefficients
+        (k + 1,) c, with u in m.
+    sigma
+        logarithmic standard deviation [-].
+    covariance
+        (k + 2, k + 2) of (c, sigma), inverse of the observed information by the delta method.
+    loglik
+        log-likelihood of ln u at the maximum.
+    n, overturned
+        runs, and how many were censored.
+    cap_m
+        displacement at which overturned runs are censored [m].
     """
 
     coefficients: np.ndarray
@@ -43,33 +52,50 @@ class DisplacementFragility:
     def exceedance(self, u_m: float, im, confidence: float = 0.95) -> Probability:
         """P(u_max > u_m | im), with its band by the delta method on the scale of Phi's argument.
 
-        Raises:
-            ValueError: u_m outside (0, cap_m].
+        Raises
+        ------
+        ValueError
+            u_m outside (0, cap_m].
         """
         if not 0 < u_m <= self.cap_m:
-            raise ValueError(f"u_m = {u_m}: must lie in (0, {self.cap_m:g}] m, as overturned runs are censored there")
+            raise ValueError(
+                f"u_m = {u_m}: must lie in (0, {self.cap_m:g}] m, as overturned runs "
+                "are censored there"
+            )
         x = log_columns(im, len(self.coefficients) - 1)
         eta = (x @ self.coefficients - np.log(u_m)) / self.sigma
         gradient = np.column_stack([x, -eta]) / self.sigma
-        reach = normal_quantile(confidence) * np.sqrt(np.einsum("ni,ij,nj->n", gradient, self.covariance, gradient))
+        reach = normal_quantile(confidence) * np.sqrt(
+            np.einsum("ni,ij,nj->n", gradient, self.covariance, gradient)
+        )
         return Probability(ndtr(eta), ndtr(eta - reach), ndtr(eta + reach))
 
 
 def displacement(im, u_max, overturned, cap_m: float | None = None) -> DisplacementFragility:
-    """Lognormal regression of u_max on intensity, overturned runs censored at the right (Tobin 1958, Econometrica 26).
+    """Lognormal regression of u_max on intensity, overturned runs censored at the right (Tobin
+    1958, Econometrica 26).
 
-    In the form of Olsen (1978, Econometrica 46), c / sigma and 1 / sigma, the likelihood is concave.
+    In the form of Olsen (1978, Econometrica 46), c / sigma and 1 / sigma, the likelihood is
+    concave.
 
-    Args:
-        im: (n, k) or (n,) positive intensities.
-        u_max: (n,) [m] positive; ignored where the run overturned.
-        overturned: (n,) True where the column overturned.
-        cap_m: displacement that every overturned run exceeded [m], overturn.displacement_m of a study that has one; the largest peak of
-            those that stood unless given.
+    Parameters
+    ----------
+    im
+        (n, k) or (n,) positive intensities.
+    u_max
+        (n,) [m] positive; ignored where the run overturned.
+    overturned
+        (n,) True where the column overturned.
+    cap_m
+        displacement that every overturned run exceeded [m], overturn.displacement_m of a study that
+        has one; the largest peak of those that stood unless given.
 
-    Raises:
-        DegenerateData: too few runs that stood, or intensities that do not vary among them.
-        ValueError: lengths that differ, or a displacement that is not positive.
+    Raises
+    ------
+    DegenerateData
+        too few runs that stood, or intensities that do not vary among them.
+    ValueError
+        lengths that differ, or a displacement that is not positive.
     """
     x, u, overturned = log_columns(im), censored(u_max, overturned), np.asarray(overturned, bool)
     if len(x) != u.size:
@@ -79,7 +105,10 @@ def displacement(im, u_max, overturned, cap_m: float | None = None) -> Displacem
         raise ValueError("displacements must be positive; a run that never moves has no logarithm")
     p, stood = x.shape[1], x[~overturned]
     if len(stood) < p + 1 or np.linalg.matrix_rank(stood) < p:
-        raise DegenerateData(f"{len(stood)} of {u.size} runs stood, too few or too alike in intensity to fit {p + 1} parameters")
+        raise DegenerateData(
+            f"{len(stood)} of {u.size} runs stood, too few or too alike in intensity to "
+            f"fit {p + 1} parameters"
+        )
     y = np.log(np.where(overturned, cap_m, u))
     z = np.column_stack([x, -y])
 
@@ -99,10 +128,19 @@ def displacement(im, u_max, overturned, cap_m: float | None = None) -> Displacem
     scatter = np.std(y - x @ start)
     if not scatter > 1e-9:
         raise DegenerateData("displacements follow the intensities without scatter: sigma is 0")
-    q, covariance, loglik = maximize(likelihood, np.append(start, 1.0) / scatter, inside=lambda q: q[-1] > 0)
+    q, covariance, loglik = maximize(
+        likelihood, np.append(start, 1.0) / scatter, inside=lambda q: q[-1] > 0
+    )
     gamma = q[-1]
     to_shape = np.eye(p + 1) / gamma
     to_shape[:, -1] = -q / gamma**2
     to_shape[-1, -1] = -1 / gamma**2
-    return DisplacementFragility(q[:-1] / gamma, float(1 / gamma), to_shape @ covariance @ to_shape.T, loglik, u.size,
-                                 int(overturned.sum()), cap_m)
+    return DisplacementFragility(
+        q[:-1] / gamma,
+        float(1 / gamma),
+        to_shape @ covariance @ to_shape.T,
+        loglik,
+        u.size,
+        int(overturned.sum()),
+        cap_m,
+    )

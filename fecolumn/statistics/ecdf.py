@@ -16,11 +16,16 @@ __all__ = ["Ecdf", "censored", "ecdf", "normal_quantile", "percentile", "proport
 class Ecdf:
     """Right-continuous step function F with its pointwise confidence band.
 
-    Attributes:
-        x: (m,) distinct finite values, rising [unit of the sample].
-        cdf, lower, upper: (m,) F at and right of x, and its band, in [0, 1].
-        n: size of the sample, overturned runs included.
-        overturned: number of overturned runs; F ends at 1 - overturned / n.
+    Attributes
+    ----------
+    x
+        (m,) distinct finite values, rising [unit of the sample].
+    cdf, lower, upper
+        (m,) F at and right of x, and its band, in [0, 1].
+    n
+        size of the sample, overturned runs included.
+    overturned
+        number of overturned runs; F ends at 1 - overturned / n.
     """
 
     x: np.ndarray
@@ -34,18 +39,25 @@ class Ecdf:
 def ecdf(u_max, overturned, confidence: float = 0.95) -> Ecdf:
     """Distribution of u_max, overturned runs censored at the right.
 
-    An overturned run says only that its peak lies beyond every peak of a run that stood. Then Kaplan and Meier's
-    estimate is the plain fraction k/n of the runs that stood below x, and Greenwood's variance is F (1 - F) / n
-    (Greenwood 1926; Kaplan & Meier 1958, J. Am. Stat. Assoc. 53; what MATLAB's `ecdf` draws). The band is
-    F +- z sqrt(F (1 - F) / n), clipped to [0, 1]: pointwise, and of no width where F is 0 or 1.
+    An overturned run says only that its peak lies beyond every peak of a run that stood. Then
+    Kaplan and Meier's estimate is the plain fraction k/n of the runs that stood below x, and
+    Greenwood's variance is F (1 - F) / n (Greenwood 1926; Kaplan & Meier 1958, J. Am. Stat. Assoc.
+    53; what MATLAB's `ecdf` draws). The band is F +- z sqrt(F (1 - F) / n), clipped to [0, 1]:
+    pointwise, and of no width where F is 0 or 1.
 
-    Args:
-        u_max: (n,) peak displacement of each run; ignored where the run overturned.
-        overturned: (n,) True where the column overturned.
-        confidence: level of the band, in (0, 1).
+    Parameters
+    ----------
+    u_max
+        (n,) peak displacement of each run; ignored where the run overturned.
+    overturned
+        (n,) True where the column overturned.
+    confidence
+        level of the band, in (0, 1).
 
-    Raises:
-        ValueError: empty sample, lengths that differ, or a run that stood without a finite u_max.
+    Raises
+    ------
+    ValueError
+        empty sample, lengths that differ, or a run that stood without a finite u_max.
     """
     standing, n = _standing(u_max, overturned)
     x, counts = np.unique(standing, return_counts=True)
@@ -54,10 +66,11 @@ def ecdf(u_max, overturned, confidence: float = 0.95) -> Ecdf:
 
 
 def percentile(u_max, overturned, fraction: float) -> float:
-    """Smallest u with F(u) >= fraction, from a sample with overturned runs; inf where that run overturned.
+    """Smallest u with F(u) >= fraction, from a sample with overturned runs; inf where that run
+    overturned.
 
-    The inverse of the ECDF (type 1 of Hyndman & Fan 1996, The American Statistician 50): no interpolation, which
-    would have no meaning between a run that stood and one that overturned.
+    The inverse of the ECDF (type 1 of Hyndman & Fan 1996, The American Statistician 50): no
+    interpolation, which would have no meaning between a run that stood and one that overturned.
     """
     if not 0 < fraction <= 1:
         raise ValueError(f"fraction = {fraction}: must lie in (0, 1]")
@@ -66,15 +79,22 @@ def percentile(u_max, overturned, fraction: float) -> float:
     return float(np.sort(standing)[rank - 1]) if rank <= standing.size else math.inf
 
 
-def proportion_interval(k: int, n: int, confidence: float = 0.95, method: str = "wilson") -> tuple[float, float]:
+def proportion_interval(
+    k: int, n: int, confidence: float = 0.95, method: str = "wilson"
+) -> tuple[float, float]:
     """Confidence interval of a probability after k of n runs, such as P(overturn).
 
-    Args:
-        k: runs that overturned.
-        n: all runs, at least 1.
-        confidence: level, in (0, 1).
-        method: "wilson", the score interval (Wilson 1927, J. Am. Stat. Assoc. 22), close to its level on average;
-            "exact", Clopper and Pearson (1934, Biometrika 26), never below its level, wider.
+    Parameters
+    ----------
+    k
+        runs that overturned.
+    n
+        all runs, at least 1.
+    confidence
+        level, in (0, 1).
+    method
+        "wilson", the score interval (Wilson 1927, J. Am. Stat. Assoc. 22), close to its level on
+        average; "exact", Clopper and Pearson (1934, Biometrika 26), never below its level, wider.
     """
     from scipy.stats import binomtest
 
@@ -87,15 +107,18 @@ def censored(u_max, overturned) -> np.ndarray:
 
     All overturned runs are ties beyond every run that stood.
 
-    Raises:
-        ValueError: as of `ecdf`.
+    Raises
+    ------
+    ValueError
+        as of `ecdf`.
     """
     _standing(u_max, overturned)
     return np.where(np.asarray(overturned, bool), math.inf, np.asarray(u_max, float))
 
 
 def largest_peak(*samples) -> float:
-    """Largest peak [m] of the runs that stood, over samples of (u_max, overturned); nan where none stood.
+    """Largest peak [m] of the runs that stood, over samples of (u_max, overturned); nan where none
+    stood.
 
     What overturned is beyond it: the least that may be said of how far it went, and where axes end.
     """
@@ -107,8 +130,14 @@ def _standing(u_max, overturned) -> tuple[np.ndarray, int]:
     """Peaks of the runs that stood, and the size of the whole sample."""
     u_max, overturned = np.asarray(u_max, float), np.asarray(overturned, bool)
     if u_max.ndim != 1 or u_max.shape != overturned.shape or u_max.size == 0:
-        raise ValueError(f"u_max {u_max.shape} and overturned {overturned.shape}: must be two lists of one length, not empty")
+        raise ValueError(
+            f"u_max {u_max.shape} and overturned {overturned.shape}: must be two lists "
+            "of one length, not empty"
+        )
     standing = u_max[~overturned]
     if not np.isfinite(standing).all():
-        raise ValueError("u_max of a run that stood is not finite; a failed run is neither standing nor overturned")
+        raise ValueError(
+            "u_max of a run that stood is not finite; a failed run is neither standing "
+            "nor overturned"
+        )
     return standing, u_max.size

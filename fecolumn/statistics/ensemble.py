@@ -13,14 +13,24 @@ from fecolumn.statistics.ecdf import percentile, proportion_interval
 class EnsembleSummary:
     """One row of a study's table.
 
-    Attributes:
-        n: runs that ended, standing, overturned or slid off.
-        overturned: runs that overturned. slid_off: runs that slid off their base.
-        p_overturn: overturned / n, with Wilson's and Clopper and Pearson's 95 % intervals.
-        u16_m, u50_m, u84_m: percentiles of u_max [m]; inf where that fraction of the runs does not stand. What slid off is beyond every
-            run that stood, as what overturned is: nobody knows how far it would have gone.
-        energy_closure_worst: largest magnitude of the relative closure error of the energy ledger [-].
-        s_per_step: mean wall time of a step [s].
+    Attributes
+    ----------
+    n
+        runs that ended, standing, overturned or slid off.
+    overturned
+        runs that overturned.
+    slid_off
+        runs that slid off their base.
+    p_overturn
+        overturned / n, with Wilson's and Clopper and Pearson's 95 % intervals.
+    u16_m, u50_m, u84_m
+        percentiles of u_max [m]; inf where that fraction of the runs does not stand. What slid off
+        is beyond every run that stood, as what overturned is: nobody knows how far it would have
+        gone.
+    energy_closure_worst
+        largest magnitude of the relative closure error of the energy ledger [-].
+    s_per_step
+        mean wall time of a step [s].
     """
 
     n: int
@@ -39,17 +49,34 @@ class EnsembleSummary:
 def summarize(u_max, overturned, energy_closure_rel, s_per_step, slid_off=False) -> EnsembleSummary:
     """Row of an ensemble of n runs.
 
-    Args:
-        u_max: (n,) [m] peak displacement of the top; ignored where the run overturned or slid off.
-        overturned: (n,) True where the column overturned.
-        energy_closure_rel: (n,) [-] closure error of the energy ledger.
-        s_per_step: (n,) [s] wall time of a step.
-        slid_off: (n,) True where the column slid off its base.
+    Parameters
+    ----------
+    u_max
+        (n,) [m] peak displacement of the top; ignored where the run overturned or slid off.
+    overturned
+        (n,) True where the column overturned.
+    energy_closure_rel
+        (n,) [-] closure error of the energy ledger.
+    s_per_step
+        (n,) [s] wall time of a step.
+    slid_off
+        (n,) True where the column slid off its base.
     """
     overturned = np.asarray(overturned, bool)
     slid_off = np.broadcast_to(np.asarray(slid_off, bool), overturned.shape)
     lost = overturned | slid_off
     n, k = overturned.size, int(overturned.sum())
     u16, u50, u84 = (percentile(u_max, lost, fraction) for fraction in (0.16, 0.50, 0.84))
-    return EnsembleSummary(n, k, k / n, proportion_interval(k, n), proportion_interval(k, n, method="exact"), u16, u50, u84,
-                           float(np.max(np.abs(energy_closure_rel))), float(np.mean(s_per_step)), int(slid_off.sum()))
+    return EnsembleSummary(
+        n,
+        k,
+        k / n,
+        proportion_interval(k, n),
+        proportion_interval(k, n, method="exact"),
+        u16,
+        u50,
+        u84,
+        float(np.max(np.abs(energy_closure_rel))),
+        float(np.mean(s_per_step)),
+        int(slid_off.sum()),
+    )

@@ -1,4 +1,6 @@
-"""How far two distributions may differ without the data being able to exclude it: "not significant" is not "equal"."""
+"""How far two distributions may differ without the data being able to exclude it: "not significant"
+is not "equal".
+"""
 
 from __future__ import annotations
 
@@ -8,30 +10,41 @@ import numpy as np
 
 from fecolumn.statistics.ecdf import normal_quantile
 
-
 #: A difference of two CDFs that most would call small: "no difference" is claimed up to it.
 SMALL = 0.1
 _LEVEL = 0.05  # of significance, the usual one
 
 
-def distance_bound(u_a, overturned_a, u_b, overturned_b, confidence: float = 0.95) -> tuple[float, float]:
+def distance_bound(
+    u_a, overturned_a, u_b, overturned_b, confidence: float = 0.95
+) -> tuple[float, float]:
     """Largest distance of the two distributions, and the distance the data exclude at `confidence`.
 
-    The same motions in both settings: at each u the difference F_a - F_b is that of two paired proportions, see
-    `paired_error`. The bound is the largest over u of |F_a - F_b| + z s(u), z one-sided. The true largest difference sits at
-    some u*, and there the bound of one proportion already holds, so none is needed for all u at once (intersection-union
-    test, Berger 1982, Technometrics 24).
+    The same motions in both settings: at each u the difference F_a - F_b is that of two paired
+    proportions, see `paired_error`. The bound is the largest over u of |F_a - F_b| + z s(u), z
+    one-sided. The true largest difference sits at some u*, and there the bound of one proportion
+    already holds, so none is needed for all u at once (intersection-union test, Berger 1982,
+    Technometrics 24).
 
-    Args:
-        u_a, u_b: (n,) [m] peaks of the same n motions; ignored where the run overturned.
-        overturned_a, overturned_b: (n,) True where the column overturned: beyond every u.
+    Parameters
+    ----------
+    u_a, u_b
+        (n,) [m] peaks of the same n motions; ignored where the run overturned.
+    overturned_a, overturned_b
+        (n,) True where the column overturned: beyond every u.
 
-    Returns:
-        Largest |F_a - F_b| over u, and its upper confidence bound, both in [0, 1].
+    Returns
+    -------
+    Largest |F_a - F_b| over u, and its upper confidence bound, both in [0, 1].
     """
-    a, b = (np.where(np.asarray(over, bool), np.inf, np.asarray(u, float)) for u, over in ((u_a, overturned_a), (u_b, overturned_b)))
+    a, b = (
+        np.where(np.asarray(over, bool), np.inf, np.asarray(u, float))
+        for u, over in ((u_a, overturned_a), (u_b, overturned_b))
+    )
     if a.shape != b.shape or a.ndim != 1 or a.size == 0:
-        raise ValueError(f"u_a {a.shape} and u_b {b.shape}: must be peaks of the same motions, at least one")
+        raise ValueError(
+            f"u_a {a.shape} and u_b {b.shape}: must be peaks of the same motions, at least one"
+        )
     at = np.unique(np.concatenate([a, b]))
     at = at[np.isfinite(at)]
     if not at.size:
@@ -41,24 +54,31 @@ def distance_bound(u_a, overturned_a, u_b, overturned_b, confidence: float = 0.9
 
 
 def upper_bound(difference, confidence: float) -> float:
-    """Distance that n motions exclude at `confidence`, see `distance_bound`; difference (n, points) as of `paired_error`."""
+    """Distance that n motions exclude at `confidence`, see `distance_bound`; difference (n, points)
+    as of `paired_error`.
+    """
     difference = np.asarray(difference, float)
     centre, error = paired_error(difference)
     reach = normal_quantile(2 * confidence - 1) * error
-    return float(min(1.0, max(np.abs(difference.mean(axis=0)).max(), (np.abs(centre) + reach).max())))
+    return float(
+        min(1.0, max(np.abs(difference.mean(axis=0)).max(), (np.abs(centre) + reach).max()))
+    )
 
 
 def paired_error(difference) -> tuple[np.ndarray, np.ndarray]:
     """Centre and standard error of the mean difference of two paired proportions.
 
-    Two motions are added to those seen, half a one to each of the four outcomes (Agresti & Min 2005, Statistics in Medicine
-    24), so that the error is not 0 where no motion differs.
+    Two motions are added to those seen, half a one to each of the four outcomes (Agresti & Min
+    2005, Statistics in Medicine 24), so that the error is not 0 where no motion differs.
 
-    Args:
-        difference: (n, ...) of each motion: -1, 0 or 1, or a mean of such over the settings it was run in.
+    Parameters
+    ----------
+    difference
+        (n, ...) of each motion: -1, 0 or 1, or a mean of such over the settings it was run in.
 
-    Returns:
-        Centre of the interval and standard error, (...) each.
+    Returns
+    -------
+    Centre of the interval and standard error, (...) each.
     """
     difference = np.asarray(difference, float)
     n, total = len(difference) + 2, difference.sum(axis=0)
@@ -66,43 +86,66 @@ def paired_error(difference) -> tuple[np.ndarray, np.ndarray]:
 
 
 def detectable_distance(n: int, significance: float = 0.05) -> float:
-    """Largest distance of two CDFs of n motions each that chance alone gives, exceeded in a share `significance` of cases.
+    """Largest distance of two CDFs of n motions each that chance alone gives, exceeded in a share
+    `significance` of cases.
 
-    A true difference below it is not seen: the two-sample Kolmogorov-Smirnov test does not reject. sqrt(ln(2 / significance) / n),
-    the limit of many independent motions (Smirnov 1939); the same motions in both settings tell somewhat more.
+    A true difference below it is not seen: the two-sample Kolmogorov-Smirnov test does not reject.
+    sqrt(ln(2 / significance) / n), the limit of many independent motions (Smirnov 1939); the same
+    motions in both settings tell somewhat more.
     """
     return math.sqrt(math.log(2 / significance) / n)
 
 
 def motions_needed(distance: float, significance: float = 0.05) -> int:
-    """Motions in each setting from which a distance of two CDFs can be seen, the inverse of `detectable_distance`."""
+    """Motions in each setting from which a distance of two CDFs can be seen, the inverse of
+    `detectable_distance`.
+    """
     return math.ceil(round(math.log(2 / significance) / distance**2, 9))
 
 
 def difference_shortfall(n: int, distance: float, comparisons: int = 1) -> str:
     """Warning that n motions are few to claim a difference; "" where they are enough.
 
-    A claim is made where one of several comparisons differs: it is judged at 5 % over their number, the strictest level of Holm's correction.
+    A claim is made where one of several comparisons differs: it is judged at 5 % over their number,
+    the strictest level of Holm's correction.
 
-    Args:
-        n: motions in each setting. distance: of the two CDFs, as found. comparisons: pairs of settings that answer one question.
+    Parameters
+    ----------
+    n
+        motions in each setting.
+    distance
+        of the two CDFs, as found.
+    comparisons
+        pairs of settings that answer one question.
     """
     told = detectable_distance(n, _LEVEL / comparisons)
     if distance >= told:
         return ""
     among = f" among {comparisons} comparisons" if comparisons > 1 else ""
-    return (f"With {n} motions a KS distance below {told:.2f} cannot be told from 0{among} but by the pairing of motions: the claim of a difference of "
-            f"{distance:.2f} needs about N = {motions_needed(distance, _LEVEL / comparisons)}.")
+    return (
+        f"With {n} motions a KS distance below {told:.2f} cannot be told from 0{among} "
+        "but by the pairing of motions: the claim of a difference of "
+        f"{distance:.2f} needs about N = {motions_needed(distance, _LEVEL / comparisons)}."
+    )
 
 
 def equality_shortfall(n: int, margin: float = SMALL, bound: float = math.inf) -> str:
-    """Warning that n motions are few to claim that there is no difference; "" where they are enough, or where they exclude it all the same.
+    """Warning that n motions are few to claim that there is no difference; "" where they are
+    enough, or where they exclude it all the same.
 
-    Args:
-        n: motions in each setting. margin: distance of two CDFs up to which they are called equal. bound: distance that the data exclude, see
-            `distance_bound`.
+    Parameters
+    ----------
+    n
+        motions in each setting.
+    margin
+        distance of two CDFs up to which they are called equal.
+    bound
+        distance that the data exclude, see `distance_bound`.
     """
     if n >= motions_needed(margin) or bound <= margin:
         return ""
-    return (f"With {n} motions a KS distance below {detectable_distance(n):.2f} cannot be told from 0: the claim of no difference beyond {margin:.2f} "
-            f"needs about N = {motions_needed(margin)}.")
+    return (
+        f"With {n} motions a KS distance below {detectable_distance(n):.2f} cannot be "
+        f"told from 0: the claim of no difference beyond {margin:.2f} "
+        f"needs about N = {motions_needed(margin)}."
+    )

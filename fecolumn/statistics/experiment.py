@@ -19,10 +19,14 @@ _WORDS = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no"
 class Maxima:
     """Peak displacements of an ensemble.
 
-    Attributes:
-        motions: (n,) names, all different.
-        u_max: (n,) [m], nan where it overturned.
-        overturned: (n,) bool.
+    Attributes
+    ----------
+    motions
+        (n,) names, all different.
+    u_max
+        (n,) [m], nan where it overturned.
+    overturned
+        (n,) bool.
     """
 
     motions: tuple[str, ...]
@@ -31,13 +35,17 @@ class Maxima:
 
 
 def read_maxima(path) -> Maxima:
-    """Maxima of a CSV file with a header: motion, u_max_mm (or u_max_cm, u_max_m), overturned; other columns are ignored.
+    """Maxima of a CSV file with a header: motion, u_max_mm (or u_max_cm, u_max_m), overturned;
+    other columns are ignored.
 
-    overturned is 1 or 0 (true or false, yes or no); u_max may be blank where it is 1, and is not used there. Lines that
-    begin with # are comments.
+    overturned is 1 or 0 (true or false, yes or no); u_max may be blank where it is 1, and is not
+    used there. Lines that begin with # are comments.
 
-    Raises:
-        InputError: no such file, a column missing or given twice, a value that cannot be used, a motion given twice.
+    Raises
+    ------
+    InputError
+        no such file, a column missing or given twice, a value that cannot be used, a motion given
+        twice.
     """
     path = Path(path)
     header, rows = read_csv(path, "the columns motion, u_max_mm and overturned")
@@ -45,13 +53,27 @@ def read_maxima(path) -> Maxima:
     motions, maxima, overturned = [], [], []
     for number, row in rows:
         if len(row) != len(header):
-            raise InputError(path, f"line {number}", None, f"has {len(row)} columns where the header has {len(header)}")
+            raise InputError(
+                path,
+                f"line {number}",
+                None,
+                f"has {len(row)} columns where the header has {len(header)}",
+            )
         motion, u_text, word = (row[column].strip() for column in columns)
         if not motion or motion in motions:
-            raise InputError(path, f"line {number}, motion", motion, "must be a name" if not motion else "stands twice in the file")
+            raise InputError(
+                path,
+                f"line {number}, motion",
+                motion,
+                "must be a name" if not motion else "stands twice in the file",
+            )
         motions.append(motion)
         overturned.append(overturned_word(path, number, word))
-        maxima.append(math.nan if overturned[-1] else factor * _number(path, number, header[columns[1]], u_text))
+        maxima.append(
+            math.nan
+            if overturned[-1]
+            else factor * _number(path, number, header[columns[1]], u_text)
+        )
     return Maxima(tuple(motions), np.array(maxima), np.array(overturned))
 
 
@@ -59,18 +81,29 @@ def _columns(path: Path, header: list[str]) -> tuple[tuple[int, int, int], float
     """Places of motion, u_max and overturned, and the factor to metres."""
     maxima = [name for name in header if name in _TO_METRES]
     if len(maxima) != 1:
-        raise InputError(path, "header", ", ".join(header), f"must have one of the columns {', '.join(_TO_METRES)}: the unit is part of the name"
-                         + ("; columns are separated by commas" if len(header) == 1 else ""))
+        raise InputError(
+            path,
+            "header",
+            ", ".join(header),
+            f"must have one of the columns {', '.join(_TO_METRES)}: the unit is part of the name"
+            + ("; columns are separated by commas" if len(header) == 1 else ""),
+        )
     for name in ("motion", "overturned"):
         if header.count(name) != 1:
             raise InputError(path, "header", ", ".join(header), f"must have one column {name}")
-    return (header.index("motion"), header.index(maxima[0]), header.index("overturned")), _TO_METRES[maxima[0]]
+    return (
+        header.index("motion"),
+        header.index(maxima[0]),
+        header.index("overturned"),
+    ), _TO_METRES[maxima[0]]
 
 
 def overturned_word(path: Path, number: int, word: str) -> bool:
     """Whether a line of a file says that it overturned; InputError where it says neither."""
     if word.lower() not in _WORDS:
-        raise InputError(path, f"line {number}, overturned", word, f"must be one of {', '.join(_WORDS)}")
+        raise InputError(
+            path, f"line {number}, overturned", word, f"must be one of {', '.join(_WORDS)}"
+        )
     return _WORDS[word.lower()]
 
 
@@ -81,6 +114,11 @@ def _number(path: Path, number: int, column: str, text: str) -> float:
     except ValueError:
         value = math.nan
     if not (math.isfinite(value) and value >= 0):
-        raise InputError(path, f"line {number}, {column}", text,
-                         f"must be a number of at least 0 [{column.rpartition('_')[2]}]; it may be blank only where overturned is 1")
+        raise InputError(
+            path,
+            f"line {number}, {column}",
+            text,
+            f"must be a number of at least 0 [{column.rpartition('_')[2]}]; it may be "
+            "blank only where overturned is 1",
+        )
     return value

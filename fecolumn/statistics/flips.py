@@ -6,17 +6,25 @@ import numpy as np
 
 
 def contingency(overturned_a, overturned_b) -> np.ndarray:
-    """Motions by outcome, (2, 2) int: [[both stand, b alone overturns], [a alone overturns, both overturn]].
+    """Motions by outcome, (2, 2) int: [[both stand, b alone overturns], [a alone overturns, both
+    overturn]].
 
-    Args:
-        overturned_a, overturned_b: (n,) each, the same motion at the same place.
+    Parameters
+    ----------
+    overturned_a, overturned_b
+        (n,) each, the same motion at the same place.
 
-    Raises:
-        ValueError: lengths that differ, or no motion.
+    Raises
+    ------
+    ValueError
+        lengths that differ, or no motion.
     """
     a, b = np.asarray(overturned_a, bool), np.asarray(overturned_b, bool)
     if a.ndim != 1 or a.shape != b.shape or not a.size:
-        raise ValueError(f"overturned_a {a.shape} and overturned_b {b.shape}: must be two lists of one length, not empty")
+        raise ValueError(
+            f"overturned_a {a.shape} and overturned_b {b.shape}: must be two lists of "
+            "one length, not empty"
+        )
     return np.bincount(2 * a + b, minlength=4).reshape(2, 2)
 
 
@@ -27,10 +35,11 @@ def flips(table) -> int:
 
 
 def mcnemar(table) -> float:
-    """p-value of "as many flips one way as the other", so that P(overturn) is the same in both settings.
+    """p-value of "as many flips one way as the other", so that P(overturn) is the same in both
+    settings.
 
-    Exact binomial version of McNemar's test (1947, Psychometrika 12). Many flips that cancel give a large p: the
-    motions' fates change, their share does not.
+    Exact binomial version of McNemar's test (1947, Psychometrika 12). Many flips that cancel give a
+    large p: the motions' fates change, their share does not.
     """
     from scipy.stats import binomtest
 

@@ -1,8 +1,10 @@
-"""Fragility: probability of overturning over one or two intensity measures, from ensembles scaled or as they come.
+"""Fragility: probability of overturning over one or two intensity measures, from ensembles scaled
+or as they come.
 
-Runs of one motion scaled to several levels are not independent: their number overstates what is known. `groups` tells the motion
-of each run; the curve stays, and its intervals know of the motions (`fit_binary`). `bootstrap` with `groups` draws whole
-motions. See `statistics.incremental` for the intensity at which each motion first overturns the column.
+Runs of one motion scaled to several levels are not independent: their number overstates what is
+known. `groups` tells the motion of each run; the curve stays, and its intervals know of the motions
+(`fit_binary`). `bootstrap` with `groups` draws whole motions. See `statistics.incremental` for the
+intensity at which each motion first overturns the column.
 """
 
 from __future__ import annotations
@@ -16,7 +18,17 @@ from scipy.special import expit, ndtr, stdtrit
 from fecolumn.statistics.bands import normal_quantile
 from fecolumn.statistics.binary_regression import DegenerateData, fit_binary
 
-__all__ = ["Bootstrap", "DegenerateData", "Fragility", "LogitFragility", "Probability", "bootstrap", "lognormal", "logit", "log_columns"]
+__all__ = [
+    "Bootstrap",
+    "DegenerateData",
+    "Fragility",
+    "LogitFragility",
+    "Probability",
+    "bootstrap",
+    "lognormal",
+    "logit",
+    "log_columns",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,15 +44,24 @@ class Probability:
 class Fragility:
     """P(overturn | im) = Phi(ln(im / median) / beta).
 
-    Attributes:
-        median: intensity at which half overturn [unit of im].
-        beta: logarithmic standard deviation [-].
-        covariance: (2, 2) of (ln median, beta), inverse of the observed information, or that of whole motions.
-        loglik: log-likelihood at the maximum.
-        n, overturned: runs, and how many overturned.
-        clusters: motions, where runs repeat them: intervals then take Student's t with one degree of freedom less; None for independent runs.
-        fit: what statsmodels has fitted, over a column of ones and ln im: fit.summary(), and fit.get_influence() of single runs;
-            None of a curve by another likelihood.
+    Attributes
+    ----------
+    median
+        intensity at which half overturn [unit of im].
+    beta
+        logarithmic standard deviation [-].
+    covariance
+        (2, 2) of (ln median, beta), inverse of the observed information, or that of whole motions.
+    loglik
+        log-likelihood at the maximum.
+    n, overturned
+        runs, and how many overturned.
+    clusters
+        motions, where runs repeat them: intervals then take Student's t with one degree of freedom
+        less; None for independent runs.
+    fit
+        what statsmodels has fitted, over a column of ones and ln im: fit.summary(), and
+        fit.get_influence() of single runs; None of a curve by another likelihood.
     """
 
     median: float
@@ -68,7 +89,9 @@ class Fragility:
         return self.beta / reach, self.beta * reach
 
     def probability(self, im, confidence: float = 0.95) -> Probability:
-        """P(overturn) at intensities im (any shape), its band by the delta method on the scale of Phi's argument."""
+        """P(overturn) at intensities im (any shape), its band by the delta method on the scale of
+        Phi's argument.
+        """
         eta = np.log(np.asarray(im, float) / self.median) / self.beta
         gradient = np.stack([-np.ones_like(eta), -eta], axis=-1) / self.beta
         reach = self._quantile(confidence) * _deviation(gradient, self.covariance)
@@ -84,13 +107,19 @@ class Fragility:
 class LogitFragility:
     """P(overturn | im) = 1 / (1 + exp(-(c0 + c1 ln im_1 + c2 ln im_2 ...))).
 
-    Attributes:
-        coefficients: (k + 1,) c.
-        covariance: (k + 1, k + 1) of c, inverse of the observed information.
-        loglik: log-likelihood at the maximum; with one more intensity measure 2 (difference) is chi-square with one degree of
-            freedom where that measure tells nothing.
-        n, overturned: runs, and how many overturned.
-        clusters, fit: as of Fragility.
+    Attributes
+    ----------
+    coefficients
+        (k + 1,) c.
+    covariance
+        (k + 1, k + 1) of c, inverse of the observed information.
+    loglik
+        log-likelihood at the maximum; with one more intensity measure 2 (difference) is chi-square
+        with one degree of freedom where that measure tells nothing.
+    n, overturned
+        runs, and how many overturned.
+    clusters, fit
+        as of Fragility.
     """
 
     coefficients: np.ndarray
@@ -107,9 +136,15 @@ class LogitFragility:
         return self.coefficients
 
     def probability(self, im, confidence: float = 0.95) -> Probability:
-        """P(overturn) at im (m, k), or (m,) of one measure, with its band by the delta method on the scale of the logit."""
+        """P(overturn) at im (m, k), or (m,) of one measure, with its band by the delta method on
+        the scale of the logit.
+        """
         x = log_columns(im, len(self.coefficients) - 1)
-        quantile = normal_quantile(confidence) if self.clusters is None else float(stdtrit(self.clusters - 1, (1 + confidence) / 2))
+        quantile = (
+            normal_quantile(confidence)
+            if self.clusters is None
+            else float(stdtrit(self.clusters - 1, (1 + confidence) / 2))
+        )
         eta, reach = x @ self.coefficients, quantile * _deviation(x, self.covariance)
         return Probability(expit(eta), expit(eta - reach), expit(eta + reach))
 
@@ -118,11 +153,15 @@ class LogitFragility:
 class Bootstrap:
     """Parameters refitted to runs drawn anew.
 
-    Attributes:
-        parameters: (r, p) of the samples that could be fitted.
-        lower, upper: (p,) percentile interval.
-        refused: samples that had no maximum; many of them mean that the data hardly bound the curve, and that the interval
-            is too narrow.
+    Attributes
+    ----------
+    parameters
+        (r, p) of the samples that could be fitted.
+    lower, upper
+        (p,) percentile interval.
+    refused
+        samples that had no maximum; many of them mean that the data hardly bound the curve, and
+        that the interval is too narrow.
     """
 
     parameters: np.ndarray
@@ -132,86 +171,157 @@ class Bootstrap:
 
 
 def lognormal(im, overturned, groups=None) -> Fragility:
-    """Lognormal fragility by maximum likelihood (Shinozuka et al. 2000, J. Eng. Mech. 126; Baker 2015, Earthq. Spectra 31).
+    """Lognormal fragility by maximum likelihood (Shinozuka et al. 2000, J.
 
-    Serves multiple stripes, incremental analyses and unscaled motions alike, each run being one yes or no.
+    Eng. Mech. 126; Baker 2015, Earthq. Spectra 31).
 
-    Args:
-        im: (n,) positive intensity of each run.
-        overturned: (n,) True where the column overturned.
-        groups: (n,) motion of each run, where motions come at several scales; None takes all runs as independent.
+    Serves multiple stripes, incremental analyses and unscaled motions alike, each run being one yes
+    or no.
 
-    Raises:
-        DegenerateData: all or none overturned, fewer than two motions, intensities that part the two, or overturning that gets rarer with intensity.
-        ValueError: intensities that are not positive, lengths that differ.
+    Parameters
+    ----------
+    im
+        (n,) positive intensity of each run.
+    overturned
+        (n,) True where the column overturned.
+    groups
+        (n,) motion of each run, where motions come at several scales; None takes all runs as
+        independent.
+
+    Raises
+    ------
+    DegenerateData
+        all or none overturned, fewer than two motions, intensities that part the two, or
+        overturning that gets rarer with intensity.
+    ValueError
+        intensities that are not positive, lengths that differ.
     """
     im, overturned = np.asarray(im, float), np.asarray(overturned, bool)
     x = _data(im.reshape(-1), overturned)
     fit, covariance, clusters = fit_binary(x, overturned, "probit", groups)
     a, b = fit.params
     if b <= 0:
-        raise DegenerateData("overturning gets rarer with the intensity measure: it has no lognormal fragility; logit() shows the trend")
+        raise DegenerateData(
+            "overturning gets rarer with the intensity measure: it has no lognormal "
+            "fragility; logit() shows the trend"
+        )
     to_shape = np.array([[-1 / b, a / b**2], [0.0, -1 / b**2]])
-    return Fragility(math.exp(-a / b), 1 / b, to_shape @ covariance @ to_shape.T, float(fit.llf), overturned.size, int(overturned.sum()), clusters, fit)
+    return Fragility(
+        math.exp(-a / b),
+        1 / b,
+        to_shape @ covariance @ to_shape.T,
+        float(fit.llf),
+        overturned.size,
+        int(overturned.sum()),
+        clusters,
+        fit,
+    )
 
 
 def logit(im, overturned, groups=None) -> LogitFragility:
     """Logistic regression on the logarithms of one or more intensity measures.
 
-    Args:
-        im: (n, k) or (n,) positive intensities of each run.
-        overturned: (n,) True where the column overturned.
-        groups: as of `lognormal`.
+    Parameters
+    ----------
+    im
+        (n, k) or (n,) positive intensities of each run.
+    overturned
+        (n,) True where the column overturned.
+    groups
+        as of `lognormal`.
 
-    Raises:
-        DegenerateData, ValueError: as of `lognormal`, but for the direction of the trend.
+    Raises
+    ------
+    DegenerateData, ValueError
+        as of `lognormal`, but for the direction of the trend.
     """
     overturned = np.asarray(overturned, bool)
     x = _data(im, overturned)
     fit, covariance, clusters = fit_binary(x, overturned, "logit", groups)
-    return LogitFragility(fit.params, covariance, float(fit.llf), overturned.size, int(overturned.sum()), clusters, fit)
+    return LogitFragility(
+        fit.params,
+        covariance,
+        float(fit.llf),
+        overturned.size,
+        int(overturned.sum()),
+        clusters,
+        fit,
+    )
 
 
-def bootstrap(im, overturned, fit=lognormal, groups=None, confidence: float = 0.95, resamples: int = 500, seed: int = 0) -> Bootstrap:
-    """Percentile intervals of the parameters by drawing runs, or whole groups of them, with replacement.
+def bootstrap(
+    im,
+    overturned,
+    fit=lognormal,
+    groups=None,
+    confidence: float = 0.95,
+    resamples: int = 500,
+    seed: int = 0,
+) -> Bootstrap:
+    """Percentile intervals of the parameters by drawing runs, or whole groups of them, with
+    replacement.
 
-    Args:
-        im, overturned: as of `fit`.
-        fit: `lognormal` or `logit`.
-        groups: (n,) motion of each run, where motions come at several scales; None draws single runs.
-        confidence: level, in (0, 1).
-        resamples: samples drawn.
-        seed: of the generator.
+    Parameters
+    ----------
+    im, overturned
+        as of `fit`.
+    fit
+        `lognormal` or `logit`.
+    groups
+        (n,) motion of each run, where motions come at several scales; None draws single runs.
+    confidence
+        level, in (0, 1).
+    resamples
+        samples drawn.
+    seed
+        of the generator.
 
-    Raises:
-        DegenerateData: fewer than half of the samples can be fitted.
+    Raises
+    ------
+    DegenerateData
+        fewer than half of the samples can be fitted.
     """
     im, overturned = np.asarray(im, float), np.asarray(overturned, bool)
-    labels = np.arange(overturned.size) if groups is None else np.unique(np.asarray(groups), return_inverse=True)[1]
+    labels = (
+        np.arange(overturned.size)
+        if groups is None
+        else np.unique(np.asarray(groups), return_inverse=True)[1]
+    )
     members = [np.flatnonzero(labels == label) for label in range(labels.max() + 1)]
     rng, fitted = np.random.default_rng(seed), []
     for _ in range(resamples):
-        rows = np.concatenate([members[label] for label in rng.integers(0, len(members), len(members))])
+        rows = np.concatenate(
+            [members[label] for label in rng.integers(0, len(members), len(members))]
+        )
         try:
             fitted.append(fit(im[rows], overturned[rows]).parameters)
         except DegenerateData:
             pass
     if 2 * len(fitted) < resamples:
-        raise DegenerateData(f"{resamples - len(fitted)} of {resamples} samples drawn anew have no maximum: the data do not bound the curve")
+        raise DegenerateData(
+            f"{resamples - len(fitted)} of {resamples} samples drawn anew have no "
+            "maximum: the data do not bound the curve"
+        )
     tail, parameters = (1 - confidence) / 2, np.array(fitted)
-    return Bootstrap(parameters, *np.quantile(parameters, (tail, 1 - tail), axis=0), resamples - len(fitted))
+    return Bootstrap(
+        parameters, *np.quantile(parameters, (tail, 1 - tail), axis=0), resamples - len(fitted)
+    )
 
 
 def log_columns(im, k: int | None = None) -> np.ndarray:
     """Matrix (n, k + 1) of a column of ones and ln im; im is (n, k), or (n,) of one measure.
 
-    Raises:
-        ValueError: another number of measures than k, or an intensity that is not positive.
+    Raises
+    ------
+    ValueError
+        another number of measures than k, or an intensity that is not positive.
     """
     im = np.asarray(im, float)
     im = im[:, None] if im.ndim == 1 else im
     if im.ndim != 2 or (k is not None and im.shape[1] != k):
-        raise ValueError(f"im {im.shape}: must be (n, {k or 'k'})" + (", or (n,)" if k in (None, 1) else ""))
+        raise ValueError(
+            f"im {im.shape}: must be (n, {k or 'k'})" + (", or (n,)" if k in (None, 1) else "")
+        )
     if not (np.isfinite(im) & (im > 0)).all():
         raise ValueError("intensities must be positive and finite")
     return np.column_stack([np.ones(len(im)), np.log(im)])
@@ -220,7 +330,9 @@ def log_columns(im, k: int | None = None) -> np.ndarray:
 def _data(im, overturned: np.ndarray) -> np.ndarray:
     x = log_columns(im)
     if overturned.ndim != 1 or len(x) != overturned.size:
-        raise ValueError(f"im of {len(x)} runs and overturned {overturned.shape}: must have one length")
+        raise ValueError(
+            f"im of {len(x)} runs and overturned {overturned.shape}: must have one length"
+        )
     return x
 
 

@@ -6,12 +6,16 @@ import numpy as np
 
 
 def holm(p) -> np.ndarray:
-    """Adjusted p values (n,) of n tests: to reject where they are below a level keeps the chance of any false rejection below it.
+    """Adjusted p values (n,) of n tests: to reject where they are below a level keeps the chance of
+    any false rejection below it.
 
-    Step-down Bonferroni, whatever the dependence of the tests (Holm 1979, Scandinavian Journal of Statistics 6).
+    Step-down Bonferroni, whatever the dependence of the tests (Holm 1979, Scandinavian Journal of
+    Statistics 6).
 
-    Args:
-        p: (n,) p values.
+    Parameters
+    ----------
+    p
+        (n,) p values.
     """
     p = np.asarray(p, float)
     order = np.argsort(p)

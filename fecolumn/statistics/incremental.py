@@ -1,11 +1,14 @@
-"""Incremental dynamic analysis: each motion scaled up until the column overturns (Vamvatsikos & Cornell 2002, EESD 31).
+"""Incremental dynamic analysis: each motion scaled up until the column overturns (Vamvatsikos &
+Cornell 2002, EESD 31).
 
-The same motion at several scales is one piece of knowledge and not several: what each motion gives is the intensity at which it
-first overturns the column, known to lie between two of its scales, or beyond the largest.
+The same motion at several scales is one piece of knowledge and not several: what each motion gives
+is the intensity at which it first overturns the column, known to lie between two of its scales, or
+beyond the largest.
 
-Columns that rock are not monotonic: at a larger scale the same motion may let the column stand again (resurrection). The
-intensity of the *first* overturning then lies below what a single run at that intensity would say; `fragility.lognormal` with
-`groups` is the probability of overturning *at* an intensity.
+Columns that rock are not monotonic: at a larger scale the same motion may let the column stand
+again (resurrection). The intensity of the *first* overturning then lies below what a single run at
+that intensity would say; `fragility.lognormal` with `groups` is the probability of overturning *at*
+an intensity.
 """
 
 from __future__ import annotations
@@ -25,11 +28,16 @@ FRACTILES = (0.16, 0.5, 0.84)
 class IncrementalCurve:
     """One motion at k rising intensities.
 
-    Attributes:
-        motion: its name.
-        im: (k,) intensities, rising [unit of the measure].
-        u_max: (k,) [m]; of no meaning where the column overturned.
-        overturned: (k,) bool.
+    Attributes
+    ----------
+    motion
+        its name.
+    im
+        (k,) intensities, rising [unit of the measure].
+    u_max
+        (k,) [m]; of no meaning where the column overturned.
+    overturned
+        (k,) bool.
     """
 
     motion: str
@@ -39,7 +47,9 @@ class IncrementalCurve:
 
     @property
     def first(self) -> tuple[float, float]:
-        """Intensities between which the column first overturns: (0, im_1) where it does at the least, (im_k, inf) where it never does."""
+        """Intensities between which the column first overturns: (0, im_1) where it does at the
+        least, (im_k, inf) where it never does.
+        """
         if not self.overturned.any():
             return float(self.im[-1]), np.inf
         place = int(np.argmax(self.overturned))
@@ -48,28 +58,42 @@ class IncrementalCurve:
     @property
     def stands_again(self) -> bool:
         """Whether the column stands at an intensity above one at which it overturns."""
-        return bool((~self.overturned[int(np.argmax(self.overturned)):]).any() and self.overturned.any())
+        return bool(
+            (~self.overturned[int(np.argmax(self.overturned)) :]).any() and self.overturned.any()
+        )
 
     def u_at(self, im) -> np.ndarray:
-        """u_max [m] at intensities (m,): straight between the runs and from rest at 0; inf beyond the first overturning, nan where not known.
+        """u_max [m] at intensities (m,): straight between the runs and from rest at 0; inf beyond
+        the first overturning, nan where not known.
 
-        Between the last run that stood and the first that overturned the curve keeps the slope of the last two runs that stood.
+        Between the last run that stood and the first that overturned the curve keeps the slope of
+        the last two runs that stood.
         """
         im, (stood, fallen) = np.asarray(im, float), self.first
         count = int(np.searchsorted(self.im, stood, side="right")) if stood else 0
         x, y = np.append(0.0, self.im[:count]), np.append(0.0, self.u_max[:count])
         slope = max(0.0, (y[-1] - y[-2]) / (x[-1] - x[-2])) if count else np.nan
         known = np.where(im <= stood, np.interp(im, x, y), y[-1] + slope * (im - stood))
-        return np.where(im >= fallen, np.inf, np.where((im > stood) & np.isinf(fallen), np.nan, known))
+        return np.where(
+            im >= fallen, np.inf, np.where((im > stood) & np.isinf(fallen), np.nan, known)
+        )
 
 
 def incremental_curves(motion, im, u_max, overturned) -> list[IncrementalCurve]:
-    """Curves of all motions from (n,) runs in any order: names, positive intensities, u_max [m], and whether the column overturned.
+    """Curves of all motions from (n,) runs in any order: names, positive intensities, u_max [m],
+    and whether the column overturned.
 
-    Raises:
-        ValueError: an intensity that is not positive, or a motion with two runs of one intensity.
+    Raises
+    ------
+    ValueError
+        an intensity that is not positive, or a motion with two runs of one intensity.
     """
-    motion, im, u_max, overturned = np.asarray(motion), np.asarray(im, float), np.asarray(u_max, float), np.asarray(overturned, bool)
+    motion, im, u_max, overturned = (
+        np.asarray(motion),
+        np.asarray(im, float),
+        np.asarray(u_max, float),
+        np.asarray(overturned, bool),
+    )
     if not (np.isfinite(im) & (im > 0)).all():
         raise ValueError("intensities must be positive and finite")
     curves = []
@@ -83,13 +107,18 @@ def incremental_curves(motion, im, u_max, overturned) -> list[IncrementalCurve]:
 
 
 def fractile_curves(curves: list[IncrementalCurve], grid, shares=FRACTILES) -> np.ndarray:
-    """Fractiles of u_max given the intensity, (len(shares), m) [m]: inf where that share of the motions does not stand, nan where not
-    all motions are known.
+    """Fractiles of u_max given the intensity, (len(shares), m) [m]: inf where that share of the
+    motions does not stand, nan where not all motions are known.
 
-    Args:
-        curves: of all motions.
-        grid: (m,) intensities.
-        shares: in (0, 1]; the value of the motion of that rank, so that no number is made from one that overturned.
+    Parameters
+    ----------
+    curves
+        of all motions.
+    grid
+        (m,) intensities.
+    shares
+        in (0, 1]; the value of the motion of that rank, so that no number is made from one that
+        overturned.
     """
     u = np.sort([curve.u_at(grid) for curve in curves], axis=0)  # nan comes last
     rank = np.maximum(np.ceil(np.round(np.array(shares) * len(curves), 9)).astype(int), 1) - 1
@@ -97,28 +126,45 @@ def fractile_curves(curves: list[IncrementalCurve], grid, shares=FRACTILES) -> n
 
 
 def first_overturning(lower, upper) -> Fragility:
-    """Lognormal distribution of the intensity of first overturning, by maximum likelihood of what is known of each motion.
+    """Lognormal distribution of the intensity of first overturning, by maximum likelihood of what
+    is known of each motion.
 
-    ln L = sum ln(Phi((ln upper - ln median) / beta) - Phi((ln lower - ln median) / beta)): of a motion that overturns between two
-    scales the part between, of one that never does the tail (Baker 2015, Earthq. Spectra 31, with the intervals kept). In the
-    variables 1/beta and ln(median)/beta the likelihood is concave. Motions are independent, their scales are not counted. The
-    covariance is the inverse of the observed information times n / (n - 1), and intervals take Student's t.
+    ln L = sum ln(Phi((ln upper - ln median) / beta) - Phi((ln lower - ln median) / beta)): of a
+    motion that overturns between two scales the part between, of one that never does the tail
+    (Baker 2015, Earthq. Spectra 31, with the intervals kept). In the variables 1/beta and
+    ln(median)/beta the likelihood is concave. Motions are independent, their scales are not
+    counted. The covariance is the inverse of the observed information times n / (n - 1), and
+    intervals take Student's t.
 
-    Args:
-        lower, upper: (n,) intensities between which each motion first overturns; 0 and inf for not known.
+    Parameters
+    ----------
+    lower, upper
+        (n,) intensities between which each motion first overturns; 0 and inf for not known.
 
-    Raises:
-        DegenerateData: one intensity parts all motions that stood from all that overturned: the slope is unbounded.
-        ValueError: intervals that are none.
+    Raises
+    ------
+    DegenerateData
+        one intensity parts all motions that stood from all that overturned: the slope is unbounded.
+    ValueError
+        intervals that are none.
     """
     lower, upper = np.asarray(lower, float), np.asarray(upper, float)
-    if lower.shape != upper.shape or lower.ndim != 1 or not lower.size or not (lower >= 0).all() or not (lower < upper).all():
+    if (
+        lower.shape != upper.shape
+        or lower.ndim != 1
+        or not lower.size
+        or not (lower >= 0).all()
+        or not (lower < upper).all()
+    ):
         raise ValueError("lower and upper must be lists of one length with 0 <= lower < upper")
     n, fallen = lower.size, int(np.isfinite(upper).sum())
     if not fallen:
         raise DegenerateData(f"none of {n} motions overturns the column at any of its scales")
     if lower.max() <= upper.min():
-        raise DegenerateData("one intensity lies between the last standing and the first overturning of every motion: finer or more scales are needed")
+        raise DegenerateData(
+            "one intensity lies between the last standing and the first overturning of "
+            "every motion: finer or more scales are needed"
+        )
     with np.errstate(divide="ignore"):
         y_low, y_high = np.log(lower), np.log(upper)
 
@@ -126,20 +172,40 @@ def first_overturning(lower, upper) -> Fragility:
         high, low = _end(q, y_high), _end(q, y_low)
         log_p = _log_between(low, high)
         # densities over the probability of the interval; none at an end that lies at infinity
-        d_high, d_low = (np.exp(-0.5 * end**2 - 0.5 * np.log(2 * np.pi) - log_p) for end in (high, low))
+        d_high, d_low = (
+            np.exp(-0.5 * end**2 - 0.5 * np.log(2 * np.pi) - log_p) for end in (high, low)
+        )
         x_high, x_low = _rows(y_high), _rows(y_low)
         b_high, b_low = np.where(np.isfinite(high), high, 0), np.where(np.isfinite(low), low, 0)
         gradient = x_high.T @ d_high - x_low.T @ d_low
         cross = x_high.T @ ((d_high * d_low)[:, None] * x_low)
-        information = (x_high.T @ ((d_high * (b_high + d_high))[:, None] * x_high)
-                       + x_low.T @ ((d_low * (d_low - b_low))[:, None] * x_low) - cross - cross.T)
+        information = (
+            x_high.T @ ((d_high * (b_high + d_high))[:, None] * x_high)
+            + x_low.T @ ((d_low * (d_low - b_low))[:, None] * x_low)
+            - cross
+            - cross.T
+        )
         return log_p.sum(), gradient, information
 
-    middle = np.where(np.isinf(y_high), y_low, np.where(np.isinf(y_low), y_high, (np.maximum(y_low, -700) + np.minimum(y_high, 700)) / 2))
+    middle = np.where(
+        np.isinf(y_high),
+        y_low,
+        np.where(np.isinf(y_low), y_high, (np.maximum(y_low, -700) + np.minimum(y_high, 700)) / 2),
+    )
     beta = max(float(middle.std()), 0.1)
-    q, covariance, loglik = maximize(likelihood, np.array([1.0, middle.mean()]) / beta, inside=lambda q: q[0] > 0)
-    to_shape = np.array([[-q[1] / q[0]**2, 1 / q[0]], [-1 / q[0]**2, 0.0]])
-    return Fragility(float(np.exp(q[1] / q[0])), float(1 / q[0]), n / (n - 1) * to_shape @ covariance @ to_shape.T, loglik, n, fallen, clusters=n)
+    q, covariance, loglik = maximize(
+        likelihood, np.array([1.0, middle.mean()]) / beta, inside=lambda q: q[0] > 0
+    )
+    to_shape = np.array([[-q[1] / q[0] ** 2, 1 / q[0]], [-1 / q[0] ** 2, 0.0]])
+    return Fragility(
+        float(np.exp(q[1] / q[0])),
+        float(1 / q[0]),
+        n / (n - 1) * to_shape @ covariance @ to_shape.T,
+        loglik,
+        n,
+        fallen,
+        clusters=n,
+    )
 
 
 def _end(q, y):

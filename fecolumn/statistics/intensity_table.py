@@ -21,9 +21,15 @@ _RESPONSES = ("u_max", "tilt_max")
 class IntensityTable:
     """n runs.
 
-    Attributes:
-        measures: name of each intensity measure to its values (n,), positive.
-        overturned: (n,) bool. records: (n,) what the motion of each run is of, where runs repeat one; None where each stands for itself.
+    Attributes
+    ----------
+    measures
+        name of each intensity measure to its values (n,), positive.
+    overturned
+        (n,) bool.
+    records
+        (n,) what the motion of each run is of, where runs repeat one; None where each stands for
+        itself.
     """
 
     measures: dict[str, np.ndarray]
@@ -32,15 +38,21 @@ class IntensityTable:
 
 
 def read_intensity_table(path, wanted: tuple[str, ...] = ()) -> IntensityTable:
-    """Runs of a CSV file with a header: overturned (1 or 0, true or false, yes or no), and columns of intensity measures.
+    """Runs of a CSV file with a header: overturned (1 or 0, true or false, yes or no), and columns
+    of intensity measures.
 
-    A column record, or else motion, tells which runs are of one motion at several scales. Lines that begin with # are comments.
+    A column record, or else motion, tells which runs are of one motion at several scales. Lines
+    that begin with # are comments.
 
-    Args:
-        wanted: names of the measures; none: all columns of positive numbers that are no response.
+    Parameters
+    ----------
+    wanted
+        names of the measures; none: all columns of positive numbers that are no response.
 
-    Raises:
-        InputError: no such file, a column missing, a value that cannot be used.
+    Raises
+    ------
+    InputError
+        no such file, a column missing, a value that cannot be used.
     """
     path = Path(path)
     header, rows = read_csv(path, "the column overturned and one of an intensity measure")
@@ -49,21 +61,48 @@ def read_intensity_table(path, wanted: tuple[str, ...] = ()) -> IntensityTable:
             raise InputError(path, "header", ", ".join(header), f"must have one column {name}")
     for number, row in rows:
         if len(row) != len(header):
-            raise InputError(path, f"line {number}", None, f"has {len(row)} columns where the header has {len(header)}")
+            raise InputError(
+                path,
+                f"line {number}",
+                None,
+                f"has {len(row)} columns where the header has {len(header)}",
+            )
     columns = {name: [row[place].strip() for _, row in rows] for place, name in enumerate(header)}
     numbers = [number for number, _ in rows]
-    fallen = np.array([overturned_word(path, number, word) for number, word in zip(numbers, columns["overturned"])])
-    names = wanted or tuple(name for name in header if name not in _OTHERS and not name.startswith(_RESPONSES) and all(_positive(text) for text in columns[name]))
+    fallen = np.array(
+        [
+            overturned_word(path, number, word)
+            for number, word in zip(numbers, columns["overturned"])
+        ]
+    )
+    names = wanted or tuple(
+        name
+        for name in header
+        if name not in _OTHERS
+        and not name.startswith(_RESPONSES)
+        and all(_positive(text) for text in columns[name])
+    )
     if not names:
-        raise InputError(path, "header", ", ".join(header), "must have a column of an intensity measure, of positive numbers in every line")
+        raise InputError(
+            path,
+            "header",
+            ", ".join(header),
+            "must have a column of an intensity measure, of positive numbers in every line",
+        )
     measures = {}
     for name in names:
         for number, text in zip(numbers, columns[name]):
             if not _positive(text):
-                raise InputError(path, f"line {number}, {name}", text, "must be a number greater than 0")
+                raise InputError(
+                    path, f"line {number}, {name}", text, "must be a number greater than 0"
+                )
         measures[name] = np.array([float(text) for text in columns[name]])
-    labels = next((np.array(columns[name]) for name in ("record", "motion") if name in columns), None)
-    return IntensityTable(measures, fallen, labels if labels is not None and len(set(labels)) < len(labels) else None)
+    labels = next(
+        (np.array(columns[name]) for name in ("record", "motion") if name in columns), None
+    )
+    return IntensityTable(
+        measures, fallen, labels if labels is not None and len(set(labels)) < len(labels) else None
+    )
 
 
 def _positive(text: str) -> bool:

@@ -11,15 +11,26 @@ import numpy as np
 class Sample:
     """Peak displacements of an ensemble, and where they come from.
 
-    Attributes:
-        source: folder or file.
-        title: of the study, or the file's name.
-        choice: value of each axis that was chosen, by its dotted key.
-        motions: (n,) name of each run's motion, all different.
-        u_max: (n,) [m]; nan where the run overturned or slid off its base.
-        lost: (n,) bool, overturned or slid off: either way the peak is beyond what was seen.
-        slid_off: (n,) bool, of these the ones that slid off.
-        missing: analyses of the choice that are not done. cut: what is said of analyses that cut their motion short, see `ending.cut_short`.
+    Attributes
+    ----------
+    source
+        folder or file.
+    title
+        of the study, or the file's name.
+    choice
+        value of each axis that was chosen, by its dotted key.
+    motions
+        (n,) name of each run's motion, all different.
+    u_max
+        (n,) [m]; nan where the run overturned or slid off its base.
+    lost
+        (n,) bool, overturned or slid off: either way the peak is beyond what was seen.
+    slid_off
+        (n,) bool, of these the ones that slid off.
+    missing
+        analyses of the choice that are not done.
+    cut
+        what is said of analyses that cut their motion short, see `ending.cut_short`.
     """
 
     source: str
@@ -35,5 +46,14 @@ class Sample:
     def take(self, motions) -> Sample:
         """The runs of some motions, in their order."""
         places = [self.motions.index(motion) for motion in motions]
-        return Sample(self.source, self.title, self.choice, tuple(motions), self.u_max[places], self.lost[places], self.slid_off[places], self.missing,
-                      self.cut)
+        return Sample(
+            self.source,
+            self.title,
+            self.choice,
+            tuple(motions),
+            self.u_max[places],
+            self.lost[places],
+            self.slid_off[places],
+            self.missing,
+            self.cut,
+        )

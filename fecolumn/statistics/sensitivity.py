@@ -16,12 +16,18 @@ _CONFIDENCE = 0.95
 class Sensitivity:
     """Effect of a parameter, averaged over the settings of all others.
 
-    Attributes:
-        n: motions.
-        distance: largest difference of the two mean distributions [-], with its 95 % interval, which holds it. The lower end is 0
-            where the data are what no effect at all may give.
-        chance: distance that levels swapped at random within each motion exceed in 5 % of cases; below it there is no evidence.
-        change: change of P(overturn) from the low to the high level [-], with its 95 % interval.
+    Attributes
+    ----------
+    n
+        motions.
+    distance
+        largest difference of the two mean distributions [-], with its 95 % interval, which holds
+        it. The lower end is 0 where the data are what no effect at all may give.
+    chance
+        distance that levels swapped at random within each motion exceed in 5 % of cases; below it
+        there is no evidence.
+    change
+        change of P(overturn) from the low to the high level [-], with its 95 % interval.
     """
 
     n: int
@@ -34,30 +40,50 @@ class Sensitivity:
     change_high: float
 
 
-def sensitivity(u_low, overturned_low, u_high, overturned_high, resamples: int = 1000, seed: int = 0) -> Sensitivity:
+def sensitivity(
+    u_low, overturned_low, u_high, overturned_high, resamples: int = 1000, seed: int = 0
+) -> Sensitivity:
     """Effect between two levels of a parameter.
 
-    Args:
-        u_low, u_high: (g, n) [m] peaks of n motions at the low and the high level, at g settings of all other parameters.
-        overturned_low, overturned_high: (g, n) True where the column overturned.
-        resamples: of the bootstrap and of the swaps; all settings of a motion are drawn or swapped together.
+    Parameters
+    ----------
+    u_low, u_high
+        (g, n) [m] peaks of n motions at the low and the high level, at g settings of all other
+        parameters.
+    overturned_low, overturned_high
+        (g, n) True where the column overturned.
+    resamples
+        of the bootstrap and of the swaps; all settings of a motion are drawn or swapped together.
 
-    A largest distance is biased upwards: noise adds to it wherever it is largest, and once more in samples drawn anew, whose
-    distances therefore lie above that of the data. The interval is made without them. Its lower end subtracts the distance that
-    97.5 % of the differences drawn anew keep to the difference of the data, at all u together (a band for the whole difference
-    contains the difference at its largest). Its upper end is what the data exclude, see `equivalence.distance_bound`.
+    A largest distance is biased upwards: noise adds to it wherever it is largest, and once more in
+    samples drawn anew, whose distances therefore lie above that of the data. The interval is made
+    without them. Its lower end subtracts the distance that 97.5 % of the differences drawn anew
+    keep to the difference of the data, at all u together (a band for the whole difference contains
+    the difference at its largest). Its upper end is what the data exclude, see
+    `equivalence.distance_bound`.
     """
-    low, high = (np.where(np.asarray(over, bool), np.inf, np.asarray(u, float))
-                 for u, over in ((u_low, overturned_low), (u_high, overturned_high)))
+    low, high = (
+        np.where(np.asarray(over, bool), np.inf, np.asarray(u, float))
+        for u, over in ((u_low, overturned_low), (u_high, overturned_high))
+    )
     if low.shape != high.shape or low.ndim != 2 or low.size == 0:
-        raise ValueError(f"u_low {low.shape} and u_high {high.shape}: must be peaks of the same settings and motions")
+        raise ValueError(
+            f"u_low {low.shape} and u_high {high.shape}: must be peaks of the same "
+            "settings and motions"
+        )
     n = low.shape[1]
     values = np.concatenate([low, high])
     at = np.unique(values[np.isfinite(values)])
     if at.size > 400:  # a fine enough comb: the distance it misses is below 1/400
         at = np.quantile(at, np.linspace(0, 1, 400), method="nearest")
     at = np.append(at, np.finfo(float).max)  # the last point is P(overturn)
-    below = np.stack([np.searchsorted(np.sort(side, axis=0)[:, k], at, side="right") for side in (high, low) for k in range(n)])
+    below = np.stack(
+        [
+            np.searchsorted(np.sort(side, axis=0)[:, k], at, side="right")
+            for side in (high, low)
+            for k in range(n)
+        ]
+    )
     difference = (below[:n] - below[n:]) / low.shape[0]  # (n, points), of each motion
     rng = np.random.default_rng(seed)
     weights = rng.multinomial(n, np.full(n, 1 / n), resamples) / n
@@ -68,6 +94,13 @@ def sensitivity(u_low, overturned_low, u_high, overturned_high, resamples: int =
     reach = float(np.quantile(np.abs(drawn - whole).max(axis=1), 1 - tail))
     centre, error = paired_error(-difference[:, -1])
     half = normal_quantile(_CONFIDENCE) * error
-    return Sensitivity(n, distance, max(0.0, distance - reach), upper_bound(difference, 1 - tail),
-                       float(np.quantile(np.abs(signs @ difference).max(axis=1), 0.95)),
-                       float(-whole[-1]), float(max(-1, centre - half)), float(min(1, centre + half)))
+    return Sensitivity(
+        n,
+        distance,
+        max(0.0, distance - reach),
+        upper_bound(difference, 1 - tail),
+        float(np.quantile(np.abs(signs @ difference).max(axis=1), 0.95)),
+        float(-whole[-1]),
+        float(max(-1, centre - half)),
+        float(min(1, centre + half)),
+    )

@@ -1,10 +1,12 @@
-"""Two-sample tests of one distribution of u_max against another, overturned runs being ties at the far end.
+"""Two-sample tests of one distribution of u_max against another, overturned runs being ties at the
+far end.
 
-A sample is an array with inf where the run overturned (`ecdf.censored`). Ties are few without overturns and many with
-them, and p-values made for continuous variables are then wrong: too large for Kolmogorov and Smirnov, off in either
-direction for the others. All p-values here are those of permutations of the pooled sample, ties as they are, which hold
-for any share of overturns: exactly for Kolmogorov and Smirnov, by random permutations for the others, with a smallest
-possible p of 1 / (resamples + 1) and a standard error of sqrt(p (1 - p) / resamples).
+A sample is an array with inf where the run overturned (`ecdf.censored`). Ties are few without
+overturns and many with them, and p-values made for continuous variables are then wrong: too large
+for Kolmogorov and Smirnov, off in either direction for the others. All p-values here are those of
+permutations of the pooled sample, ties as they are, which hold for any share of overturns: exactly
+for Kolmogorov and Smirnov, by random permutations for the others, with a smallest possible p of 1 /
+(resamples + 1) and a standard error of sqrt(p (1 - p) / resamples).
 """
 
 from __future__ import annotations
@@ -31,11 +33,16 @@ class TestResult:
 class _Pooled:
     """Both samples together, in blocks of equal values.
 
-    Attributes:
-        n, m: sizes of samples a and b.
-        size: (blocks,) runs in each block, values rising.
-        end: (blocks,) runs up to and including each block.
-        a: (1, blocks) runs of sample a up to and including each block.
+    Attributes
+    ----------
+    n, m
+        sizes of samples a and b.
+    size
+        (blocks,) runs in each block, values rising.
+    end
+        (blocks,) runs up to and including each block.
+    a
+        (1, blocks) runs of sample a up to and including each block.
     """
 
     n: int
@@ -48,12 +55,13 @@ class _Pooled:
 def kolmogorov_smirnov(a, b) -> TestResult:
     """Two-sample Kolmogorov-Smirnov test: D = sup |F_a - F_b|, p exact for the ties at hand.
 
-    p counts the orders of the pooled sample with a difference of D or more at the end of any block of ties (Schroeer &
-    Trenkler 1995, Comput. Stat. Data Anal. 20). Without ties it is scipy's exact p; with overturned runs scipy's,
-    made for continuous variables, is larger.
+    p counts the orders of the pooled sample with a difference of D or more at the end of any block
+    of ties (Schroeer & Trenkler 1995, Comput. Stat. Data Anal. 20). Without ties it is scipy's
+    exact p; with overturned runs scipy's, made for continuous variables, is larger.
 
-    The samples must be independent. Two settings run with the *same* motions are not: common motions make D smaller than
-    chance, so that p is too large, and `paired_kolmogorov_smirnov` is the one to use.
+    The samples must be independent. Two settings run with the *same* motions are not: common
+    motions make D smaller than chance, so that p is too large, and `paired_kolmogorov_smirnov` is
+    the one to use.
     """
     pooled = _pool(a, b)
     n, total = pooled.n, pooled.n + pooled.m
@@ -76,31 +84,40 @@ def kolmogorov_smirnov(a, b) -> TestResult:
 
 
 def anderson_darling(a, b, resamples: int = RESAMPLES, seed: int = 0) -> TestResult:
-    """Two-sample Anderson-Darling test, A^2 in its midrank version for ties (Scholz & Stephens 1987, J. Am. Stat. Assoc. 82, eq. 7).
+    """Two-sample Anderson-Darling test, A^2 in its midrank version for ties (Scholz & Stephens
+    1987, J. Am. Stat. Assoc. 82, eq. 7).
 
-    A^2 has mean 1 where the distributions are one; `scipy.stats.anderson_ksamp` shows (A^2 - 1) / its standard deviation
-    and holds p in [0.001, 0.25], where this one, by permutations, has no such bounds. Heavier in the tails than the others.
+    A^2 has mean 1 where the distributions are one; `scipy.stats.anderson_ksamp` shows (A^2 - 1) /
+    its standard deviation and holds p in [0.001, 0.25], where this one, by permutations, has no
+    such bounds. Heavier in the tails than the others.
     """
     return _permuted(_anderson_darling, a, b, resamples, seed)
 
 
 def cramer_von_mises(a, b, resamples: int = RESAMPLES, seed: int = 0) -> TestResult:
-    """Two-sample Cramer-von Mises test, T of Anderson (1962, Ann. Math. Stat. 33), averaged over all orders of ties.
+    """Two-sample Cramer-von Mises test, T of Anderson (1962, Ann.
 
-    In which order overturned runs follow each other nobody knows; T is its mean over all orders, in closed form. Without
-    ties it is that of `scipy.stats.cramervonmises_2samp`, whose midranks do not give this mean where there are many.
+    Math. Stat. 33), averaged over all orders of ties.
+
+    In which order overturned runs follow each other nobody knows; T is its mean over all orders, in
+    closed form. Without ties it is that of `scipy.stats.cramervonmises_2samp`, whose midranks do
+    not give this mean where there are many.
     """
     return _permuted(_cramer_von_mises, a, b, resamples, seed)
 
 
 def paired_kolmogorov_smirnov(a, b, resamples: int = RESAMPLES, seed: int = 0) -> TestResult:
-    """D = sup |F_a - F_b| of two settings run with the same motions; p by swapping the settings within motions.
+    """D = sup |F_a - F_b| of two settings run with the same motions; p by swapping the settings
+    within motions.
 
-    Where the setting does not matter, a motion could as well have given its two results the other way round. That makes
-    2^k equally likely outcomes for k motions whose results differ: all of them up to k = 13, random ones beyond.
+    Where the setting does not matter, a motion could as well have given its two results the other
+    way round. That makes 2^k equally likely outcomes for k motions whose results differ: all of
+    them up to k = 13, random ones beyond.
 
-    Args:
-        a, b: (n,) each, the same motion at the same place.
+    Parameters
+    ----------
+    a, b
+        (n,) each, the same motion at the same place.
     """
     a, b = _sample(a), _sample(b)
     if a.size != b.size:
@@ -125,7 +142,9 @@ def paired_kolmogorov_smirnov(a, b, resamples: int = RESAMPLES, seed: int = 0) -
 
 
 def _permuted(statistic, a, b, resamples: int, seed: int) -> TestResult:
-    """p-value of a statistic that is large where the distributions differ (Phipson & Smyth 2010, (far + 1) / (resamples + 1))."""
+    """p-value of a statistic that is large where the distributions differ (Phipson & Smyth 2010,
+    (far + 1) / (resamples + 1)).
+    """
     pooled = _pool(a, b)
     observed = float(statistic(pooled, pooled.a)[0])
     if pooled.size.size == 1:
@@ -141,7 +160,7 @@ def _permuted(statistic, a, b, resamples: int, seed: int) -> TestResult:
 
 
 def _distances(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
-    """n m sup |F_a - F_b| (k,), a whole number, for counts a (k, blocks)."""
+    """N m sup |F_a - F_b| (k,), a whole number, for counts a (k, blocks)."""
     return np.abs(a.astype(np.int64) * (pooled.n + pooled.m) - pooled.n * pooled.end).max(axis=1)
 
 
@@ -153,7 +172,12 @@ def _anderson_darling(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
     middle = a - 0.5 * np.diff(a, axis=1, prepend=0)
     pooled_middle = pooled.end - 0.5 * pooled.size
     weight = pooled.size / (pooled_middle * (total - pooled_middle) - total * pooled.size / 4)
-    return (total - 1) / total**2 * (1 / n + 1 / m) * ((total * middle - n * pooled_middle)**2 @ weight)
+    return (
+        (total - 1)
+        / total**2
+        * (1 / n + 1 / m)
+        * ((total * middle - n * pooled_middle) ** 2 @ weight)
+    )
 
 
 def _cramer_von_mises(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
@@ -162,23 +186,36 @@ def _cramer_von_mises(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
     after = a / n - (pooled.end - a) / m
     jump = np.diff(after, axis=1, prepend=0.0)
     before = after - jump
-    # sum over s = 1..size of (before + jump s / size)^2, then the variance of the number of a among the first s of the block
-    line = size * before**2 + before * jump * (size + 1) + jump**2 * (size + 1) * (2 * size + 1) / (6 * size)
+    # sum over s = 1..size of (before + jump s / size)^2, then the variance of the number of a among
+    # the first s of the block
+    line = (
+        size * before**2
+        + before * jump * (size + 1)
+        + jump**2 * (size + 1) * (2 * size + 1) / (6 * size)
+    )
     share = np.diff(a, axis=1, prepend=0) / size
-    scatter = share * (1 - share) * size * (size + 1) / 6 * (1 / n + 1 / m)**2
+    scatter = share * (1 - share) * size * (size + 1) / 6 * (1 / n + 1 / m) ** 2
     return n * m / total**2 * (line + scatter).sum(axis=1)
 
 
 def _pool(a, b) -> _Pooled:
     a, b = _sample(a), _sample(b)
     values, size = np.unique(np.concatenate([a, b]), return_counts=True)
-    return _Pooled(a.size, b.size, size, np.cumsum(size), np.searchsorted(np.sort(a), values, side="right")[None])
+    return _Pooled(
+        a.size,
+        b.size,
+        size,
+        np.cumsum(size),
+        np.searchsorted(np.sort(a), values, side="right")[None],
+    )
 
 
 def _sample(values) -> np.ndarray:
     values = np.asarray(values, float)
     if values.ndim != 1 or not values.size or np.isnan(values).any():
-        raise ValueError("a sample must be a list of numbers, inf where the run overturned, not empty")
+        raise ValueError(
+            "a sample must be a list of numbers, inf where the run overturned, not empty"
+        )
     return values
 
 

@@ -1,1 +1,3 @@
-"""Structures of many bodies: frames, stacks, podia and blocks that rock, slide and wobble on one another."""
+"""Structures of many bodies: frames, stacks, podia and blocks that rock, slide and wobble on one
+another.
+"""

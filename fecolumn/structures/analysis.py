@@ -21,18 +21,26 @@ from fecolumn.structures.engine import engine_of, leans, upright
 from fecolumn.structures.model import StructureModel
 from fecolumn.structures.structure import standing_of, structure_model
 
-_WHOLE = ("active_nodes", "iterations", "broken")  # columns of whole numbers, by the last word of their names
+_WHOLE = (
+    "active_nodes",
+    "iterations",
+    "broken",
+)  # columns of whole numbers, by the last word of their names
 
 
 class _Whole(NamedTuple):
-    """What `ReducedAnalysis` asks of a model: degrees of freedom of the different meshes, and arms of a foot that might meet an edge."""
+    """What `ReducedAnalysis` asks of a model: degrees of freedom of the different meshes, and arms
+    of a foot that might meet an edge.
+    """
 
     dofs: int
     arms: np.ndarray
 
 
 class OfStructure:
-    """What an Analysis of a structure is, whatever its engine. structure: StructureModel at its start."""
+    """What an Analysis of a structure is, whatever its engine. structure: StructureModel at its
+    start.
+    """
 
     structure: StructureModel
     _barrier_j = None
@@ -40,7 +48,10 @@ class OfStructure:
     def expected(self) -> str:
         """What is analysed, in words."""
         copies = sum(len(body.places) for body in self.case.bodies.values())
-        return f"{copies} bodies, {len(self.case.bodies)} of them different, {len(self.case.links)} kinds of links, {self.case.integration.engine} engine"
+        return (
+            f"{copies} bodies, {len(self.case.bodies)} of them different, "
+            f"{len(self.case.links)} kinds of links, {self.case.integration.engine} engine"
+        )
 
     @property
     def barrier_j(self) -> float:
@@ -50,8 +61,13 @@ class OfStructure:
         return self._barrier_j
 
     def limits(self) -> dict:
-        """Of the summary: the least tilt of a body at which it would overturn by itself, None where none stands so; of a structure no displacement is known beyond which it falls."""
-        tilts = [foot.critical for foot in stances(self.structure, standing_of(self.case, self.structure)).values()]
+        """Of the summary: the least tilt of a body at which it would overturn by itself, None where
+        none stands so; of a structure no displacement is known beyond which it falls.
+        """
+        tilts = [
+            foot.critical
+            for foot in stances(self.structure, standing_of(self.case, self.structure)).values()
+        ]
         return dict(critical_tilt_rad=min(tilts, default=None), u_critical_m=None)
 
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
@@ -62,12 +78,19 @@ class OfStructure:
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
         if fallen != FELL:
             return super().ending(fallen, rotation)
-        return Ending(SLID_OFF, f'"{self._lowest()}" has fallen past the ground, z = 0, at {self.history.last()["time"]:.3f} s')
+        return Ending(
+            SLID_OFF,
+            f'"{self._lowest()}" has fallen past the ground, z = 0, at '
+            f"{self.history.last()['time']:.3f} s",
+        )
 
     def _lowest(self) -> str:
         """Name of the body whose centre of mass is lowest now."""
         last = self.history.last()
-        heights = {part.name: part.center[2] + float(last[f"body/{part.name}/displacement"][2]) for part in standing_of(self.case, self.structure)}
+        heights = {
+            part.name: part.center[2] + float(last[f"body/{part.name}/displacement"][2])
+            for part in standing_of(self.case, self.structure)
+        }
         return min(heights, key=heights.get)
 
     def finish(self, ending, dofs: int, record, factorizations: int) -> dict:
@@ -92,16 +115,27 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
         self.structure, self.fields = structure_model(case, file, self.say), None
         self.states = self._states()
         different = {id(part.model): part.model.dofs for part in self.structure.parts}
-        self.base, self.model = self.structure.base, _Whole(sum(different.values()), self.structure.parts[0].model.arms)
+        self.base, self.model = (
+            self.structure.base,
+            _Whole(sum(different.values()), self.structure.parts[0].model.arms),
+        )
         if not compiled(advance):
-            self.say("compiling the reduced engine, once on this machine: a minute or two; other processes wait for it")
+            self.say(
+                "compiling the reduced engine, once on this machine: a minute or two; "
+                "other processes wait for it"
+            )
         self.engine = engine_of(case, self.structure, file)
-        self.began, self.cpu_began = time.perf_counter(), time.process_time()  # what was made and compiled so far was so for all analyses
+        self.began, self.cpu_began = (
+            time.perf_counter(),
+            time.process_time(),
+        )  # what was made and compiled so far was so for all analyses
         self.stance, self.top_arm = self.engine.eye.stance, self.engine.eye.top_arm
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
-            self.standing_j = self._standing_energy(file) if leans(self.structure) else self.engine.potential()
+            self.standing_j = (
+                self._standing_energy(file) if leans(self.structure) else self.engine.potential()
+            )
             self.engine.motion.whole["ground"] = self.ground(0)
             self._note(self.engine.row()[None])
             self._keep()
@@ -114,28 +148,46 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
             return 0.0
 
     def _bodies(self) -> tuple:
-        return [part.model for part in self.structure.parts], [part.name for part in self.structure.parts]
+        return [part.model for part in self.structure.parts], [
+            part.name for part in self.structure.parts
+        ]
 
     def _note(self, rows: np.ndarray) -> None:
         self.history.extend(columns_of(rows, self.structure))
 
 
 def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndarray]:
-    """Rows (k, width) of the engine as columns by name: those of any analysis, and of the structure's parts.
+    """Rows (k, width) of the engine as columns by name: those of any analysis, and of the
+    structure's parts.
 
-    "body/NAME/displacement" of the centre of mass [m] and "body/NAME/tilt" [rad]; "interface/NAME/tilt" of the slave from the master [rad], "rise"
-    of the middle of its foot [m], "slide" along two tangents [m], normal "force" [N]; "mark/NAME.MARK/displacement" [m]; "link/NAME/tension" [N],
-    "elongation" from its unstressed length and the part of it that has "yielded" [m], "work" that it has taken [J], whether it is "broken";
-    "storey/NAME N/drift" [m] along x and y of the table, "shear" [N], its elastic part.
+    "body/NAME/displacement" of the centre of mass [m] and "body/NAME/tilt" [rad];
+    "interface/NAME/tilt" of the slave from the master [rad], "rise" of the middle of its foot [m],
+    "slide" along two tangents [m], normal "force" [N]; "mark/NAME.MARK/displacement" [m];
+    "link/NAME/tension" [N], "elongation" from its unstressed length and the part of it that has
+    "yielded" [m], "work" that it has taken [J], whether it is "broken"; "storey/NAME N/drift" [m]
+    along x and y of the table, "shear" [N], its elastic part.
     """
     names = [(name, count) for name, count in COLUMNS]
-    names += [(f"body/{part.name}/{name}", count) for part in structure.parts for name, count in OF_BODY]
-    names += [(f"interface/{joint.name}/{name}", count) for joint in structure.joints for name, count in OF_INTERFACE]
-    names += [(f"mark/{part.name}.{mark}/{name}", count) for part in structure.parts for mark in part.model.marks for name, count in OF_MARK]
-    names += [(f"link/{link.name}/{name}", count) for link in structure.links for name, count in OF_LINK]
+    names += [
+        (f"body/{part.name}/{name}", count) for part in structure.parts for name, count in OF_BODY
+    ]
+    names += [
+        (f"interface/{joint.name}/{name}", count)
+        for joint in structure.joints
+        for name, count in OF_INTERFACE
+    ]
+    names += [
+        (f"mark/{part.name}.{mark}/{name}", count)
+        for part in structure.parts
+        for mark in part.model.marks
+        for name, count in OF_MARK
+    ]
+    names += [
+        (f"link/{link.name}/{name}", count) for link in structure.links for name, count in OF_LINK
+    ]
     columns, place = {}, 0
     for name, count in names:
-        values = rows[:, place] if count == 1 else rows[:, place:place + count]
+        values = rows[:, place] if count == 1 else rows[:, place : place + count]
         columns[name] = values.astype(int) if name.rpartition("/")[2] in _WHOLE else values.copy()
         place += count
     columns = of_both_sides(columns, structure)
@@ -143,8 +195,14 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
         if part.model.storeys is None:
             continue
         for number, stiffness in enumerate(part.model.storeys.stiffness, 1):
-            drift = (columns.pop(f"mark/{part.name}.storey {number}/displacement") - columns[f"body/{part.name}/displacement"])[:, :2]
-            columns |= {f"storey/{part.name} {number}/drift": drift, f"storey/{part.name} {number}/shear": stiffness * drift}
+            drift = (
+                columns.pop(f"mark/{part.name}.storey {number}/displacement")
+                - columns[f"body/{part.name}/displacement"]
+            )[:, :2]
+            columns |= {
+                f"storey/{part.name} {number}/drift": drift,
+                f"storey/{part.name} {number}/shear": stiffness * drift,
+            }
     return columns
 
 
@@ -160,29 +218,73 @@ def of_both_sides(columns: dict, structure: StructureModel) -> dict:
 
 
 def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
-    """Of the summary: largest values of bodies, interfaces, storeys and links by name, from the columns of a history."""
+    """Of the summary: largest values of bodies, interfaces, storeys and links by name, from the
+    columns of a history.
+    """
+
     def largest(name):
         values = rows[name]
-        return float(np.abs(values).max() if values.ndim == 1 else np.linalg.norm(values, axis=1).max())
+        return float(
+            np.abs(values).max() if values.ndim == 1 else np.linalg.norm(values, axis=1).max()
+        )
 
-    bodies = {part.name: dict(tilt_max_rad=largest(f"body/{part.name}/tilt")) for part in structure.parts}
-    interfaces = {joint.name: dict(tilt_max_rad=largest(f"interface/{joint.name}/tilt"), rise_max_m=largest(f"interface/{joint.name}/rise"),
-                                   slide_max_m=largest(f"interface/{joint.name}/slide"), residual_slide_m=float(np.hypot(*rows[f"interface/{joint.name}/slide"][-1])),
-                                   force_max_n=largest(f"interface/{joint.name}/force")) for joint in structure.joints if joint.pair < 0}
-    storeys = {name[7:-6]: dict(drift_max_m=largest(name), shear_max_n=largest(f"{name[:-5]}shear")) for name in rows if name.startswith("storey/") and name.endswith("/drift")}
-    links = {link.name: _peaks_of_link(rows["time"], {name: rows[f"link/{link.name}/{name}"] for name, _ in OF_LINK}, link) for link in structure.links}
+    bodies = {
+        part.name: dict(tilt_max_rad=largest(f"body/{part.name}/tilt")) for part in structure.parts
+    }
+    interfaces = {
+        joint.name: dict(
+            tilt_max_rad=largest(f"interface/{joint.name}/tilt"),
+            rise_max_m=largest(f"interface/{joint.name}/rise"),
+            slide_max_m=largest(f"interface/{joint.name}/slide"),
+            residual_slide_m=float(np.hypot(*rows[f"interface/{joint.name}/slide"][-1])),
+            force_max_n=largest(f"interface/{joint.name}/force"),
+        )
+        for joint in structure.joints
+        if joint.pair < 0
+    }
+    storeys = {
+        name[7:-6]: dict(drift_max_m=largest(name), shear_max_n=largest(f"{name[:-5]}shear"))
+        for name in rows
+        if name.startswith("storey/") and name.endswith("/drift")
+    }
+    links = {
+        link.name: _peaks_of_link(
+            rows["time"], {name: rows[f"link/{link.name}/{name}"] for name, _ in OF_LINK}, link
+        )
+        for link in structure.links
+    }
     return dict(bodies=bodies, interfaces=interfaces, storeys=storeys, links=links)
 
 
 def _peaks_of_link(time: np.ndarray, rows: dict[str, np.ndarray], link) -> dict:
-    """Extremes of a Link's tension and of its elongation until it breaks, what it has taken, and when it first yielded, broke, and was slack after it had been tight; from its columns."""
+    """Extremes of a Link's tension and of its elongation until it breaks, what it has taken, and
+    when it first yielded, broke, and was slack after it had been tight; from its columns.
+    """
+
     def first(mask):
         return float(time[np.argmax(mask)]) if mask.any() else None
 
-    tension, broken, over = rows["tension"], rows["broken"] > 0, rows["elongation"] - rows["yielded"]
-    whole = rows["elongation"][:max(1, int((~broken).sum()))]
+    tension, broken, over = (
+        rows["tension"],
+        rows["broken"] > 0,
+        rows["elongation"] - rows["yielded"],
+    )
+    whole = rows["elongation"][: max(1, int((~broken).sum()))]
     tight = (link.pulls & (over > link.slack)) | (link.pushes & (over < -link.slack))
-    slackens = ~tight & ~broken & np.logical_or.accumulate(tight) & (link.slack > 0 or not (link.pulls and link.pushes))
-    return dict(tension_max_n=float(tension.max()), tension_min_n=float(tension.min()), elongation_max_m=float(whole.max()), elongation_min_m=float(whole.min()),
-                yielded_m=float(rows["yielded"][-1]), work_j=float(rows["work"][-1]), yielded_at_s=first(rows["yielded"] != 0), broke_at_s=first(broken),
-                slack_at_s=first(slackens))
+    slackens = (
+        ~tight
+        & ~broken
+        & np.logical_or.accumulate(tight)
+        & (link.slack > 0 or not (link.pulls and link.pushes))
+    )
+    return dict(
+        tension_max_n=float(tension.max()),
+        tension_min_n=float(tension.min()),
+        elongation_max_m=float(whole.max()),
+        elongation_min_m=float(whole.min()),
+        yielded_m=float(rows["yielded"][-1]),
+        work_j=float(rows["work"][-1]),
+        yielded_at_s=first(rows["yielded"] != 0),
+        broke_at_s=first(broken),
+        slack_at_s=first(slackens),
+    )

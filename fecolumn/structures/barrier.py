@@ -22,15 +22,20 @@ _LEVEL = 1e-3
 
 
 def stances(structure: StructureModel, standing: list[Standing]) -> dict[int, Stance]:
-    """Stance, each by itself, of the parts that can stand on what is below them; standing: the parts upright.
+    """Stance, each by itself, of the parts that can stand on what is below them; standing: the
+    parts upright.
 
     A part stands over all that it touches below: an architrave over the heads of its columns.
     """
     found = {}
     for place, below in enumerate(supports_of(standing, list(structure.joints))):
-        if joints := [joint for _, between in below for joint in between if _is_level(standing, joint)]:
+        if joints := [
+            joint for _, between in below for joint in between if _is_level(standing, joint)
+        ]:
             model = standing[place].model
-            one = _stance_of([place], joints, standing, model.inertia, min(joint.friction for joint in joints))
+            one = _stance_of(
+                [place], joints, standing, model.inertia, min(joint.friction for joint in joints)
+            )
             if one is not None and one.critical > 0:
                 found[place] = one
     return found
@@ -41,19 +46,28 @@ def _is_level(standing: list[Standing], joint) -> bool:
     return abs(standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]) > math.sqrt(0.5)
 
 
-def _stance_of(places: list[int], joints: list, standing: list[Standing], inertia: np.ndarray, friction: float) -> Stance | None:
-    """Stance of parts that move as one rigid body on `joints`; None where what is below them is not level, or no area."""
+def _stance_of(
+    places: list[int], joints: list, standing: list[Standing], inertia: np.ndarray, friction: float
+) -> Stance | None:
+    """Stance of parts that move as one rigid body on `joints`; None where what is below them is not
+    level, or no area.
+    """
     masses = np.array([standing[place].model.mass for place in places])
     center = masses @ np.array([standing[place].center for place in places]) / masses.sum()
     arms = np.concatenate([_footing(standing, joint) for joint in joints]) - center
     width = np.ptp(arms[:, :2], axis=0)
-    if np.linalg.matrix_rank(arms[:, :2] - arms[0, :2], 1e-9 * width.max()) < 2 or np.ptp(arms[:, 2]) > _LEVEL * width.max():
+    if (
+        np.linalg.matrix_rank(arms[:, :2] - arms[0, :2], 1e-9 * width.max()) < 2
+        or np.ptp(arms[:, 2]) > _LEVEL * width.max()
+    ):
         return None
     return stance(arms, inertia, masses.sum() * GRAVITY, friction, 0.0)
 
 
 def _footing(standing: list[Standing], joint) -> np.ndarray:
-    """Points (n, 3) [m] where the bodies of a joint touch, over which the upper one tips; of a dome on its edge."""
+    """Points (n, 3) [m] where the bodies of a joint touch, over which the upper one tips; of a dome
+    on its edge.
+    """
     slave = standing[joint.slave]
     arms = slave.model.arms[slave.model.surfaces[joint.slave_surface].nodes]
     if joint.ball and joint.ball.is_dome:
@@ -62,10 +76,12 @@ def _footing(standing: list[Standing], joint) -> np.ndarray:
 
 
 def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
-    """Least energy [J] that overturns any part of a structure slowly, over what it has upright; 0 where no part stands by itself.
+    """Least energy [J] that overturns any part of a structure slowly, over what it has upright; 0
+    where no part stands by itself.
 
-    Of each part the least of three ways: it leans by its own critical tilt, and all that stands on it is carried along upright; it leans as one rigid body
-    with all that stands on it; or all parts of its model lean, as the columns of a frame.
+    Of each part the least of three ways: it leans by its own critical tilt, and all that stands on
+    it is carried along upright; it leans as one rigid body with all that stands on it; or all parts
+    of its model lean, as the columns of a frame.
     """
     joints, alone, lifts = list(structure.joints), stances(structure, standing), []
     upright = [replace(part, start=None) for part in standing]
@@ -75,26 +91,47 @@ def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
         for direction in (*_DIRECTIONS, weakest):
             start = Initial(tilt_rad=min(foot.critical, 1.5), direction_deg=direction)
             for leaning in ([place], alike):
-                trial = [replace(part, start=start) if k in leaning else part for k, part in enumerate(upright)]
+                trial = [
+                    replace(part, start=start) if k in leaning else part
+                    for k, part in enumerate(upright)
+                ]
                 try:
                     there = placed(trial, joints, "")
                 except InputError:
                     continue
-                lifts.append(sum(part.model.mass * GRAVITY * (now.center[2] - part.center[2]) for part, now in zip(upright, there)))
+                lifts.append(
+                    sum(
+                        part.model.mass * GRAVITY * (now.center[2] - part.center[2])
+                        for part, now in zip(upright, there)
+                    )
+                )
                 break
     lifts += [overturning.barrier(one) for one in _together(standing, joints)]
     return float(min((lift for lift in lifts if lift > 0), default=0.0))
 
 
 def _together(standing: list[Standing], joints: list) -> list[Stance]:
-    """Stances of each part as one rigid body with all that stands on it, wherever these can stand together."""
+    """Stances of each part as one rigid body with all that stands on it, wherever these can stand
+    together.
+    """
     supports, found = supports_of(standing, joints), []
     for place in range(len(standing)):
         moved, before = {place}, 0
         while len(moved) > before:
             before = len(moved)
-            moved |= {upper for upper, below in enumerate(supports) if any(one in moved for one, _ in below)}
-        under = [joint for upper in moved for below, between in supports[upper] if below == GROUND or below not in moved for joint in between if _is_level(standing, joint)]
+            moved |= {
+                upper
+                for upper, below in enumerate(supports)
+                if any(one in moved for one, _ in below)
+            }
+        under = [
+            joint
+            for upper in moved
+            for below, between in supports[upper]
+            if below == GROUND or below not in moved
+            for joint in between
+            if _is_level(standing, joint)
+        ]
         if under and (one := _stance_of(sorted(moved), under, standing, np.eye(3), 0.0)):
             found.append(one)
     return found

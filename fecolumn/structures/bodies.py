@@ -26,8 +26,9 @@ from fecolumn.structures.storeys import storeys_model
 class Drawing:
     """A body in its own drawing, the middle of its foot at the origin.
 
-    key: such as "bodies.slab", for messages. body: its keys. shape: its mesh, and system: its matrices; one of them is None.
-    faces: its plane faces. material: with the density that the body has; None of matrices.
+    key: such as "bodies.slab", for messages. body: its keys. shape: its mesh, and system: its
+    matrices; one of them is None. faces: its plane faces. material: with the density that the body
+    has; None of matrices.
     """
 
     key: str
@@ -54,29 +55,40 @@ class Drawing:
         return self.system.coordinates if self.shape is None else self.shape.mesh.points
 
     def model(self, patches: dict[str, Patch], n_modes: int) -> tuple[BodyModel, np.ndarray | None]:
-        """The body reduced to its patches; with the modes (m, n_nodes, 3) all over it where it is of finite elements."""
+        """The body reduced to its patches; with the modes (m, n_nodes, 3) all over it where it is
+        of finite elements.
+        """
         model, fields = self._flat_model(patches, n_modes)
         return with_balls(model, self.body), fields
 
-    def _flat_model(self, patches: dict[str, Patch], n_modes: int) -> tuple[BodyModel, np.ndarray | None]:
+    def _flat_model(
+        self, patches: dict[str, Patch], n_modes: int
+    ) -> tuple[BodyModel, np.ndarray | None]:
         if isinstance(self.body, Matrices):
+
             def refuse(allowed):
-                raise InputError(self.file, f"{self.key}.stiffness_file", self.body.stiffness_file, allowed)
+                raise InputError(
+                    self.file, f"{self.key}.stiffness_file", self.body.stiffness_file, allowed
+                )
 
             return matrices_model(self.system, self.faces, patches, n_modes, refuse), None
         if isinstance(self.body, Storeys):
             mass = mass_properties(self.shape.mesh, self.material.density_kg_m3).mass
             return storeys_model(self.body, mass, patches, self.material), None
         if self.body.rigid:
-            return rigid_model(self.shape, self.faces, patches, self.material, self.body.contact_stiffness_n_m3), None
+            return rigid_model(
+                self.shape, self.faces, patches, self.material, self.body.contact_stiffness_n_m3
+            ), None
         return elastic_model(self.shape, self.faces, patches, self.material, n_modes)
 
 
 def drawing(case, name: str, file, spots=()) -> Drawing:
     """Drawing of a body of a case; spots as of `shapes.shape_of`.
 
-    Raises:
-        InputError: a file that cannot be used.
+    Raises
+    ------
+    InputError
+        a file that cannot be used.
     """
     body, key = case.bodies[name], f"bodies.{name}"
     if isinstance(body, Matrices):
@@ -84,7 +96,12 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
         return Drawing(key, body, None, system, system.faces(), None, file)
     shape = shape_of(key, body, file, spots)
     if getattr(body, "turned_deg", 0.0):
-        shape = dataclasses.replace(shape, mesh=dataclasses.replace(shape.mesh, points=_turned(shape.mesh.points, body.turned_deg)))
+        shape = dataclasses.replace(
+            shape,
+            mesh=dataclasses.replace(
+                shape.mesh, points=_turned(shape.mesh.points, body.turned_deg)
+            ),
+        )
     faces = plane_faces(shape.mesh)
     if getattr(body, "foot_radius_m", None):
         shape, faces = domed(body, shape, faces)
@@ -94,11 +111,19 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
         try:
             material = dataclasses.replace(material, density_kg_m3=body.mass_kg / volume)
         except InputError as error:
-            raise InputError(file, f"{key}.mass_kg", body.mass_kg, f"makes a density of {body.mass_kg / volume:.4g} kg/m3 in {volume:.4g} m3: {error.allowed}") from None
+            raise InputError(
+                file,
+                f"{key}.mass_kg",
+                body.mass_kg,
+                f"makes a density of {body.mass_kg / volume:.4g} kg/m3 in {volume:.4g} "
+                f"m3: {error.allowed}",
+            ) from None
     return Drawing(key, body, shape, None, faces, material, file)
 
 
 def _turned(points: np.ndarray, angle: float) -> np.ndarray:
     """Points (n, 3) [m] turned about the z axis by an angle [deg], those of quarters exactly."""
-    cosine, sine = (round(value, 15) for value in (np.cos(np.radians(angle)), np.sin(np.radians(angle))))
+    cosine, sine = (
+        round(value, 15) for value in (np.cos(np.radians(angle)), np.sin(np.radians(angle)))
+    )
     return points @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])

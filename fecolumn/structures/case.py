@@ -1,8 +1,9 @@
-"""The case of a structure of many bodies: tables by name, validated, hashable by content, beside the short form of one column.
+"""The case of a structure of many bodies: tables by name, validated, hashable by content, beside
+the short form of one column.
 
-    [bodies.column]            [interfaces.feet]         [interfaces.heads]        [initial.column]
-    kind = "cylinder"          slave = "column"          slave = "column"          tilt_rad = 0.05
-    ...                        on = "ground"             on = "slab"
+[bodies.column]            [interfaces.feet]         [interfaces.heads]        [initial.column]
+kind = "cylinder"          slave = "column"          slave = "column"          tilt_rad = 0.05
+...                        on = "ground"             on = "slab"
 """
 
 from __future__ import annotations
@@ -14,8 +15,20 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.case import (FULL_ORDER_KEYS, DEFAULT, MOST_STEPS, Contact, Initial, Integration, Material, Motion, Output, Overturn, located,
-                           section_table)
+from fecolumn.case import (
+    DEFAULT,
+    FULL_ORDER_KEYS,
+    MOST_STEPS,
+    Contact,
+    Initial,
+    Integration,
+    Material,
+    Motion,
+    Output,
+    Overturn,
+    located,
+    section_table,
+)
 from fecolumn.content import content
 from fecolumn.files import is_file
 from fecolumn.paths import OF_BODIES as FILES
@@ -23,20 +36,37 @@ from fecolumn.schema import InputError, build, meant, merge, nested, stated
 from fecolumn.structures.keys import GROUND, KINDS, Interface, LinkKeys, Mesh, Placed, Storeys
 
 #: Tables of tables by name, and the class of each.
-NAMED = {"bodies": Placed, "materials": Material, "interfaces": Interface, "links": LinkKeys, "initial": Initial}
+NAMED = {
+    "bodies": Placed,
+    "materials": Material,
+    "interfaces": Interface,
+    "links": LinkKeys,
+    "initial": Initial,
+}
 #: Sections that a structure's case has in common with a column's.
-COMMON = {"contact": Contact, "integration": Integration, "motion": Motion, "overturn": Overturn, "output": Output, "mesh": Mesh}
+COMMON = {
+    "contact": Contact,
+    "integration": Integration,
+    "motion": Motion,
+    "overturn": Overturn,
+    "output": Output,
+    "mesh": Mesh,
+}
 # of which no number depends
 _IDLE = ("output", "mesh")
 #: What holds where a structure's case says nothing else: a step takes all modes of all bodies.
 DEFAULTS = {"integration": {"engine": "reduced", "n_modes": 30}}
-# Characters of a name that stand for something else in dotted keys, and in names of copies and marks
-_TAKEN = set('."\'[]/ ')
+# Characters of a name that stand for something else in dotted keys, and in names of copies and
+# marks
+_TAKEN = set(".\"'[]/ ")
 
 
 @dataclass(frozen=True, slots=True)
 class StructureCase:
-    """One analysis of a structure. Tables of tables are dictionaries by the names that the user gave."""
+    """One analysis of a structure.
+
+    Tables of tables are dictionaries by the names that the user gave.
+    """
 
     bodies: dict[str, Placed]
     materials: dict[str, Material]
@@ -54,9 +84,16 @@ class StructureCase:
 
     @property
     def id(self) -> str:
-        """Twelve hexadecimal digits that name everything but title and output cadence; motions and meshes count by content."""
-        tables = {name: {key: identity(section) for key, section in getattr(self, name).items()} for name in NAMED}
-        tables |= {name: section_table(name, getattr(self, name)) for name in COMMON if name not in _IDLE}
+        """Twelve hexadecimal digits that name everything but title and output cadence; motions and
+        meshes count by content.
+        """
+        tables = {
+            name: {key: identity(section) for key, section in getattr(self, name).items()}
+            for name in NAMED
+        }
+        tables |= {
+            name: section_table(name, getattr(self, name)) for name in COMMON if name not in _IDLE
+        }
         text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
 
@@ -73,13 +110,18 @@ class StructureCase:
     def names_of(self, body: str) -> tuple[str, ...]:
         """Names of the copies of a body: its own where it is one."""
         copies = self.bodies[body].copies_m
-        return tuple(f"{body} {number}" for number in range(1, len(copies) + 1)) if copies else (body,)
+        return (
+            tuple(f"{body} {number}" for number in range(1, len(copies) + 1)) if copies else (body,)
+        )
 
     def meant_by(self, name: str) -> tuple[str, tuple[int, ...]]:
-        """Body and copies, counted from 0, that `name` stands for: "column" for all, "column 2" for one.
+        """Body and copies, counted from 0, that `name` stands for: "column" for all, "column 2" for
+        one.
 
-        Raises:
-            KeyError: none of this name.
+        Raises
+        ------
+        KeyError
+            none of this name.
         """
         if name in self.bodies:
             return name, tuple(range(len(self.bodies[name].places)))
@@ -89,7 +131,9 @@ class StructureCase:
         raise KeyError(name)
 
     def replace(self, changes: dict | None = None, **sections) -> StructureCase:
-        """This case with other values by dotted key, such as {"bodies.slab.length_m": 3.0}, checked as a file's would be; see `Case.replace`."""
+        """This case with other values by dotted key, such as {"bodies.slab.length_m": 3.0}, checked
+        as a file's would be; see `Case.replace`.
+        """
         tables = self.tables()
         for key, value in {**(changes or {}), **sections}.items():
             tables = merge(tables, nested(key, value))
@@ -112,21 +156,33 @@ def identity(section) -> dict:
 def structure_from_tables(tables: dict, file) -> StructureCase:
     """Case of a structure from TOML tables; relative paths are taken from the folder of `file`.
 
-    Raises:
-        InputError: every unknown or missing key, wrong type and value out of range, told at once; or parts that do not fit.
+    Raises
+    ------
+    InputError
+        every unknown or missing key, wrong type and value out of range, told at once; or parts that
+        do not fit.
     """
     tables, errors, found = merge(DEFAULTS, stated(tables)), [], {}
     for key in tables:
         if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
-            errors.append(InputError(file, key, None, f"says nothing of a structure of [bodies]{meant(key, [*NAMED, *COMMON])}; "
-                                     f"its tables: {', '.join([*NAMED, *COMMON])}"))
+            errors.append(
+                InputError(
+                    file,
+                    key,
+                    None,
+                    f"says nothing of a structure of [bodies]{meant(key, [*NAMED, *COMMON])}; "
+                    f"its tables: {', '.join([*NAMED, *COMMON])}",
+                )
+            )
     for name, kind in NAMED.items():
         found[name] = _named(name, kind, tables.get(name, {}), file, errors)
     for name, kind in COMMON.items():
         table = tables.get(name, False)
         try:
             if name != "motion" or table is not False:
-                found[name] = located(name, build(kind, {} if table is False else table, file, f"{name}."), file)
+                found[name] = located(
+                    name, build(kind, {} if table is False else table, file, f"{name}."), file
+                )
         except InputError as error:
             errors.append(error)
     for key in ("title", "observed"):
@@ -143,7 +199,9 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
 def _named(name: str, kind, tables, file, errors: list) -> dict:
     """Sections by name of one table of tables."""
     if not isinstance(tables, dict):
-        errors.append(InputError(file, name, tables, f"must hold tables by name, such as [{name}.NAME]"))
+        errors.append(
+            InputError(file, name, tables, f"must hold tables by name, such as [{name}.NAME]")
+        )
         return {}
     found = {}
     for key, table in tables.items():
@@ -151,10 +209,22 @@ def _named(name: str, kind, tables, file, errors: list) -> dict:
             continue
         try:
             if not isinstance(table, dict):
-                raise InputError(file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys")
-            if name != "initial" and (set(key) & _TAKEN or not key or name == "bodies" and key == GROUND):
-                raise InputError(file, f"{name}.{key}", None, f'must be named by another word: not "{GROUND}", without blanks, dots, slashes and quotes')
-            found[key] = _built(_kind_of(name, key, table, kind, file), table, file, f"{name}.{key}.")
+                raise InputError(
+                    file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
+                )
+            if name != "initial" and (
+                set(key) & _TAKEN or not key or name == "bodies" and key == GROUND
+            ):
+                raise InputError(
+                    file,
+                    f"{name}.{key}",
+                    None,
+                    f'must be named by another word: not "{GROUND}", without blanks, '
+                    "dots, slashes and quotes",
+                )
+            found[key] = _built(
+                _kind_of(name, key, table, kind, file), table, file, f"{name}.{key}."
+            )
             if name == "interfaces":
                 found[key] = _between(found[key], file, f"{name}.{key}.")
         except InputError as error:
@@ -167,16 +237,37 @@ def _between(interface: Interface, file, prefix: str) -> Interface:
     if interface.between:
         if interface.slave or interface.on:
             key = "slave" if interface.slave else "on"
-            raise InputError(file, prefix + key, getattr(interface, key), "must be left out beside between, which names both bodies")
+            raise InputError(
+                file,
+                prefix + key,
+                getattr(interface, key),
+                "must be left out beside between, which names both bodies",
+            )
         if len(interface.between) != 2:
-            raise InputError(file, prefix + "between", list(interface.between), 'must be two names, such as ["drum", "capital"]')
+            raise InputError(
+                file,
+                prefix + "between",
+                list(interface.between),
+                'must be two names, such as ["drum", "capital"]',
+            )
         bodies = sorted(interface.between, key=lambda one: one == GROUND)
         if bodies[0] == GROUND:
-            raise InputError(file, prefix + "between", list(interface.between), "must name a body: the ground does not touch itself")
+            raise InputError(
+                file,
+                prefix + "between",
+                list(interface.between),
+                "must name a body: the ground does not touch itself",
+            )
         return dataclasses.replace(interface, between=(), slave=bodies[0], on=bodies[1])
     for key in ("slave", "on"):
         if not getattr(interface, key):
-            raise InputError(file, prefix + key, None, f'missing; or give {prefix}between = ["one body", "other body"] instead of slave and on')
+            raise InputError(
+                file,
+                prefix + key,
+                None,
+                f'missing; or give {prefix}between = ["one body", "other body"] instead '
+                "of slave and on",
+            )
     return interface
 
 
@@ -186,7 +277,12 @@ def _kind_of(name: str, key: str, table: dict, kind, file):
         return kind
     word = table.get("kind")
     if word not in KINDS:
-        raise InputError(file, f"{name}.{key}.kind", word, f"{'missing; ' if word is None else ''}must be one of {', '.join(KINDS)}")
+        raise InputError(
+            file,
+            f"{name}.{key}.kind",
+            word,
+            f"{'missing; ' if word is None else ''}must be one of {', '.join(KINDS)}",
+        )
     return KINDS[word]
 
 
@@ -197,11 +293,17 @@ def _built(kind, table, file, prefix):
     for key, path in files.items():
         if not is_file(path if Path(path).is_absolute() else str(folder / path)):
             raise InputError(file, prefix + key, path, "no such file")
-    return dataclasses.replace(section, **{key: str(folder / path) for key, path in files.items()}) if files else section
+    return (
+        dataclasses.replace(section, **{key: str(folder / path) for key, path in files.items()})
+        if files
+        else section
+    )
 
 
 def check(case: StructureCase, file) -> None:
-    """What no single key can know: names that tables use of one another, and keys of which only one may stand."""
+    """What no single key can know: names that tables use of one another, and keys of which only one
+    may stand.
+    """
     from fecolumn.structures.check_keys import check_body, check_link
 
     def refuse(key, value, allowed):
@@ -212,7 +314,12 @@ def check(case: StructureCase, file) -> None:
     for name, body in case.bodies.items():
         check_body(f"bodies.{name}", body, case.materials, refuse)
     if not case.interfaces:
-        refuse("interfaces", None, "missing; a structure needs a table [interfaces.NAME] at least, for what stands on the ground")
+        refuse(
+            "interfaces",
+            None,
+            "missing; a structure needs a table [interfaces.NAME] at least, for what "
+            "stands on the ground",
+        )
     for name, interface in case.interfaces.items():
         _check_name(case, f"interfaces.{name}", interface.slave, refuse, ground=False)
         _check_name(case, f"interfaces.{name}", interface.on, refuse)
@@ -221,9 +328,22 @@ def check(case: StructureCase, file) -> None:
         _check_name(case, f"links.{name}.to", link.to, refuse)
         check_link(f"links.{name}", link, refuse)
         if link.to != GROUND and len(case.meant_by(link.to)[1]) > 1:
-            refuse(f"links.{name}.to", link.to, f'must be one of its copies, such as "{case.names_of(link.to)[0]}"')
-        if link.to != GROUND and (own := case.meant_by(link.body))[0] == (other := case.meant_by(link.to))[0] and other[1][0] in own[1]:
-            refuse(f"links.{name}.to", link.to, f'must be another body than links.{name}.body = "{link.body}": a link from a body to itself does nothing')
+            refuse(
+                f"links.{name}.to",
+                link.to,
+                f'must be one of its copies, such as "{case.names_of(link.to)[0]}"',
+            )
+        if (
+            link.to != GROUND
+            and (own := case.meant_by(link.body))[0] == (other := case.meant_by(link.to))[0]
+            and other[1][0] in own[1]
+        ):
+            refuse(
+                f"links.{name}.to",
+                link.to,
+                f'must be another body than links.{name}.body = "{link.body}": a link '
+                "from a body to itself does nothing",
+            )
     for name, start in case.initial.items():
         _check_name(case, f"initial.{name}", name, refuse, ground=False)
         for key in ("velocity_m_s", "spin_rad_s"):
@@ -233,11 +353,25 @@ def check(case: StructureCase, file) -> None:
         body = case.observed.partition(".")[0]
         _check_name(case, "observed", body, refuse, ground=False)
         if len(case.meant_by(body)[1]) > 1:
-            refuse("observed", case.observed, f'must be one of its copies, such as "{case.names_of(body)[0]}"')
+            refuse(
+                "observed",
+                case.observed,
+                f'must be one of its copies, such as "{case.names_of(body)[0]}"',
+            )
     for name, body in case.bodies.items():
         if isinstance(body, Storeys) and not case.modes_of(name):
-            key, value = ("integration.engine", "rigid") if case.integration.engine == "rigid" else (f"bodies.{name}.modes", 0)
-            refuse(key, value, f'leaves the storeys of "{name}" their springs and no inertia: choose integration.engine = "reduced" with modes, of which {2 * body.floors} are all')
+            key, value = (
+                ("integration.engine", "rigid")
+                if case.integration.engine == "rigid"
+                else (f"bodies.{name}.modes", 0)
+            )
+            refuse(
+                key,
+                value,
+                f'leaves the storeys of "{name}" their springs and no inertia: choose '
+                f'integration.engine = "reduced" with modes, of which {2 * body.floors} '
+                "are all",
+            )
     _check_integration(case, refuse)
 
 
@@ -247,7 +381,11 @@ def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
     try:
         case.meant_by(name)
     except KeyError:
-        known = [GROUND] * ground + list(case.bodies) + [copy for body in case.bodies for copy in case.names_of(body) if copy != body]
+        known = (
+            [GROUND] * ground
+            + list(case.bodies)
+            + [copy for body in case.bodies for copy in case.names_of(body) if copy != body]
+        )
         refuse(key, name, f"no such body{meant(name, known)}; known: {', '.join(known)}")
 
 
@@ -257,31 +395,62 @@ def _check_integration(case, refuse) -> None:
         for name, body in case.bodies.items():
             for key in ("foot_radius_m", "edge_radius_m"):
                 if value := getattr(body, key, None):
-                    refuse(f"bodies.{name}.{key}", value, 'must be left out with integration.engine = "full": feet that are not flat are computed by the reduced and the rigid engine')
+                    refuse(
+                        f"bodies.{name}.{key}",
+                        value,
+                        'must be left out with integration.engine = "full": feet that '
+                        "are not flat are computed by the reduced and the rigid engine",
+                    )
     if plan.engine not in ("full", "reduced", "rigid"):
-        refuse("integration.engine", plan.engine, "must be full, reduced or rigid for a structure of [bodies]")
-    for section, key, needed in (("integration", "kinematics", "corotated"), ("contact", "impact", "plastic"), ("contact", "rolling_resistance", 0.0)):
+        refuse(
+            "integration.engine",
+            plan.engine,
+            "must be full, reduced or rigid for a structure of [bodies]",
+        )
+    for section, key, needed in (
+        ("integration", "kinematics", "corotated"),
+        ("contact", "impact", "plastic"),
+        ("contact", "rolling_resistance", 0.0),
+    ):
         if (value := getattr(getattr(case, section), key)) != needed:
             refuse(f"{section}.{key}", value, f"must be {needed} for a structure of [bodies]")
     if (value := case.output.fields_every_s) and plan.engine != "full":
-        refuse("output.fields_every_s", value, f"must be 0 for a structure of [bodies] where integration.engine = {plan.engine!r}: fecolumn render --paraview makes fields of its states")
+        refuse(
+            "output.fields_every_s",
+            value,
+            "must be 0 for a structure of [bodies] where integration.engine = "
+            f"{plan.engine!r}: fecolumn render --paraview makes fields of its states",
+        )
     for key in FULL_ORDER_KEYS if plan.engine != "full" else ():
         if (value := getattr(plan, key)) != DEFAULT[key]:
-            refuse(f"integration.{key}", value, f"has no effect where integration.engine = {plan.engine!r}: leave it out")
-    time = plan.duration_s or (case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0)
+            refuse(
+                f"integration.{key}",
+                value,
+                f"has no effect where integration.engine = {plan.engine!r}: leave it out",
+            )
+    time = plan.duration_s or (
+        case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
+    )
     if time / plan.dt_s > MOST_STEPS:
-        refuse("integration.dt_s", plan.dt_s, f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} steps in {time:g} s")
+        refuse(
+            "integration.dt_s",
+            plan.dt_s,
+            f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} "
+            f"steps in {time:g} s",
+        )
     if case.motion and (len(part := case.motion.strong_part) != 2 or not part[0] < part[1]):
         refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
 
 
-
-
 def type_of(key: str):
-    """Type of a dotted key of a structure's case, whatever its bodies are called, or None: "bodies.slab.length_m" is a float."""
+    """Type of a dotted key of a structure's case, whatever its bodies are called, or None:
+    "bodies.slab.length_m" is a float.
+    """
     head, _, last = key.rpartition(".")
     name = head.partition(".")[0]
     classes = set(KINDS.values()) if name == "bodies" else {NAMED[name]} if name in NAMED else set()
-    hints = {field: kind for section in classes for field, kind in typing.get_type_hints(section).items()}
+    hints = {
+        field: kind for section in classes for field, kind in typing.get_type_hints(section).items()
+    }
     kind = hints.get(last) if head.count(".") == 1 else None
     return next((one for one in (kind, *typing.get_args(kind)) if one in (int, float)), kind)

@@ -18,7 +18,8 @@ from fecolumn.structures.place import touching
 
 #: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
 MOST_POINTS = 1000
-# Over the smaller body's size: how deep points of one body may lie in another, and how far a link's end may lie outside
+# Over the smaller body's size: how deep points of one body may lie in another, and how far a link's
+# end may lie outside
 _DEPTH, _OUTSIDE = 1e-4, 1e-6
 # Over the weight: force by which a body may miss equilibrium
 _HELD = 1e-6
@@ -31,48 +32,103 @@ def check_points(name: str, patches, file) -> None:
     count = sum(len(patch.positions) for patch in patches.values())
     if count > MOST_POINTS:
         most = max(patches, key=lambda one: len(patches[one].positions))
-        raise InputError(file, f"bodies.{name}.element_size_m", None, f'"{name}" has {count} contact points, most of them on its {most}; at most {MOST_POINTS}: '
-                         "make its elements larger, or contact.interior_points or allowance_m of the interface smaller")
+        raise InputError(
+            file,
+            f"bodies.{name}.element_size_m",
+            None,
+            f'"{name}" has {count} contact points, most of them on its {most}; at most '
+            f"{MOST_POINTS}: "
+            "make its elements larger, or contact.interior_points or allowance_m of "
+            "the interface smaller",
+        )
 
 
 def check_meetings(case, meetings, file) -> None:
-    """Refuse a joint that is stated twice, in one direction or in each: its points would be there twice, and each carry half the force."""
+    """Refuse a joint that is stated twice, in one direction or in each: its points would be there
+    twice, and each carry half the force.
+    """
     stated = {}
     for meeting in meetings:
-        faces = frozenset({(meeting.slave, meeting.slave_face), (meeting.master, meeting.master_face)})
+        faces = frozenset(
+            {(meeting.slave, meeting.slave_face), (meeting.master, meeting.master_face)}
+        )
         first = stated.setdefault(faces, meeting.interface)
         if first != meeting.interface:
-            names = ["the ground" if copy is None else f'"{case.names_of(copy[0])[copy[1]]}"' for copy in (meeting.slave, meeting.master)]
-            raise InputError(file, f"interfaces.{meeting.interface}", None, f"states the joint of interfaces.{first} again: the same faces of {' and '.join(names)}; "
-                             "leave one of the two out")
+            names = [
+                "the ground" if copy is None else f'"{case.names_of(copy[0])[copy[1]]}"'
+                for copy in (meeting.slave, meeting.master)
+            ]
+            raise InputError(
+                file,
+                f"interfaces.{meeting.interface}",
+                None,
+                f"states the joint of interfaces.{first} again: the same faces of "
+                f"{' and '.join(names)}; "
+                "leave one of the two out",
+            )
 
 
 def check_layout(case, layout, file) -> None:
     """Refuse copies without a path to the ground, and those that overlap."""
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
     held = {None}
-    while more := [contact for contact in layout.contacts if (contact.slave in held) != (contact.master in held)]:
+    while more := [
+        contact
+        for contact in layout.contacts
+        if (contact.slave in held) != (contact.master in held)
+    ]:
         held |= {copy for contact in more for copy in (contact.slave, contact.master)}
-    if loose := [f'"{case.names_of(name)[number]}"' for name, number in copies if (name, number) not in held]:
-        raise InputError(file, "interfaces", None, f"no contact path to the ground from {', '.join(loose)}")
+    if loose := [
+        f'"{case.names_of(name)[number]}"' for name, number in copies if (name, number) not in held
+    ]:
+        raise InputError(
+            file, "interfaces", None, f"no contact path to the ground from {', '.join(loose)}"
+        )
     places = [np.array(case.bodies[name].places[number]) for name, number in copies]
-    boxes = [(layout.drawings[name].points.min(axis=0) + place, layout.drawings[name].points.max(axis=0) + place) for (name, _), place in zip(copies, places)]
+    boxes = [
+        (
+            layout.drawings[name].points.min(axis=0) + place,
+            layout.drawings[name].points.max(axis=0) + place,
+        )
+        for (name, _), place in zip(copies, places)
+    ]
     for i, one in enumerate(copies):
         if boxes[i][0][2] < -_DEPTH * np.ptp(boxes[i], axis=0).max():
-            raise InputError(file, f"bodies.{one[0]}", None, f'"{case.names_of(one[0])[one[1]]}" reaches {-boxes[i][0][2]:.4g} m below the ground, z = 0')
+            raise InputError(
+                file,
+                f"bodies.{one[0]}",
+                None,
+                f'"{case.names_of(one[0])[one[1]]}" reaches {-boxes[i][0][2]:.4g} m '
+                "below the ground, z = 0",
+            )
         for j in range(i):
             other = copies[j]
             size = min(np.ptp(boxes[i], axis=0).min(), np.ptp(boxes[j], axis=0).min())
-            if np.any(boxes[i][0] > boxes[j][1] - _DEPTH * size) or np.any(boxes[j][0] > boxes[i][1] - _DEPTH * size):
+            if np.any(boxes[i][0] > boxes[j][1] - _DEPTH * size) or np.any(
+                boxes[j][0] > boxes[i][1] - _DEPTH * size
+            ):
                 continue
-            for (a, at_a), (b, at_b) in (((one, places[i]), (other, places[j])), ((other, places[j]), (one, places[i]))):
-                if (depth := deepest(layout.drawings[a[0]], layout.drawings[b[0]], at_b - at_a)) > _DEPTH * size:
-                    raise InputError(file, f"bodies.{one[0]}", None, f'"{case.names_of(one[0])[one[1]]}" and "{case.names_of(other[0])[other[1]]}" overlap at the '
-                                     f"start, by {depth:.3g} m or more")
+            for (a, at_a), (b, at_b) in (
+                ((one, places[i]), (other, places[j])),
+                ((other, places[j]), (one, places[i])),
+            ):
+                if (
+                    depth := deepest(layout.drawings[a[0]], layout.drawings[b[0]], at_b - at_a)
+                ) > _DEPTH * size:
+                    raise InputError(
+                        file,
+                        f"bodies.{one[0]}",
+                        None,
+                        f'"{case.names_of(one[0])[one[1]]}" and '
+                        f'"{case.names_of(other[0])[other[1]]}" overlap at the '
+                        f"start, by {depth:.3g} m or more",
+                    )
 
 
 def deepest(one, other, shift) -> float:
-    """How deep points [m] of a drawing lie within the elements of another that is shifted by (3,) [m]; 0 where none does, or there are no elements."""
+    """How deep points [m] of a drawing lie within the elements of another that is shifted by (3,)
+    [m]; 0 where none does, or there are no elements.
+    """
     if other.shape is None:
         return 0.0
     points, mesh = _places_in(one) - shift, other.shape.mesh
@@ -96,13 +152,22 @@ def deepest(one, other, shift) -> float:
 
 
 def _places_in(drawing) -> np.ndarray:
-    """Points (n, 3) [m] of a drawing: its own, and of its elements the middles and five places on each face, for coarse bodies may cross without a node of one in the other."""
+    """Points (n, 3) [m] of a drawing: its own, and of its elements the middles and five places on
+    each face, for coarse bodies may cross without a node of one in the other.
+    """
     if drawing.shape is None:
         return drawing.points
     mesh = drawing.shape.mesh
     faces = mesh.points[mesh.cells][:, TETRAHEDRON_FACES if mesh.is_tetrahedral else FACES]
     middles = faces.mean(axis=2)
-    return np.concatenate([drawing.points, mesh.points[mesh.cells].mean(axis=1), middles.reshape(-1, 3), ((faces + middles[:, :, None]) / 2).reshape(-1, 3)])
+    return np.concatenate(
+        [
+            drawing.points,
+            mesh.points[mesh.cells].mean(axis=1),
+            middles.reshape(-1, 3),
+            ((faces + middles[:, :, None]) / 2).reshape(-1, 3),
+        ]
+    )
 
 
 def _to_surface(drawing, point) -> float:
@@ -116,13 +181,22 @@ def check_joints(joints, standing, file) -> None:
     for joint in joints:
         count[frozenset((joint.slave, joint.master))] += len(touching(standing, joint))
     for joint in joints:
-        if count[frozenset((joint.slave, joint.master))] < (1 if joint.ball and joint.ball.is_dome else 3):
-            raise InputError(file, f"interfaces.{joint.name.partition(':')[0]}", None, f'fewer than three nodes of "{standing[joint.slave].name}" lie on '
-                             f'"{standing[joint.master].name}": make its elements smaller')
+        if count[frozenset((joint.slave, joint.master))] < (
+            1 if joint.ball and joint.ball.is_dome else 3
+        ):
+            raise InputError(
+                file,
+                f"interfaces.{joint.name.partition(':')[0]}",
+                None,
+                f'fewer than three nodes of "{standing[joint.slave].name}" lie on '
+                f'"{standing[joint.master].name}": make its elements smaller',
+            )
 
 
 def check_links(case, extents: dict, file) -> None:
-    """Refuse links to nowhere; extents: lowest and highest place (3,) [m] of each body by name, as it is drawn."""
+    """Refuse links to nowhere; extents: lowest and highest place (3,) [m] of each body by name, as
+    it is drawn.
+    """
     for name, link in case.links.items():
         body, numbers = case.meant_by(link.body)
         for number in numbers:
@@ -136,11 +210,18 @@ def check_links(case, extents: dict, file) -> None:
                 arm = place - case.bodies[of].places[copy]
                 outside = np.linalg.norm(np.maximum(np.maximum(low - arm, arm - high), 0.0))
                 if outside > _OUTSIDE * np.linalg.norm(high - low):
-                    raise InputError(file, f"links.{name}.{end}", list(getattr(link, end)), f'must be a point of "{case.names_of(of)[copy]}": it lies {outside:.3g} m outside')
+                    raise InputError(
+                        file,
+                        f"links.{name}.{end}",
+                        list(getattr(link, end)),
+                        f'must be a point of "{case.names_of(of)[copy]}": it lies '
+                        f"{outside:.3g} m outside",
+                    )
 
 
 def check_rest(case, structure, standing, file) -> None:
-    """Of a structure that nothing tilts or sets moving, refuse bodies that no contact forces within their cones, and no forces of links, hold at rest: what is missing least is a linear programme.
+    """Of a structure that nothing tilts or sets moving, refuse bodies that no contact forces within
+    their cones, and no forces of links, hold at rest: what is missing least is a linear programme.
 
     standing: as of `place`.
     """
@@ -148,20 +229,35 @@ def check_rest(case, structure, standing, file) -> None:
         return
     columns, bounds, rows = [], [], 6 * len(structure.parts)
     weights = np.array([part.model.mass for part in structure.parts]) * GRAVITY
-    sizes = np.array([math.sqrt(np.trace(part.model.inertia) / part.model.mass) for part in structure.parts])
+    sizes = np.array(
+        [math.sqrt(np.trace(part.model.inertia) / part.model.mass) for part in structure.parts]
+    )
 
     def act(column, place, force, point):
         if place != GROUND:
-            column[6 * place:6 * place + 3] += force
-            column[6 * place + 3:6 * place + 6] += np.cross(point - standing[place].center, force) / sizes[place]
+            column[6 * place : 6 * place + 3] += force
+            column[6 * place + 3 : 6 * place + 6] += (
+                np.cross(point - standing[place].center, force) / sizes[place]
+            )
 
     for joint in structure.joints:
         slave = standing[joint.slave]
         surface = slave.model.surfaces[joint.slave_surface]
         for row in touching(standing, joint):
-            point = slave.center + slave.model.arms[surface.nodes[row]] + (joint.ball.radius * surface.normal if joint.ball else 0.0)
-            for angle in 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS if joint.friction else [None]:
-                along = np.zeros(3) if angle is None else joint.friction * (math.cos(angle) * surface.axes[:, 0] + math.sin(angle) * surface.axes[:, 1])
+            point = (
+                slave.center
+                + slave.model.arms[surface.nodes[row]]
+                + (joint.ball.radius * surface.normal if joint.ball else 0.0)
+            )
+            for angle in (
+                2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS if joint.friction else [None]
+            ):
+                along = (
+                    np.zeros(3)
+                    if angle is None
+                    else joint.friction
+                    * (math.cos(angle) * surface.axes[:, 0] + math.sin(angle) * surface.axes[:, 1])
+                )
                 force, column = along - surface.normal, np.zeros(rows)
                 act(column, joint.slave, force, point)
                 act(column, joint.master, -force, point)
@@ -183,11 +279,29 @@ def check_rest(case, structure, standing, file) -> None:
     missing = np.eye(rows)
     matrix = np.column_stack([np.array(columns).T / scale[:, None], missing, -missing])
     cost = np.concatenate([np.zeros(len(columns)), np.ones(2 * rows)])
-    found = linprog(cost, A_eq=matrix, b_eq=load / scale, bounds=bounds + [(0, None)] * (2 * rows), method="highs")
+    found = linprog(
+        cost,
+        A_eq=matrix,
+        b_eq=load / scale,
+        bounds=bounds + [(0, None)] * (2 * rows),
+        method="highs",
+    )
     if not found.success:
         return  # the engine's own search for equilibrium has the last word
-    lacks = np.abs(found.x[len(columns):len(columns) + rows] - found.x[len(columns) + rows:]).reshape(-1, 6).sum(axis=1)
+    lacks = (
+        np.abs(found.x[len(columns) : len(columns) + rows] - found.x[len(columns) + rows :])
+        .reshape(-1, 6)
+        .sum(axis=1)
+    )
     if lacks.max() > _HELD:
-        names = ", ".join(f'"{part.name}"' for part, lack in zip(structure.parts, lacks) if lack > _HELD)
-        raise InputError(file, "interfaces", None, f"{names} cannot rest: no contact forces within friction hold the weight as the bodies stand; "
-                         "give a start by [initial.NAME], or other places, friction or links")
+        names = ", ".join(
+            f'"{part.name}"' for part, lack in zip(structure.parts, lacks) if lack > _HELD
+        )
+        raise InputError(
+            file,
+            "interfaces",
+            None,
+            f"{names} cannot rest: no contact forces within friction hold the weight as "
+            "the bodies stand; "
+            "give a start by [initial.NAME], or other places, friction or links",
+        )

@@ -1,4 +1,6 @@
-"""Bodies of a structure with all their degrees of freedom, from the same meshes and contact points that the reduced engine has."""
+"""Bodies of a structure with all their degrees of freedom, from the same meshes and contact points
+that the reduced engine has.
+"""
 
 from __future__ import annotations
 
@@ -21,9 +23,10 @@ from fecolumn.structures.structure import assembled, check_drawings, said_of
 class Meshed:
     """A body of elements, the same object for all copies.
 
-    body: `fem.body.Body`. model: its BodyModel without modes and flexibility; nodes: (n,) of the body that are the model's rows.
-    top, shares: (k,) nodes of the highest level face and their shares in its mean, which is the mark "top".
-    shape: its mesh. patches: its contact points by the names of the surfaces.
+    body: `fem.body.Body`. model: its BodyModel without modes and flexibility; nodes: (n,) of the
+    body that are the model's rows. top, shares: (k,) nodes of the highest level face and their
+    shares in its mean, which is the mark "top". shape: its mesh. patches: its contact points by the
+    names of the surfaces.
     """
 
     body: object
@@ -38,23 +41,39 @@ class Meshed:
 def structure_of_elements(case, comm, file) -> tuple[StructureModel, list[Meshed]]:
     """The structure of a case at its start, and the elements of each part; the same on every rank.
 
-    Raises:
-        InputError: as of `structure.structure_model`; and a body that has no elements.
+    Raises
+    ------
+    InputError
+        as of `structure.structure_model`; and a body that has no elements.
     """
     from fecolumn.dynamics.assembly import known_to_all
 
     layout = known_to_all(comm, lambda: _checked_layout(case, file))
     made = {name: meshed(layout.drawings[name], layout.patches[name], comm) for name in case.bodies}
-    structure = assembled(case, {name: one.model for name, one in made.items()}, said_of(layout), file)
+    structure = assembled(
+        case, {name: one.model for name, one in made.items()}, said_of(layout), file
+    )
     return structure, [made[name] for name in case.bodies for _ in case.names_of(name)]
 
 
 def _checked_layout(case, file) -> Layout:
     for name, body in case.bodies.items():
         if isinstance(body, (Matrices, Storeys)):
-            raise InputError(file, f"bodies.{name}.kind", body.kind, 'has no elements: engine = "full" takes bodies of elements, engine = "reduced" takes all kinds')
+            raise InputError(
+                file,
+                f"bodies.{name}.kind",
+                body.kind,
+                'has no elements: engine = "full" takes bodies of elements, engine = '
+                '"reduced" takes all kinds',
+            )
         if body.rigid:
-            raise InputError(file, f"bodies.{name}.rigid", True, 'must be false where engine = "full", whose bodies deform; engine = "reduced" takes both')
+            raise InputError(
+                file,
+                f"bodies.{name}.rigid",
+                True,
+                'must be false where engine = "full", whose bodies deform; engine = '
+                '"reduced" takes both',
+            )
     layout = layout_of(case, file)
     check_drawings(case, layout, file)
     return layout
@@ -75,7 +94,19 @@ def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> Meshed:
     face = top_face(drawing.faces)
     positions, shares = face_weights(face, drawing.shape.order)
     model = BodyModel(
-        mass=float(body.total_mass), inertia=rigid_fields(body)[2][3:, 3:], center=body.center, frequencies=np.zeros(0), shapes=np.zeros((len(nodes), 3, 0)),
-        flexibility=np.zeros((0, 0, 3, 3)), arms=body.all_X[nodes] - body.center, dofs=3 * body.n_nodes,
-        surfaces={name: patch.surface(row[found[name]], body.center) for name, patch in patches.items()}, marks={"top": (shares @ positions - body.center, np.zeros((3, 0)))})
-    return Meshed(body, model, nodes, body.find_nodes(positions, face.part), shares, drawing.shape, patches)
+        mass=float(body.total_mass),
+        inertia=rigid_fields(body)[2][3:, 3:],
+        center=body.center,
+        frequencies=np.zeros(0),
+        shapes=np.zeros((len(nodes), 3, 0)),
+        flexibility=np.zeros((0, 0, 3, 3)),
+        arms=body.all_X[nodes] - body.center,
+        dofs=3 * body.n_nodes,
+        surfaces={
+            name: patch.surface(row[found[name]], body.center) for name, patch in patches.items()
+        },
+        marks={"top": (shares @ positions - body.center, np.zeros((3, 0)))},
+    )
+    return Meshed(
+        body, model, nodes, body.find_nodes(positions, face.part), shares, drawing.shape, patches
+    )

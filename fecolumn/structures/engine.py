@@ -18,9 +18,15 @@ from fecolumn.structures.structure import standing_of
 
 
 def upright(case, model: StructureModel) -> StructureModel:
-    """The structure as it stands before any body leans or moves: displacements and links are measured from there."""
-    parts = (replace(part, center=there.center, rotation=np.eye(3), velocity=np.zeros(3), spin=np.zeros(3))
-             for part, there in zip(model.parts, standing_of(case, model)))
+    """The structure as it stands before any body leans or moves: displacements and links are
+    measured from there.
+    """
+    parts = (
+        replace(
+            part, center=there.center, rotation=np.eye(3), velocity=np.zeros(3), spin=np.zeros(3)
+        )
+        for part, there in zip(model.parts, standing_of(case, model))
+    )
     return replace(model, parts=tuple(parts))
 
 
@@ -32,8 +38,10 @@ def leans(model: StructureModel) -> bool:
 def engine_of(case, model: StructureModel, file) -> Engine:
     """The engine at the start of `model`, or of `upright` in gravity equilibrium.
 
-    Raises:
-        InputError: a link too stiff for the step. NoEquilibrium: as of `start.standing`.
+    Raises
+    ------
+    InputError
+        a link too stiff for the step. NoEquilibrium: as of `start.standing`.
     """
     plan, gravity, stands = case.integration, np.array([0.0, 0.0, -GRAVITY]), not leans(model)
     standing, hht = upright(case, model), HHT(plan.dt_s, plan.alpha_hht)
@@ -48,4 +56,13 @@ def engine_of(case, model: StructureModel, file) -> Engine:
         raise InputError(file, name, None, told) from None
     weight = float(structure.bodies.body["mass"].sum()) * GRAVITY
     eye = view_of(standing, structure, weight, case.overturn.displacement_m)
-    return Engine(build, model.base, eye, hht, lambda engine: of_parts(engine, model.parts, stands), plan.max_cuts, model, plan.substeps)
+    return Engine(
+        build,
+        model.base,
+        eye,
+        hht,
+        lambda engine: of_parts(engine, model.parts, stands),
+        plan.max_cuts,
+        model,
+        plan.substeps,
+    )

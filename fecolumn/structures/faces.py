@@ -11,7 +11,8 @@ from scipy.spatial import cKDTree
 
 from fecolumn.mesh.bricks import BrickMesh, outer_faces, outline_edges
 
-#: Over the size of a body: faces within it lie in one plane, and faces of two bodies coincide. What rounding of five digits leaves.
+#: Over the size of a body: faces within it lie in one plane, and faces of two bodies coincide. What
+#: rounding of five digits leaves.
 SAME_PLANE = 1e-5
 # Sine of the angle between faces of one plane
 _PARALLEL = 1e-6
@@ -21,8 +22,9 @@ _PARALLEL = 1e-6
 class Face:
     """All outer faces of elements of one part of a body in one plane.
 
-    part: of the mesh. normal: (3,) out of the body; offset: of the plane along it [m]. cells: (n, 4 or 3) point numbers of the element faces,
-    counter-clockwise seen from outside; corners: (n, 4 or 3, 3) their places [m] in the drawing of the body.
+    part: of the mesh. normal: (3,) out of the body; offset: of the plane along it [m]. cells: (n, 4
+    or 3) point numbers of the element faces, counter-clockwise seen from outside; corners: (n, 4 or
+    3, 3) their places [m] in the drawing of the body.
     """
 
     part: int
@@ -38,8 +40,12 @@ class Face:
 
     @property
     def axes(self) -> np.ndarray:
-        """Two tangents and the normal as columns (3, 3), right-handed; the first tangent is the x axis where the face is level."""
-        along = np.array([1.0, 0.0, 0.0]) if abs(self.normal[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
+        """Two tangents and the normal as columns (3, 3), right-handed; the first tangent is the x
+        axis where the face is level.
+        """
+        along = (
+            np.array([1.0, 0.0, 0.0]) if abs(self.normal[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
+        )
         first = along - self.normal * (along @ self.normal)
         first /= np.linalg.norm(first)
         return np.stack([first, np.cross(self.normal, first), self.normal], axis=1)
@@ -48,7 +54,9 @@ class Face:
     def outline(self) -> np.ndarray:
         """Ends (n, 2, 3) [m] of the sides of the face's outlines."""
         number, place = np.unique(self.cells, return_index=True)
-        return self.corners.reshape(-1, 3)[place][np.searchsorted(number, outline_edges(self.cells))]
+        return self.corners.reshape(-1, 3)[place][
+            np.searchsorted(number, outline_edges(self.cells))
+        ]
 
 
 def plane_faces(mesh: BrickMesh) -> list[Face]:
@@ -60,12 +68,23 @@ def plane_faces(mesh: BrickMesh) -> list[Face]:
         normals = _normals(corners)
         normals /= np.linalg.norm(normals, axis=1)[:, None]
         offsets = np.einsum("ni,ni->n", normals, corners.mean(axis=1))
-        flat = np.abs(np.einsum("ni,nai->na", normals, corners) - offsets[:, None]).max(axis=1) < SAME_PLANE * size
+        flat = (
+            np.abs(np.einsum("ni,nai->na", normals, corners) - offsets[:, None]).max(axis=1)
+            < SAME_PLANE * size
+        )
         for rows in _alike(np.column_stack([normals, offsets / size])[flat]):
             rows = np.flatnonzero(flat)[rows]
             normal = normals[rows].mean(axis=0)
             normal[np.abs(normal) < _PARALLEL] = 0.0
-            found.append(Face(part, normal / np.linalg.norm(normal), float(offsets[rows].mean()), cells[rows], corners[rows]))
+            found.append(
+                Face(
+                    part,
+                    normal / np.linalg.norm(normal),
+                    float(offsets[rows].mean()),
+                    cells[rows],
+                    corners[rows],
+                )
+            )
     return sorted(found, key=lambda face: -face.area)
 
 
@@ -77,7 +96,9 @@ def _normals(corners: np.ndarray) -> np.ndarray:
 
 
 def _alike(planes: np.ndarray) -> list[np.ndarray]:
-    """Rows of planes (n, 4), normals and offsets over the size, that are the same within SAME_PLANE."""
+    """Rows of planes (n, 4), normals and offsets over the size, that are the same within
+    SAME_PLANE.
+    """
     if not len(planes):
         return []
     rounded, group = np.unique(np.round(planes / (0.1 * SAME_PLANE)), axis=0, return_inverse=True)
@@ -87,25 +108,35 @@ def _alike(planes: np.ndarray) -> list[np.ndarray]:
     return [np.flatnonzero(label == one) for one in range(label.max() + 1)]
 
 
-
 def over(points: np.ndarray, triangles: np.ndarray, tolerance: float) -> np.ndarray:
-    """Which points (n, 2) lie in any of the triangles (t, 3, 2) of a plane, or within `tolerance` [m] of one."""
+    """Which points (n, 2) lie in any of the triangles (t, 3, 2) of a plane, or within `tolerance`
+    [m] of one.
+    """
     inside = np.zeros(len(points), bool)
-    a, ab, ac = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    a, ab, ac = (
+        triangles[:, 0],
+        triangles[:, 1] - triangles[:, 0],
+        triangles[:, 2] - triangles[:, 0],
+    )
     double = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
-    # shares of the corners may be negative by the tolerance over the smallest height of the triangle
+    # shares of the corners may be negative by the tolerance over the smallest height of the
+    # triangle
     longest = np.linalg.norm(np.stack([ab, ac, ac - ab]), axis=2).max(axis=0)
     slack = tolerance * longest / np.abs(double)
     for first in range(0, len(points), 256):
-        offset = points[first:first + 256, None] - a
+        offset = points[first : first + 256, None] - a
         s = (offset[..., 0] * ac[:, 1] - offset[..., 1] * ac[:, 0]) / double
         t = (offset[..., 1] * ab[:, 0] - offset[..., 0] * ab[:, 1]) / double
-        inside[first:first + 256] = ((s >= -slack) & (t >= -slack) & (s + t <= 1 + slack)).any(axis=1)
+        inside[first : first + 256] = ((s >= -slack) & (t >= -slack) & (s + t <= 1 + slack)).any(
+            axis=1
+        )
     return inside
 
 
 def apart(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
-    """Distances (...) [m] of points (..., 2) from the sides (..., 2, 2) between two ends each, which broadcast."""
+    """Distances (...) [m] of points (..., 2) from the sides (..., 2, 2) between two ends each,
+    which broadcast.
+    """
     start, along = sides[..., 0, :], sides[..., 1, :] - sides[..., 0, :]
     offset, square = points - start, (along**2).sum(axis=-1)
     share = np.clip((offset * along).sum(axis=-1) / np.where(square > 0, square, 1.0), 0.0, 1.0)
@@ -113,9 +144,13 @@ def apart(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
 
 
 def apart_from_side(triangles: np.ndarray, side: np.ndarray) -> np.ndarray:
-    """Distances (t,) [m] of triangles (t, 3, 2) from the side (2, 2) between two ends, 0 of those that it meets."""
+    """Distances (t,) [m] of triangles (t, 3, 2) from the side (2, 2) between two ends, 0 of those
+    that it meets.
+    """
     around = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2)
-    found = np.minimum(apart(triangles, side).min(axis=1), apart(side[:, None, None], around).min(axis=(0, 2)))
+    found = np.minimum(
+        apart(triangles, side).min(axis=1), apart(side[:, None, None], around).min(axis=(0, 2))
+    )
 
     def left(ends, point):  # of the way between two ends
         way, offset = ends[..., 1, :] - ends[..., 0, :], point - ends[..., 0, :]
@@ -129,4 +164,6 @@ def apart_from_side(triangles: np.ndarray, side: np.ndarray) -> np.ndarray:
 
 def triangles_of(quads: np.ndarray) -> np.ndarray:
     """Triangles (t, 3, 2) of faces (n, 4 or 3, 2)."""
-    return quads if quads.shape[1] == 3 else np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    return (
+        quads if quads.shape[1] == 3 else np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    )

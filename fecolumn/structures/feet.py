@@ -1,7 +1,9 @@
 """Feet that are not flat: domes, which are caps of a sphere, and feet with a rounded edge.
 
-A dome is drawn for solid bodies: their nodes are lifted to the sphere, ever less up to the top. Of a tube no node is: its wall down to the place of the lowest point has the
-mass and the centre of the spherical shell that closes it, for a sphere and the cylinder around it have equal areas between any two levels (Archimedes). A rounded edge is not drawn.
+A dome is drawn for solid bodies: their nodes are lifted to the sphere, ever less up to the top. Of
+a tube no node is: its wall down to the place of the lowest point has the mass and the centre of the
+spherical shell that closes it, for a sphere and the cylinder around it have equal areas between any
+two levels (Archimedes). A rounded edge is not drawn.
 """
 
 from __future__ import annotations
@@ -18,7 +20,9 @@ from fecolumn.structures.model import Ball, BodyModel
 
 
 def half_sides(body) -> tuple[float, float]:
-    """Radius [m] of a round foot and 0, or half the sides of a rectangular one, as of `model.Ball.edge`."""
+    """Radius [m] of a round foot and 0, or half the sides of a rectangular one, as of
+    `model.Ball.edge`.
+    """
     if isinstance(body, Block):
         return body.length_m / 2, body.width_m / 2
     return (body.flange.outer_diameter_m if body.flange else body.outer_diameter_m) / 2, 0.0
@@ -26,11 +30,15 @@ def half_sides(body) -> tuple[float, float]:
 
 def rise(body) -> float:
     """Height [m] of the highest point of a dome over its lowest one."""
-    return body.foot_radius_m - math.sqrt(max(body.foot_radius_m**2 - sum(half**2 for half in half_sides(body)), 0.0))
+    return body.foot_radius_m - math.sqrt(
+        max(body.foot_radius_m**2 - sum(half**2 for half in half_sides(body)), 0.0)
+    )
 
 
 def lifted(body, points: np.ndarray) -> np.ndarray:
-    """Points (..., 3) [m] of the drawing of a body with a flat foot where they are in that of one with a dome."""
+    """Points (..., 3) [m] of the drawing of a body with a flat foot where they are in that of one
+    with a dome.
+    """
     if isinstance(body, Tube):
         return points
     radius = np.minimum(np.linalg.norm(points[..., :2], axis=-1), body.foot_radius_m)
@@ -41,15 +49,25 @@ def lifted(body, points: np.ndarray) -> np.ndarray:
 
 
 def domed(body, shape, faces: list[Face]):
-    """Mesh and plane faces of a body with a dome from those of one with a flat foot; the foot keeps its plane, in which the lowest point lies."""
+    """Mesh and plane faces of a body with a dome from those of one with a flat foot; the foot keeps
+    its plane, in which the lowest point lies.
+    """
     foot = foot_of(faces)
-    moved = [face if face is foot else dataclasses.replace(face, corners=lifted(body, face.corners)) for face in faces]
-    return dataclasses.replace(shape, mesh=dataclasses.replace(shape.mesh, points=lifted(body, shape.mesh.points))), moved
+    moved = [
+        face if face is foot else dataclasses.replace(face, corners=lifted(body, face.corners))
+        for face in faces
+    ]
+    return dataclasses.replace(
+        shape, mesh=dataclasses.replace(shape.mesh, points=lifted(body, shape.mesh.points))
+    ), moved
 
 
 def foot_of(faces: list[Face]) -> Face:
     """The lowest level face of a body."""
-    return min((face for face in faces if face.normal[2] < -1 + 1e-9), key=lambda face: face.corners[:, :, 2].min())
+    return min(
+        (face for face in faces if face.normal[2] < -1 + 1e-9),
+        key=lambda face: face.corners[:, :, 2].min(),
+    )
 
 
 def ball_of(body) -> Ball | None:
@@ -60,7 +78,9 @@ def ball_of(body) -> Ball | None:
 
 
 def with_balls(model: BodyModel, body) -> BodyModel:
-    """The model of a body whose foot is not flat, from that of the nodes of its foot: nodes in the places that `model.Ball` tells."""
+    """The model of a body whose foot is not flat, from that of the nodes of its foot: nodes in the
+    places that `model.Ball` tells.
+    """
     ball = ball_of(body)
     if ball is None or "foot" not in model.surfaces:
         return model
@@ -71,7 +91,9 @@ def with_balls(model: BodyModel, body) -> BodyModel:
         plane = np.column_stack([np.ones(count), places[:, :2]])
         means = np.linalg.solve(plane.T @ (foot.areas[:, None] * plane), plane.T * foot.areas)
         centers = np.tile([0.0, 0.0, ball.radius], (3, 1))
-        foot = dataclasses.replace(foot, nodes=np.arange(1), areas=foot.areas.sum(keepdims=True), outlines=np.ones(1, bool))
+        foot = dataclasses.replace(
+            foot, nodes=np.arange(1), areas=foot.areas.sum(keepdims=True), outlines=np.ones(1, bool)
+        )
     else:
         half = np.array(half_sides(body))
         inset = 1 - ball.radius / (half if half[1] else half[0])
@@ -79,15 +101,22 @@ def with_balls(model: BodyModel, body) -> BodyModel:
         centers = np.column_stack([places[:, :2] * inset, np.full(count, ball.radius)])
         foot = dataclasses.replace(foot, nodes=np.arange(count))
     others = {name: surface for name, surface in model.surfaces.items() if name != "foot"}
-    kept = np.unique(np.concatenate([np.zeros(0, np.int64), *(surface.nodes for surface in others.values())]))
+    kept = np.unique(
+        np.concatenate([np.zeros(0, np.int64), *(surface.nodes for surface in others.values())])
+    )
     rows = np.zeros((len(kept) + len(means), len(model.arms)))
-    rows[np.arange(len(kept)), kept], rows[len(kept):, model.surfaces["foot"].nodes] = 1.0, means
-    surfaces = {name: dataclasses.replace(surface, nodes=np.searchsorted(kept, surface.nodes)) for name, surface in others.items()}
+    rows[np.arange(len(kept)), kept], rows[len(kept) :, model.surfaces["foot"].nodes] = 1.0, means
+    surfaces = {
+        name: dataclasses.replace(surface, nodes=np.searchsorted(kept, surface.nodes))
+        for name, surface in others.items()
+    }
     return dataclasses.replace(
-        model, shapes=np.ascontiguousarray(np.einsum("ij,jam->iam", rows, model.shapes)),
+        model,
+        shapes=np.ascontiguousarray(np.einsum("ij,jam->iam", rows, model.shapes)),
         flexibility=np.einsum("ij,jkab,lk->ilab", rows, model.flexibility, rows, optimize=True),
         arms=np.concatenate([model.arms[kept], centers - model.center]),
-        surfaces=surfaces | {"foot": dataclasses.replace(foot, nodes=foot.nodes + len(kept))})
+        surfaces=surfaces | {"foot": dataclasses.replace(foot, nodes=foot.nodes + len(kept))},
+    )
 
 
 def edge_points(ball: Ball) -> np.ndarray:
@@ -98,16 +127,22 @@ def edge_points(ball: Ball) -> np.ndarray:
     else:
         angles = 2 * np.pi * np.arange(ROUND_CORNERS) / ROUND_CORNERS
         plane = x * np.column_stack([np.cos(angles), np.sin(angles)])
-    return np.column_stack([plane, np.full(len(plane), -math.sqrt(max(ball.radius**2 - x**2 - y**2, 0.0)))])
+    return np.column_stack(
+        [plane, np.full(len(plane), -math.sqrt(max(ball.radius**2 - x**2 - y**2, 0.0)))]
+    )
 
 
 def hertz(radius: float, load: float, *materials) -> np.ndarray:
-    """Compliance (3,) [m/N] across x, y and along z of a sphere pressed on a plane by `load` [N], linear about it.
+    """Compliance (3,) [m/N] across x, y and along z of a sphere pressed on a plane by `load` [N],
+    linear about it.
 
-    Hertz (1882): d = (9 F^2 / (16 E*^2 rho))^(1/3), 1 / E* = sum (1 - nu^2) / E, and dd/dF; Mindlin (1949) across: (2 - nu) / (2 (1 - nu)) of that.
+    Hertz (1882): d = (9 F^2 / (16 E*^2 rho))^(1/3), 1 / E* = sum (1 - nu^2) / E, and dd/dF; Mindlin
+    (1949) across: (2 - nu) / (2 (1 - nu)) of that.
 
-    Args:
-        materials: of the bodies that give, the sphere's first.
+    Parameters
+    ----------
+    materials
+        of the bodies that give, the sphere's first.
     """
     modulus = 1 / sum((1 - one.poissons_ratio**2) / one.youngs_modulus_pa for one in materials)
     along = 2 / 3 * (9 / (16 * modulus**2 * radius * load)) ** (1 / 3)

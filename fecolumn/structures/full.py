@@ -22,16 +22,25 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
 
         case, plan = self.case, self.case.integration
         self.structure, self.meshed = structure_of_elements(case, self.comm, file)
-        #: The structure before any body leans or moves: gravity energy and displacements are measured from there.
+        #: The structure before any body leans or moves: gravity energy and displacements are
+        #: measured from there.
         self.standing = upright(case, self.structure)
         damped = [case.modes_of(name) for name in case.bodies for _ in case.names_of(name)]
         try:
-            system = structure_system(self.standing, [one.body for one in self.meshed], HHT(plan.dt_s, plan.alpha_hht), np.array([0.0, 0.0, -GRAVITY]),
-                                      nodes=[one.nodes for one in self.meshed], damped=damped)
+            system = structure_system(
+                self.standing,
+                [one.body for one in self.meshed],
+                HHT(plan.dt_s, plan.alpha_hht),
+                np.array([0.0, 0.0, -GRAVITY]),
+                nodes=[one.nodes for one in self.meshed],
+                damped=damped,
+            )
         except ValueError as error:
             name, _, told = str(error).partition(": ")
             raise InputError(file, name, None, told) from None
-        return system, StructureObserver(system, self.meshed, self.standing, case.overturn.displacement_m)
+        return system, StructureObserver(
+            system, self.meshed, self.standing, case.overturn.displacement_m
+        )
 
     @property
     def leans(self) -> bool:
@@ -45,7 +54,9 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
     def drawn(self):
         from fecolumn.structures.fields import StructureFields
 
-        return StructureFields(self.system.column, self.meshed, self.standing, self.system.interface.points)
+        return StructureFields(
+            self.system.column, self.meshed, self.standing, self.system.interface.points
+        )
 
     def foot(self) -> tuple[np.ndarray, np.ndarray]:
         places = self.system.interface.node_positions(self.state.x, self.state.rotation)

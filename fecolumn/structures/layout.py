@@ -21,9 +21,11 @@ from fecolumn.structures.size import refuse_too_large
 
 @dataclass(frozen=True)
 class Contact:
-    """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the copy), None of the ground.
+    """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the
+    copy), None of the ground.
 
-    pair, corners: as of `model.Joint`, place among the contacts and corners [m] in the drawings of the bodies, of plain lists.
+    pair, corners: as of `model.Joint`, place among the contacts and corners [m] in the drawings of
+    the bodies, of plain lists.
     """
 
     interface: str
@@ -37,7 +39,9 @@ class Contact:
 
 @dataclass(frozen=True)
 class Layout:
-    """drawings: by body. patches: of each body by the names of its surfaces. contacts: in the order of the interfaces."""
+    """drawings: by body. patches: of each body by the names of its surfaces. contacts: in the order
+    of the interfaces.
+    """
 
     drawings: dict[str, Drawing]
     patches: dict[str, dict[str, Patch]]
@@ -47,8 +51,10 @@ class Layout:
 def layout_of(case, file) -> Layout:
     """Mesh the bodies of a case, plates finely where others meet them, and find their contacts.
 
-    Raises:
-        InputError: bodies that do not touch as the interfaces say, or cannot be meshed.
+    Raises
+    ------
+    InputError
+        bodies that do not touch as the interfaces say, or cannot be meshed.
     """
     refuse_too_large(case, file)
     drawings = {name: drawing(case, name, file) for name in case.bodies}
@@ -60,82 +66,183 @@ def layout_of(case, file) -> Layout:
         meetings = meetings_of(case, {name: one.faces for name, one in drawings.items()}, file)
     check_meetings(case, meetings, file)
     for meeting in meetings:
-        if meeting.master and ball_of(case.bodies[meeting.master[0]]) and _surface_name(drawings[meeting.master[0]].faces, meeting.master_face, "slave") == "foot":
-            raise InputError(file, f"interfaces.{meeting.interface}.on", case.interfaces[meeting.interface].on, f'must be the slave: the foot of "{meeting.master[0]}" is not flat')
-    patches, contacts, edges = {name: {} for name in case.bodies}, [], edges_of(case, drawings, meetings)
+        if (
+            meeting.master
+            and ball_of(case.bodies[meeting.master[0]])
+            and _surface_name(drawings[meeting.master[0]].faces, meeting.master_face, "slave")
+            == "foot"
+        ):
+            raise InputError(
+                file,
+                f"interfaces.{meeting.interface}.on",
+                case.interfaces[meeting.interface].on,
+                f'must be the slave: the foot of "{meeting.master[0]}" is not flat',
+            )
+    patches, contacts, edges = (
+        {name: {} for name in case.bodies},
+        [],
+        edges_of(case, drawings, meetings),
+    )
     for body in case.bodies:
         patches[body] = _touching(case, body, drawings[body], meetings, edges)
     for body in case.bodies:
         patches[body] |= _touched(case, body, drawings, patches, meetings, edges)
     for meeting in meetings:
         slave = _surface_name(drawings[meeting.slave[0]].faces, meeting.slave_face, "slave")
-        master = meeting.master and _surface_name(drawings[meeting.master[0]].faces, meeting.master_face, "master")
+        master = meeting.master and _surface_name(
+            drawings[meeting.master[0]].faces, meeting.master_face, "master"
+        )
         contacts.append(Contact(meeting.interface, meeting.slave, slave, meeting.master, master))
     for edge in edges:
         slave = _surface_name(drawings[edge.lower[0]].faces, edge.lower_face, "edge")
-        pair = next((k for k, one in enumerate(meetings) if (one.slave, one.slave_face, one.master, one.master_face) ==
-                     (edge.upper, edge.upper_face, edge.lower, edge.lower_face)), -1) if edge.corners else -1
-        contacts.append(Contact(edge.interface, edge.lower, slave, edge.upper, _surface_name(drawings[edge.upper[0]].faces, edge.upper_face, "master"),
-                                pair, edge.corners))
+        pair = (
+            next(
+                (
+                    k
+                    for k, one in enumerate(meetings)
+                    if (one.slave, one.slave_face, one.master, one.master_face)
+                    == (edge.upper, edge.upper_face, edge.lower, edge.lower_face)
+                ),
+                -1,
+            )
+            if edge.corners
+            else -1
+        )
+        contacts.append(
+            Contact(
+                edge.interface,
+                edge.lower,
+                slave,
+                edge.upper,
+                _surface_name(drawings[edge.upper[0]].faces, edge.upper_face, "master"),
+                pair,
+                edge.corners,
+            )
+        )
     return Layout(drawings, patches, tuple(contacts))
 
 
 def _spots(case, drawings, meetings: list[Meeting]) -> dict[str, list]:
-    """Where other bodies meet plates: (low x, high x, low y, high y, size) [m] in the drawing, twice the nodes' distance where those are midway, too."""
+    """Where other bodies meet plates: (low x, high x, low y, high y, size) [m] in the drawing,
+    twice the nodes' distance where those are midway, too.
+    """
     found = {}
     for meeting in meetings:
         for own, other in ((meeting.master, meeting.slave), (meeting.slave, meeting.master)):
-            if own is None or other is None or not isinstance(case.bodies[own[0]], (Plate, Storeys)):
+            if (
+                own is None
+                or other is None
+                or not isinstance(case.bodies[own[0]], (Plate, Storeys))
+            ):
                 continue
-            face = drawings[other[0]].faces[meeting.slave_face if other is meeting.slave else meeting.master_face]
+            face = drawings[other[0]].faces[
+                meeting.slave_face if other is meeting.slave else meeting.master_face
+            ]
             corners = face.corners.reshape(-1, 3) + place_of(case, other) - place_of(case, own)
             low, high = corners[:, :2].min(axis=0), corners[:, :2].max(axis=0)
             side = (high - low).min()
-            allowance = side / 4 if case.interfaces[meeting.interface].allowance_m is None else case.interfaces[meeting.interface].allowance_m
-            size = side / 4 if drawings[own[0]].is_rigid or drawings[own[0]].order == 1 else side / 2
-            found.setdefault(own[0], []).append((low[0] - allowance, high[0] + allowance, low[1] - allowance, high[1] + allowance, size))
+            allowance = (
+                side / 4
+                if case.interfaces[meeting.interface].allowance_m is None
+                else case.interfaces[meeting.interface].allowance_m
+            )
+            size = (
+                side / 4 if drawings[own[0]].is_rigid or drawings[own[0]].order == 1 else side / 2
+            )
+            found.setdefault(own[0], []).append(
+                (
+                    low[0] - allowance,
+                    high[0] + allowance,
+                    low[1] - allowance,
+                    high[1] + allowance,
+                    size,
+                )
+            )
     return found
 
 
-def _touching(case, body: str, one: Drawing, meetings: list[Meeting], edges: list[Edge]) -> dict[str, Patch]:
+def _touching(
+    case, body: str, one: Drawing, meetings: list[Meeting], edges: list[Edge]
+) -> dict[str, Patch]:
     """Contact points of a body as slave by the names of its surfaces, all copies together."""
     slaves, found = {}, {}
     for meeting in meetings:
         interface = case.interfaces[meeting.interface]
         if meeting.slave[0] == body:
-            interior = case.contact.interior_points if interface.interior_points is None else interface.interior_points
+            interior = (
+                case.contact.interior_points
+                if interface.interior_points is None
+                else interface.interior_points
+            )
             slaves[meeting.slave_face] = max(interior, slaves.get(meeting.slave_face, 0))
     for face, interior in slaves.items():
         drawn, name = one.faces[face], _surface_name(one.faces, face, "slave")
         if name == "foot" and getattr(one.body, "foot_radius_m", None):
             drawn = dataclasses.replace(drawn, corners=lifted(one.body, drawn.corners))
-        # of a joint with two sides the nodes below are no points of their own until the slave has slid
-        avoided = [edge.avoided for edge in edges if not edge.corners and edge.upper[0] == body and edge.upper_face == face]
-        found[name] = slave_patch(drawn, one.order, interior, np.concatenate(avoided) if avoided else None)
+        # of a joint with two sides the nodes below are no points of their own until the slave has
+        # slid
+        avoided = [
+            edge.avoided
+            for edge in edges
+            if not edge.corners and edge.upper[0] == body and edge.upper_face == face
+        ]
+        found[name] = slave_patch(
+            drawn, one.order, interior, np.concatenate(avoided) if avoided else None
+        )
     for face in sorted({edge.lower_face for edge in edges if edge.lower[0] == body}):
-        points = [edge.points for edge in edges if edge.lower[0] == body and edge.lower_face == face]
-        found[_surface_name(one.faces, face, "edge")] = edge_patch(one.faces[face], one.order, np.concatenate(points))
+        points = [
+            edge.points for edge in edges if edge.lower[0] == body and edge.lower_face == face
+        ]
+        found[_surface_name(one.faces, face, "edge")] = edge_patch(
+            one.faces[face], one.order, np.concatenate(points)
+        )
     return found
 
 
-def _touched(case, body: str, drawings: dict[str, Drawing], touching: dict[str, dict[str, Patch]], meetings: list[Meeting], edges: list[Edge]) -> dict[str, Patch]:
-    """Nodes of a body as master by the names of its surfaces, all copies together: those near which points of its slaves may come."""
+def _touched(
+    case,
+    body: str,
+    drawings: dict[str, Drawing],
+    touching: dict[str, dict[str, Patch]],
+    meetings: list[Meeting],
+    edges: list[Edge],
+) -> dict[str, Patch]:
+    """Nodes of a body as master by the names of its surfaces, all copies together: those near which
+    points of its slaves may come.
+    """
     zones, one = {}, drawings[body]
     for meeting in meetings:
         if meeting.master and meeting.master[0] == body:
             faces = drawings[meeting.slave[0]].faces
-            points = touching[meeting.slave[0]][_surface_name(faces, meeting.slave_face, "slave")].positions
-            zones.setdefault(meeting.master_face, set()).update(zones_of(case, meeting, faces[meeting.slave_face], points, one.faces[meeting.master_face]))
+            points = touching[meeting.slave[0]][
+                _surface_name(faces, meeting.slave_face, "slave")
+            ].positions
+            zones.setdefault(meeting.master_face, set()).update(
+                zones_of(
+                    case, meeting, faces[meeting.slave_face], points, one.faces[meeting.master_face]
+                )
+            )
     for edge in edges:
         if edge.upper[0] == body:
             zones.setdefault(edge.upper_face, set()).update(edge.zones)
-    return {_surface_name(one.faces, face, "master"): master_patch(one.faces[face], one.order, sorted(each)) for face, each in zones.items()}
+    return {
+        _surface_name(one.faces, face, "master"): master_patch(
+            one.faces[face], one.order, sorted(each)
+        )
+        for face, each in zones.items()
+    }
 
 
 def _surface_name(faces: list[Face], number: int, role: str) -> str:
-    """Name of a face: "foot", "head" or "face 3"; of a master with ", master", of the edge of one with ", edge", as its nodes are others."""
+    """Name of a face: "foot", "head" or "face 3"; of a master with ", master", of the edge of one
+    with ", edge", as its nodes are others.
+    """
     level = [k for k, face in enumerate(faces) if abs(face.normal[2]) > 1 - 1e-9]
-    bottom = min((k for k in level if faces[k].normal[2] < 0), key=lambda k: -faces[k].offset, default=None)
-    top = max((k for k in level if faces[k].normal[2] > 0), key=lambda k: faces[k].offset, default=None)
+    bottom = min(
+        (k for k in level if faces[k].normal[2] < 0), key=lambda k: -faces[k].offset, default=None
+    )
+    top = max(
+        (k for k in level if faces[k].normal[2] > 0), key=lambda k: faces[k].offset, default=None
+    )
     name = "foot" if number == bottom else "head" if number == top else f"face {number + 1}"
     return name if role == "slave" else f"{name}, {role}"

@@ -9,7 +9,9 @@ from fecolumn.mesh.column import divisions
 
 
 def fine_at_ends(length: float, fine: float, coarse: float) -> np.ndarray:
-    """Grid line (n,) from 0 to `length` [m] with steps near `fine` at both ends, growing to `coarse` in the middle."""
+    """Grid line (n,) from 0 to `length` [m] with steps near `fine` at both ends, growing to
+    `coarse` in the middle.
+    """
     if length <= 3 * fine:
         return np.linspace(0.0, length, max(2, divisions(length, fine)) + 1)
     half = np.concatenate([[fine], growing_steps(length / 2 - fine, fine, coarse)])
@@ -19,14 +21,21 @@ def fine_at_ends(length: float, fine: float, coarse: float) -> np.ndarray:
 
 def count_at_ends(length: float, fine: float, coarse: float) -> int:
     """Steps of `fine_at_ends`, told without making them."""
-    return max(2, divisions(length, fine)) if length <= 3 * fine else 2 + 2 * growing_count(length / 2 - fine, fine, coarse)
+    return (
+        max(2, divisions(length, fine))
+        if length <= 3 * fine
+        else 2 + 2 * growing_count(length / 2 - fine, fine, coarse)
+    )
 
 
 def fine_at_spots(length: float, spots, coarse: float) -> np.ndarray:
-    """Grid line (n,) from -length/2 to length/2 [m], fine in spots and growing to `coarse` between them.
+    """Grid line (n,) from -length/2 to length/2 [m], fine in spots and growing to `coarse` between
+    them.
 
-    Args:
-        spots: (low, high, size) [m] of each; those that meet or nearly do become one of the smaller size.
+    Parameters
+    ----------
+    spots
+        (low, high, size) [m] of each; those that meet or nearly do become one of the smaller size.
     """
     line = [-length / 2]
     for low, high, fine in _joined(spots, length):
@@ -35,7 +44,11 @@ def fine_at_spots(length: float, spots, coarse: float) -> np.ndarray:
         line += list(np.linspace(low, high, divisions(high - low, fine) + 1)[1:])
         last = fine
     if line[-1] < length / 2:
-        steps = growing_steps(length / 2 - line[-1], last, coarse) if len(line) > 1 else np.full(divisions(length, coarse), 1.0)
+        steps = (
+            growing_steps(length / 2 - line[-1], last, coarse)
+            if len(line) > 1
+            else np.full(divisions(length, coarse), 1.0)
+        )
         line += list(line[-1] + np.cumsum(steps) * ((length / 2 - line[-1]) / steps.sum()))
     line[-1] = length / 2
     return np.array(line)
@@ -46,15 +59,23 @@ def count_at_spots(length: float, spots, coarse: float) -> int:
     count, end = 0, -length / 2
     for low, high, fine in _joined(spots, length):
         if low > end:
-            count += 2 * growing_count((low - end) / 2, fine, coarse) if count else growing_count(low - end, fine, coarse)
+            count += (
+                2 * growing_count((low - end) / 2, fine, coarse)
+                if count
+                else growing_count(low - end, fine, coarse)
+            )
         count, end, last = count + divisions(high - low, fine), high, fine
     if end < length / 2:
-        count += growing_count(length / 2 - end, last, coarse) if count else divisions(length, coarse)
+        count += (
+            growing_count(length / 2 - end, last, coarse) if count else divisions(length, coarse)
+        )
     return count
 
 
 def _between(low: float, high: float, fine: float, coarse: float, from_spot: bool) -> np.ndarray:
-    """Places after `low` up to `high`, where a spot begins: steps that shrink towards it, and grow from a spot before."""
+    """Places after `low` up to `high`, where a spot begins: steps that shrink towards it, and grow
+    from a spot before.
+    """
     if not from_spot:
         steps = growing_steps(high - low, fine, coarse)[::-1]
     else:
@@ -66,14 +87,25 @@ def _between(low: float, high: float, fine: float, coarse: float, from_spot: boo
 
 
 def _joined(spots, length: float) -> list[tuple[float, float, float]]:
-    """Spots within the line by rising place, those joined that leave less than a step between them; slivers at the ends are taken in."""
+    """Spots within the line by rising place, those joined that leave less than a step between them;
+    slivers at the ends are taken in.
+    """
     found = []
-    for low, high, fine in sorted((max(low, -length / 2), min(high, length / 2), fine) for low, high, fine in spots):
+    for low, high, fine in sorted(
+        (max(low, -length / 2), min(high, length / 2), fine) for low, high, fine in spots
+    ):
         if high <= low:
             continue
         if found and low - found[-1][1] < fine:
             found[-1] = found[-1][0], max(high, found[-1][1]), min(fine, found[-1][2])
         else:
             found.append((low, high, fine))
-    ends = [(-length / 2 if low + length / 2 < fine / 2 else low, length / 2 if length / 2 - high < fine / 2 else high, fine) for low, high, fine in found]
+    ends = [
+        (
+            -length / 2 if low + length / 2 < fine / 2 else low,
+            length / 2 if length / 2 - high < fine / 2 else high,
+            fine,
+        )
+        for low, high, fine in found
+    ]
     return ends

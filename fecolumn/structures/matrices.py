@@ -19,7 +19,8 @@ from fecolumn.structures.model import BodyModel
 from fecolumn.structures.patches import Patch, face_weights
 from fecolumn.structures.reduction import top_face
 
-# Over the entries that it is measured by: how symmetric matrices must be, and how free of resistance to rigid motion
+# Over the entries that it is measured by: how symmetric matrices must be, and how free of
+# resistance to rigid motion
 _EXACT = 1e-6
 # Degrees of freedom up to which all modes are found at once
 _DENSE = 1000
@@ -27,7 +28,9 @@ _DENSE = 1000
 
 @dataclass(frozen=True, eq=False)
 class System:
-    """mass, stiffness: (N, N) [kg, N/m]; dofs: (n, 3) rows of x, y, z of each contact node; coordinates: (n, 3) [m]; triangles: (t, 3) of nodes."""
+    """mass, stiffness: (N, N) [kg, N/m]; dofs: (n, 3) rows of x, y, z of each contact node;
+    coordinates: (n, 3) [m]; triangles: (t, 3) of nodes.
+    """
 
     mass: sparse.csc_matrix
     stiffness: sparse.csc_matrix
@@ -45,8 +48,14 @@ class System:
         left, found = np.ones(len(normals), bool), []
         while left.any():
             first = np.argmax(left)
-            same = left & (np.linalg.norm(normals - normals[first], axis=1) < 10 * SAME_PLANE) & (np.abs(offsets - offsets[first]) < SAME_PLANE * size)
-            found.append(Face(0, normals[first], float(offsets[first]), self.triangles[same], corners[same]))
+            same = (
+                left
+                & (np.linalg.norm(normals - normals[first], axis=1) < 10 * SAME_PLANE)
+                & (np.abs(offsets - offsets[first]) < SAME_PLANE * size)
+            )
+            found.append(
+                Face(0, normals[first], float(offsets[first]), self.triangles[same], corners[same])
+            )
             left &= ~same
         return sorted(found, key=lambda face: -face.area)
 
@@ -54,24 +63,44 @@ class System:
 def read_system(key: str, body: Matrices, file) -> System:
     """Matrices and nodes of a body's files.
 
-    Raises:
-        InputError: files that cannot be read, or whose matrices and nodes do not fit one another.
+    Raises
+    ------
+    InputError
+        files that cannot be read, or whose matrices and nodes do not fit one another.
     """
+
     def refuse(name, allowed):
         raise InputError(file, f"{key}.{name}", getattr(body, name), allowed)
 
     found = {}
     for name in ("mass", "stiffness"):
-        matrix = _matrix(getattr(body, f"{name}_file"), name, lambda allowed: refuse(f"{name}_file", allowed))
-        if matrix.shape[0] != matrix.shape[1] or abs(matrix - matrix.T).max() > _EXACT * abs(matrix).max():
-            refuse(f"{name}_file", f"must hold a symmetric matrix; has {matrix.shape[0]} rows and {matrix.shape[1]} columns, and entries that differ")
+        matrix = _matrix(
+            getattr(body, f"{name}_file"), name, lambda allowed: refuse(f"{name}_file", allowed)
+        )
+        if (
+            matrix.shape[0] != matrix.shape[1]
+            or abs(matrix - matrix.T).max() > _EXACT * abs(matrix).max()
+        ):
+            refuse(
+                f"{name}_file",
+                f"must hold a symmetric matrix; has {matrix.shape[0]} rows and "
+                f"{matrix.shape[1]} columns, and entries that differ",
+            )
         found[name] = matrix
     if found["mass"].shape != found["stiffness"].shape:
-        refuse("stiffness_file", f"must have as many rows as mass_file, {found['mass'].shape[0]}, has {found['stiffness'].shape[0]}")
-    dofs, coordinates, triangles = _nodes(body.nodes_file, lambda allowed: refuse("nodes_file", allowed))
+        refuse(
+            "stiffness_file",
+            f"must have as many rows as mass_file, {found['mass'].shape[0]}, has "
+            f"{found['stiffness'].shape[0]}",
+        )
+    dofs, coordinates, triangles = _nodes(
+        body.nodes_file, lambda allowed: refuse("nodes_file", allowed)
+    )
     rows = found["mass"].shape[0]
     if len(np.unique(dofs)) < dofs.size or dofs.min() < 0 or dofs.max() >= rows:
-        refuse("nodes_file", f"its dofs must be different rows of the matrices, from 0 to {rows - 1}")
+        refuse(
+            "nodes_file", f"its dofs must be different rows of the matrices, from 0 to {rows - 1}"
+        )
     if triangles is None:
         triangles = _hull(coordinates, lambda allowed: refuse("nodes_file", allowed))
     return System(found["mass"], found["stiffness"], dofs, coordinates, triangles)
@@ -98,9 +127,16 @@ def _nodes(path: str, refuse):
                 dofs, coordinates = arrays["dofs"], np.asarray(arrays["coordinates"], float)
                 triangles = arrays["triangles"].astype(np.int64) if "triangles" in arrays else None
         else:
-            table = np.loadtxt(path, delimiter="," if Path(path).suffix == ".csv" else None, ndmin=2)
+            table = np.loadtxt(
+                path, delimiter="," if Path(path).suffix == ".csv" else None, ndmin=2
+            )
             dofs, coordinates, triangles = table[:, :3], table[:, 3:6], None
-        if dofs.shape != coordinates.shape or dofs.shape[1:] != (3,) or not np.all(np.isfinite(coordinates)) or np.any(dofs != np.rint(dofs)):
+        if (
+            dofs.shape != coordinates.shape
+            or dofs.shape[1:] != (3,)
+            or not np.all(np.isfinite(coordinates))
+            or np.any(dofs != np.rint(dofs))
+        ):
             refuse("must hold six numbers a node: three whole rows and three finite coordinates")
         return dofs.astype(np.int64), coordinates, triangles
     except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
@@ -108,14 +144,18 @@ def _nodes(path: str, refuse):
 
 
 def _hull(coordinates: np.ndarray, refuse) -> np.ndarray:
-    """Triangles (t, 3) of nodes: every plane face of their convex hull, with the nodes that lie inside it."""
+    """Triangles (t, 3) of nodes: every plane face of their convex hull, with the nodes that lie
+    inside it.
+    """
     try:
         hull = ConvexHull(coordinates)
     except QhullError:
         refuse("its nodes must not lie in one plane: give the triangles of its faces")
     size, found, done = np.ptp(coordinates, axis=0).max(), [], []
     for *normal, offset in hull.equations:
-        if any(np.abs(np.array([*normal, offset / size]) - plane).max() < SAME_PLANE for plane in done):
+        if any(
+            np.abs(np.array([*normal, offset / size]) - plane).max() < SAME_PLANE for plane in done
+        ):
             continue
         done.append(np.array([*normal, offset / size]))
         nodes = np.flatnonzero(np.abs(coordinates @ normal + offset) < SAME_PLANE * size)
@@ -129,14 +169,20 @@ def _hull(coordinates: np.ndarray, refuse) -> np.ndarray:
     return np.concatenate(found)
 
 
-def matrices_model(system: System, faces: list[Face], patches: dict[str, Patch], n_modes: int, refuse) -> BodyModel:
-    """Reduce a body given by its matrices, as `reduction.elastic_model` does one of finite elements.
+def matrices_model(
+    system: System, faces: list[Face], patches: dict[str, Patch], n_modes: int, refuse
+) -> BodyModel:
+    """Reduce a body given by its matrices, as `reduction.elastic_model` does one of finite
+    elements.
 
-    Six degrees of freedom of contact nodes are held, which no rigid motion leaves at rest: with them K has an inverse. Rigid motions are what K
-    answers to them; inertia relief frees the response again, and is the operator whose largest values are the lowest modes.
+    Six degrees of freedom of contact nodes are held, which no rigid motion leaves at rest: with
+    them K has an inverse. Rigid motions are what K answers to them; inertia relief frees the
+    response again, and is the operator whose largest values are the lowest modes.
 
-    Args:
-        refuse: told what is wrong with the matrices.
+    Parameters
+    ----------
+    refuse
+        told what is wrong with the matrices.
     """
     mass, stiffness, dofs = system.mass, system.stiffness, system.dofs
     size = mass.shape[0]
@@ -154,14 +200,23 @@ def matrices_model(system: System, faces: list[Face], patches: dict[str, Patch],
     rigid[free] = factor.solve(-(stiffness[free][:, held] @ rigid[held]))
     scale = np.abs(known).max(axis=0)
     if (np.abs(rigid[dofs.ravel()] - known) / scale).max() > _EXACT:
-        refuse("its stiffness resists rigid motion of the contact nodes: nothing may hold the body, and their coordinates must be in its unit of length")
+        refuse(
+            "its stiffness resists rigid motion of the contact nodes: nothing may hold "
+            "the body, and their coordinates must be in its unit of length"
+        )
     masses = rigid.T @ (mass @ rigid)
     total = np.trace(masses[:3, :3]) / 3
     if np.abs(masses[:3, :3] - total * np.eye(3)).max() > 1e-3 * total:
-        refuse(f"its mass must be the same along x, y and z: {', '.join(f'{value:.6g}' for value in np.diag(masses)[:3])} kg")
+        refuse(
+            "its mass must be the same along x, y and z: "
+            f"{', '.join(f'{value:.6g}' for value in np.diag(masses)[:3])} kg"
+        )
     # x cross y of the first moments: m (c x e_j) in the rows of rotation
     first = masses[3:, :3] / total
-    center = np.array([first[2, 1] - first[1, 2], first[0, 2] - first[2, 0], first[1, 0] - first[0, 1]]) / 2
+    center = (
+        np.array([first[2, 1] - first[1, 2], first[0, 2] - first[2, 0], first[1, 0] - first[0, 1]])
+        / 2
+    )
     shift = np.eye(6)
     shift[:3, 3:] = _cross(center)
     rigid = rigid @ shift
@@ -177,7 +232,9 @@ def matrices_model(system: System, faces: list[Face], patches: dict[str, Patch],
         moved[free] = factor.solve(np.ascontiguousarray(forces[free]))
         return elastic(moved)
 
-    nodes = _rows(system.coordinates, np.concatenate([patch.positions for patch in patches.values()]))
+    nodes = _rows(
+        system.coordinates, np.concatenate([patch.positions for patch in patches.values()])
+    )
     kept, n = np.unique(nodes), len(np.unique(nodes))
     loads = np.zeros((size, 3 * n))
     loads[dofs[kept].ravel(), np.arange(3 * n)] = 1.0
@@ -187,10 +244,22 @@ def matrices_model(system: System, faces: list[Face], patches: dict[str, Patch],
     top = fields[dofs[_rows(system.coordinates, positions)]]
     center = middle + center
     return BodyModel(
-        total, masses[3:, 3:], center, np.sqrt(squares), np.ascontiguousarray(fields[dofs[kept]]),
-        ((flexibility + flexibility.T) / 2).reshape(n, 3, n, 3).transpose(0, 2, 1, 3).copy(), system.coordinates[kept] - center, size,
-        {name: patch.surface(np.searchsorted(kept, _rows(system.coordinates, patch.positions)), center) for name, patch in patches.items()},
-        {"top": (weights @ positions - center, np.einsum("i,iam->am", weights, top))})
+        total,
+        masses[3:, 3:],
+        center,
+        np.sqrt(squares),
+        np.ascontiguousarray(fields[dofs[kept]]),
+        ((flexibility + flexibility.T) / 2).reshape(n, 3, n, 3).transpose(0, 2, 1, 3).copy(),
+        system.coordinates[kept] - center,
+        size,
+        {
+            name: patch.surface(
+                np.searchsorted(kept, _rows(system.coordinates, patch.positions)), center
+            )
+            for name, patch in patches.items()
+        },
+        {"top": (weights @ positions - center, np.einsum("i,iam->am", weights, top))},
+    )
 
 
 def _modes(mass, stiffness, response, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -200,21 +269,32 @@ def _modes(mass, stiffness, response, count: int) -> tuple[np.ndarray, np.ndarra
         return np.zeros(0), np.zeros((size, 0))
     if size <= _DENSE or count > size // 3:
         squares, shapes = eigh(stiffness.toarray(), mass.toarray())
-        return squares[6:6 + count], shapes[:, 6:6 + count]
-    inverse = LinearOperator((size, size), matvec=lambda force: response(force.reshape(-1, 1)).ravel(), dtype=float)
+        return squares[6 : 6 + count], shapes[:, 6 : 6 + count]
+    inverse = LinearOperator(
+        (size, size), matvec=lambda force: response(force.reshape(-1, 1)).ravel(), dtype=float
+    )
     squares, shapes = eigsh(stiffness, count, mass, sigma=0.0, OPinv=inverse, which="LM")
     order = np.argsort(squares)
     return squares[order], shapes[:, order]
 
 
 def _rigid(arms: np.ndarray) -> np.ndarray:
-    """Rigid motions (3 n, 6) of points with arms (n, 3): translations, and rotations about the origin."""
-    return np.concatenate([np.tile(np.eye(3), (len(arms), 1)),
-                           np.stack([np.cross(axis, arms).ravel() for axis in np.eye(3)], axis=1)], axis=1)
+    """Rigid motions (3 n, 6) of points with arms (n, 3): translations, and rotations about the
+    origin.
+    """
+    return np.concatenate(
+        [
+            np.tile(np.eye(3), (len(arms), 1)),
+            np.stack([np.cross(axis, arms).ravel() for axis in np.eye(3)], axis=1),
+        ],
+        axis=1,
+    )
 
 
 def _cross(center: np.ndarray) -> np.ndarray:
-    """Translations by which rotations about the origin become rotations about `center`: -e_j x center in column j."""
+    """Translations by which rotations about the origin become rotations about `center`: -e_j x
+    center in column j.
+    """
     return -np.stack([np.cross(axis, center) for axis in np.eye(3)], axis=1)
 
 

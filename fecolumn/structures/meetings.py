@@ -26,8 +26,9 @@ _OFF_MIDDLE = np.array([0.41, 0.29, 0.17, 0.13])
 class Meeting:
     """A face of a slave on a face of a master.
 
-    interface: name of it. slave, master: body and number of its copy, master None for the ground. slave_face, master_face: places of the faces
-    in the lists of their bodies, master_face -1 of the ground.
+    interface: name of it. slave, master: body and number of its copy, master None for the ground.
+    slave_face, master_face: places of the faces in the lists of their bodies, master_face -1 of the
+    ground.
     """
 
     interface: str
@@ -40,10 +41,14 @@ class Meeting:
 def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
     """Meetings of all interfaces of a case, in its order.
 
-    Raises:
-        InputError: an interface whose bodies do not touch, or leave a gap or overlap.
+    Raises
+    ------
+    InputError
+        an interface whose bodies do not touch, or leave a gap or overlap.
     """
-    return [meeting for name in case.interfaces for meeting in _of_interface(case, name, faces, file)]
+    return [
+        meeting for name in case.interfaces for meeting in _of_interface(case, name, faces, file)
+    ]
 
 
 def _of_interface(case, name: str, faces, file) -> list[Meeting]:
@@ -55,7 +60,9 @@ def _of_interface(case, name: str, faces, file) -> list[Meeting]:
         for master in masters:
             if master == slave:
                 continue
-            meetings, gaps = _of_pair(case, name, slave, master, faces, master in slaves and slave in masters)
+            meetings, gaps = _of_pair(
+                case, name, slave, master, faces, master in slaves and slave in masters
+            )
             found += meetings
             if not meetings and gaps:
                 gap, width, face = min(gaps, key=lambda one: abs(one[0]))
@@ -63,13 +70,27 @@ def _of_interface(case, name: str, faces, file) -> list[Meeting]:
     touching = {(meeting.slave, meeting.slave_face) for meeting in found}
     if near := [one for one in near if (one[1], one[3]) not in touching]:
         gap, slave, master, _ = min(near, key=lambda one: abs(one[0]))
-        raise InputError(file, f"interfaces.{name}", None, f'"{_name(case, slave)}" and {_quoted(case, master)} {_gap_text(gap)}: their faces must coincide at the start')
+        raise InputError(
+            file,
+            f"interfaces.{name}",
+            None,
+            f'"{_name(case, slave)}" and {_quoted(case, master)} {_gap_text(gap)}: '
+            "their faces must coincide at the start",
+        )
     if not found:
         told = "no faces of theirs look at one another"
         if far:
             gap, slave, master, _ = min(far, key=lambda one: abs(one[0]))
-            told = f'the nearest faces, of "{_name(case, slave)}" and {_quoted(case, master)}, {_gap_text(gap)}'
-        raise InputError(file, f"interfaces.{name}", None, f'"{interface.slave}" does not touch "{interface.on}" at the start: {told}')
+            told = (
+                f'the nearest faces, of "{_name(case, slave)}" and {_quoted(case, master)}, '
+                f"{_gap_text(gap)}"
+            )
+        raise InputError(
+            file,
+            f"interfaces.{name}",
+            None,
+            f'"{interface.slave}" does not touch "{interface.on}" at the start: {told}',
+        )
     return found
 
 
@@ -98,19 +119,36 @@ def place_of(case, copy: tuple[str, int]) -> np.ndarray:
 def allowance_of(interface, face: Face) -> float:
     """How far [m] a slave with this face may slide."""
     box = plane_box(face)
-    return min(box[1] - box[0], box[3] - box[2]) / 4 if interface.allowance_m is None else interface.allowance_m
+    return (
+        min(box[1] - box[0], box[3] - box[2]) / 4
+        if interface.allowance_m is None
+        else interface.allowance_m
+    )
 
 
-def zones_of(case, meeting: Meeting, slave: Face, points: np.ndarray, master: Face) -> list[tuple[float, ...]]:
-    """Zones (start 1, start 2, end 1, end 2, way) [m] of the master's face, along its tangents in its drawing, in which points of the slave stand and may come: as far
-    as it may slide around each side of its outlines, along which a rim's points roll, and around each of its contact points (k, 3) [m]."""
-    allowance, shift = allowance_of(case.interfaces[meeting.interface], slave), place_of(case, meeting.slave) - place_of(case, meeting.master)
-    spans = (np.concatenate([slave.outline, np.stack([points, points], axis=1)]) + shift) @ master.axes[:, :2]
+def zones_of(
+    case, meeting: Meeting, slave: Face, points: np.ndarray, master: Face
+) -> list[tuple[float, ...]]:
+    """Zones (start 1, start 2, end 1, end 2, way) [m] of the master's face, along its tangents in
+    its drawing, in which points of the slave stand and may come: as far as it may slide around each
+    side of its outlines, along which a rim's points roll, and around each of its contact points (k,
+    3) [m].
+    """
+    allowance, shift = (
+        allowance_of(case.interfaces[meeting.interface], slave),
+        place_of(case, meeting.slave) - place_of(case, meeting.master),
+    )
+    spans = (
+        np.concatenate([slave.outline, np.stack([points, points], axis=1)]) + shift
+    ) @ master.axes[:, :2]
     return [(*start, *end, allowance) for start, end in spans.tolist()]
 
 
-def _of_pair(case, name: str, slave, master, faces, twice: bool) -> tuple[list[Meeting], list[tuple[float, float, int]]]:
-    """Meetings of two copies; and gap, slave's width [m] and slave's face of those faces that look at one another elsewhere.
+def _of_pair(
+    case, name: str, slave, master, faces, twice: bool
+) -> tuple[list[Meeting], list[tuple[float, float, int]]]:
+    """Meetings of two copies; and gap, slave's width [m] and slave's face of those faces that look
+    at one another elsewhere.
 
     twice: the two are looked at the other way round, too, so that of two faces one way is left out.
     """
@@ -129,23 +167,29 @@ def _of_pair(case, name: str, slave, master, faces, twice: bool) -> tuple[list[M
             continue
         offset = place - place_of(case, master)
         for other_number, other in enumerate(faces[master[0]]):
-            if np.linalg.norm(face.normal + other.normal) > _OPPOSITE or (twice and not _is_upper(face, slave, master)):
+            if np.linalg.norm(face.normal + other.normal) > _OPPOSITE or (
+                twice and not _is_upper(face, slave, master)
+            ):
                 continue
             gap = -(face.offset + face.normal @ offset) - other.offset
             corners = (face.corners + offset) @ other.axes[:, :2]
             if not _overlap(face, corners, other):
                 continue
             if abs(gap) <= SAME_PLANE * width:
-                found.append(_meeting(case, name, (slave, number, face), (master, other_number, other)))
+                found.append(
+                    _meeting(case, name, (slave, number, face), (master, other_number, other))
+                )
             else:
                 gaps.append((gap, width, number))
     return found, gaps
 
 
 def _meeting(case, name: str, one, other) -> Meeting:
-    """The meeting of two faces, each (copy, number, Face): the slave is the smaller one, of equal ones the upper.
+    """The meeting of two faces, each (copy, number, Face): the slave is the smaller one, of equal
+    ones the upper.
 
-    Which body an interface names first decides nothing, so that the same structure moves alike however it is written.
+    Which body an interface names first decides nothing, so that the same structure moves alike
+    however it is written.
     """
     (copy, number, face), (other_copy, other_number, other_face) = one, other
     larger = face.area - other_face.area
@@ -169,7 +213,9 @@ def _is_upper(face: Face, slave, master) -> bool:
 
 
 def _overlap(face: Face, corners: np.ndarray, other: Face) -> bool:
-    """Whether a face, its corners (n, 4 or 3, 2) [m] in the plane of another, lies over part of that, more than an edge."""
+    """Whether a face, its corners (n, 4 or 3, 2) [m] in the plane of another, lies over part of
+    that, more than an edge.
+    """
     plane = other.corners @ other.axes[:, :2]
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     other_low, other_high = plane.min(axis=(0, 1)), plane.max(axis=(0, 1))
@@ -178,9 +224,12 @@ def _overlap(face: Face, corners: np.ndarray, other: Face) -> bool:
         return False
 
     def tried(quads):
-        # besides a point off the middle: corners and middles may all lie on edges of the other's elements
-        shares = _OFF_MIDDLE[:quads.shape[1]] / _OFF_MIDDLE[:quads.shape[1]].sum()
-        return np.concatenate([quads.reshape(-1, 2), quads.mean(axis=1), np.einsum("k,nka->na", shares, quads)])
+        # besides a point off the middle: corners and middles may all lie on edges of the other's
+        # elements
+        shares = _OFF_MIDDLE[: quads.shape[1]] / _OFF_MIDDLE[: quads.shape[1]].sum()
+        return np.concatenate(
+            [quads.reshape(-1, 2), quads.mean(axis=1), np.einsum("k,nka->na", shares, quads)]
+        )
 
     mine, theirs = (triangles_of(quads) for quads in (corners, plane))
     return bool(over(tried(corners), theirs, edge).any() or over(tried(plane), mine, edge).any())

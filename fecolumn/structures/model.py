@@ -1,9 +1,12 @@
-"""What an engine needs of a structure: bodies reduced to their contact surfaces, how they stand on one another, what links them.
+"""What an engine needs of a structure: bodies reduced to their contact surfaces, how they stand on
+one another, what links them.
 
-Plain numbers in SI units, independent of the time step. Copies of a body share one `BodyModel` object.
+Plain numbers in SI units, independent of the time step. Copies of a body share one `BodyModel`
+object.
 
-Frames: the table frame, z up, in which the ground rests; the frame of a body, axes parallel to the table's in the drawing the body was made
-from, arms measured from its centre of mass. `Part.rotation` turns the one into the other.
+Frames: the table frame, z up, in which the ground rests; the frame of a body, axes parallel to the
+table's in the drawing the body was made from, arms measured from its centre of mass.
+`Part.rotation` turns the one into the other.
 """
 
 from __future__ import annotations
@@ -20,12 +23,11 @@ GROUND = -1
 class Surface:
     """One plane face of a body where it may touch another, in the body's frame.
 
-    nodes: (k,) rows among the model's nodes.
-    origin: (3,) [m] a point of the plane, from the centre of mass.
-    axes: (3, 3) columns: two tangents and the normal out of the body, right-handed.
-    areas: (k,) [m2] tributary to the nodes.
-    outlines: (k,) mask of the nodes on the outlines of the face.
-    triangles: (t, 3) places in `nodes`: the face in triangles, holes left out, counter-clockwise seen from outside; how a master finds what
+    nodes: (k,) rows among the model's nodes. origin: (3,) [m] a point of the plane, from the centre
+    of mass. axes: (3, 3) columns: two tangents and the normal out of the body, right-handed. areas:
+    (k,) [m2] tributary to the nodes. outlines: (k,) mask of the nodes on the outlines of the face.
+    triangles: (t, 3) places in `nodes`: the face in triangles, holes left out, counter-clockwise
+    seen from outside; how a master finds what
         lies on it. (0, 3) where the surface is never a master.
     """
 
@@ -42,7 +44,9 @@ class Surface:
         return self.axes[:, 2]
 
     def plane(self, arms: np.ndarray) -> np.ndarray:
-        """Coordinates (..., 3) [m] along tangents and normal of points with arms (..., 3) [m] in the body's frame."""
+        """Coordinates (..., 3) [m] along tangents and normal of points with arms (..., 3) [m] in
+        the body's frame.
+        """
         return (arms - self.origin) @ self.axes
 
 
@@ -50,8 +54,9 @@ class Surface:
 class Storeys:
     """What the modes of a building say of its storeys, from below, along x and y of the body.
 
-    drifts: (n, 2, m) [1/sqrt(kg)] displacement of each floor relative to the one below it, without what the slab's tilt adds.
-    stiffness: (n, 2) [N/m]: a storey's shear is its stiffness times its drift.
+    drifts: (n, 2, m) [1/sqrt(kg)] displacement of each floor relative to the one below it, without
+    what the slab's tilt adds. stiffness: (n, 2) [N/m]: a storey's shear is its stiffness times its
+    drift.
     """
 
     drifts: np.ndarray
@@ -60,18 +65,21 @@ class Storeys:
 
 @dataclass(frozen=True)
 class BodyModel:
-    """A body reduced to the nodes of all its surfaces, in its own frame, arms measured from the centre of mass.
+    """A body reduced to the nodes of all its surfaces, in its own frame, arms measured from the
+    centre of mass.
 
-    mass [kg]; inertia: (3, 3) [kg m2] about the centre of mass; center: (3,) [m] of mass in the drawing of the body.
-    frequencies: (m,) [rad/s], rising, of the free-free elastic modes with unit modal mass; shapes: (n, 3, m) [1/sqrt(kg)] at the nodes.
-    flexibility: (n, n, 3, 3) [m/N] of the nodes by all elastic modes, the exact static one of the free body; zero of a body that does not deform.
-    arms: (n, 3) [m] of the nodes.
-    dofs: of the mesh it was made from, 0 where there was none.
-    surfaces: by name, such as "foot" and "head".
-    marks: points observed, by name: arm (3,) [m] and shape (3, m) [1/sqrt(kg)]; "top" is the mean over the highest face, "floor 1" ... and "storey 1" ... those of a
+    mass [kg]; inertia: (3, 3) [kg m2] about the centre of mass; center: (3,) [m] of mass in the
+    drawing of the body. frequencies: (m,) [rad/s], rising, of the free-free elastic modes with unit
+    modal mass; shapes: (n, 3, m) [1/sqrt(kg)] at the nodes. flexibility: (n, n, 3, 3) [m/N] of the
+    nodes by all elastic modes, the exact static one of the free body; zero of a body that does not
+    deform. arms: (n, 3) [m] of the nodes. dofs: of the mesh it was made from, 0 where there was
+    none. surfaces: by name, such as "foot" and "head". marks: points observed, by name: arm (3,)
+    [m] and shape (3, m) [1/sqrt(kg)]; "top" is the mean over the highest face, "floor 1" ... and
+    "storey 1" ... those of a
         building.
-    damping: (m,) ratios of the modes where the body brings its own, as `storeys` with Rayleigh damping do; None where `Part.damping_ratio` says all.
-    storeys: of a building, None of any other body.
+    damping: (m,) ratios of the modes where the body brings its own, as `storeys` with Rayleigh
+    damping do; None where `Part.damping_ratio` says all. storeys: of a building, None of any other
+    body.
     """
 
     mass: float
@@ -93,11 +101,23 @@ class BodyModel:
         return self.arms + self.center
 
     def with_modes(self, count: int) -> BodyModel:
-        """The body with its `count` lowest elastic modes, or all it has; the others stay in the flexibility."""
-        return replace(self, frequencies=self.frequencies[:count], shapes=np.ascontiguousarray(self.shapes[:, :, :count]),
-                       marks={name: (arm, np.ascontiguousarray(shape[:, :count])) for name, (arm, shape) in self.marks.items()},
-                       damping=None if self.damping is None else self.damping[:count],
-                       storeys=self.storeys and replace(self.storeys, drifts=np.ascontiguousarray(self.storeys.drifts[:, :, :count])))
+        """The body with its `count` lowest elastic modes, or all it has; the others stay in the
+        flexibility.
+        """
+        return replace(
+            self,
+            frequencies=self.frequencies[:count],
+            shapes=np.ascontiguousarray(self.shapes[:, :, :count]),
+            marks={
+                name: (arm, np.ascontiguousarray(shape[:, :count]))
+                for name, (arm, shape) in self.marks.items()
+            },
+            damping=None if self.damping is None else self.damping[:count],
+            storeys=self.storeys
+            and replace(
+                self.storeys, drifts=np.ascontiguousarray(self.storeys.drifts[:, :, :count])
+            ),
+        )
 
     def undeformed(self) -> BodyModel:
         """The body without modes and without any give."""
@@ -108,10 +128,11 @@ class BodyModel:
 class Part:
     """A body in its place at the start.
 
-    name: such as "slab", or "column 2" of copies. model: the same object for all copies.
-    center: (3,) [m] place of the centre of mass in the table frame; rotation: (3, 3) of the body's frame into the table's.
-    damping_ratio: (m,) or one number, of the elastic modes kept; rigid motion is never damped.
-    velocity: (3,) [m/s] of the centre of mass relative to the ground; spin: (3,) [rad/s] in the table frame.
+    name: such as "slab", or "column 2" of copies. model: the same object for all copies. center:
+    (3,) [m] place of the centre of mass in the table frame; rotation: (3, 3) of the body's frame
+    into the table's. damping_ratio: (m,) or one number, of the elastic modes kept; rigid motion is
+    never damped. velocity: (3,) [m/s] of the centre of mass relative to the ground; spin: (3,)
+    [rad/s] in the table frame.
     """
 
     name: str
@@ -125,11 +146,15 @@ class Part:
 
 @dataclass(frozen=True)
 class Ball:
-    """A slave's foot that is not flat: its nodes are the centres of balls with which it touches, see `contact.ball`.
+    """A slave's foot that is not flat: its nodes are the centres of balls with which it touches,
+    see `contact.ball`.
 
-    radius: [m]. edge: (2,) [m] of a dome, which is a part of one ball: the radius of the circle where it ends and 0, or half the sides of a rectangle. The
-        surface then has one node, the centre of the ball, which moves as the foot does on the mean; the two rows after it are the foot's tilts,
-        by which its places along x and y move. (0, 0) where each node is the centre of a ball of its own.
+    radius: [m]. edge: (2,) [m] of a dome, which is a part of one ball: the radius of the circle
+    where it ends and 0, or half the sides of a rectangle. The
+        surface then has one node, the centre of the ball, which moves as the foot does on the mean;
+            the two rows after it are the foot's tilts,
+        by which its places along x and y move. (0, 0) where each node is the centre of a ball of
+            its own.
     """
 
     radius: float
@@ -145,14 +170,17 @@ class Ball:
 class Joint:
     """A surface of one body on a surface of another, or on the ground: it may open, slide and roll.
 
-    slave: place among the parts of the body whose nodes are the contact points, slave_surface of it with k nodes; a column is slave at its foot on
+    slave: place among the parts of the body whose nodes are the contact points, slave_surface of it
+    with k nodes; a column is slave at its foot on
         the ground and at its head below a slab, of two blocks the upper one is.
-    master: place of the other part, or GROUND; master_surface: None of the ground.
-    friction: Coulomb's coefficient. law: (k, 3) [m/N] compliance of the contact law at each point, zero for a rigid interface.
-    round: whether the slave's outer outline is a round rim, on which it rolls. restitution: velocity after over before an impact.
-    ball: of a slave whose foot is not flat.
-    pair, corners: of a joint with the roles exchanged, by which a joint has two sides: place of the joint that it belongs to, -1 of
-        others; (n, 3), (m, 3) [m] corners of the outlines of the slave's and the master's face from the centres of mass,
+    master: place of the other part, or GROUND; master_surface: None of the ground. friction:
+    Coulomb's coefficient. law: (k, 3) [m/N] compliance of the contact law at each point, zero for a
+    rigid interface. round: whether the slave's outer outline is a round rim, on which it rolls.
+    restitution: velocity after over before an impact. ball: of a slave whose foot is not flat.
+    pair, corners: of a joint with the roles exchanged, by which a joint has two sides: place of the
+    joint that it belongs to, -1 of
+        others; (n, 3), (m, 3) [m] corners of the outlines of the slave's and the master's face from
+            the centres of mass,
         counter-clockwise seen from outside.
     """
 
@@ -172,18 +200,24 @@ class Joint:
 
 @dataclass(frozen=True)
 class Link:
-    """A tendon, spring, dashpot or restrainer between a point of one part and a point of another or of the ground.
+    """A tendon, spring, dashpot or restrainer between a point of one part and a point of another or
+    of the ground.
 
-    Its elongation e [m] is the distance of the points less its unstressed length: that as the structure stands upright, less prestress / stiffness. Its force [N],
-    positive in tension, is stiffness (e - y) + damping de/dt, the spring's part of it only beyond the slack and only where it pulls or pushes; y is what has
-    yielded: where the spring's part would exceed yield_n it stays there and y grows, or shrinks under compression (elastic, perfectly plastic, no hardening).
+    Its elongation e [m] is the distance of the points less its unstressed length: that as the
+    structure stands upright, less prestress / stiffness. Its force [N], positive in tension, is
+    stiffness (e - y) + damping de/dt, the spring's part of it only beyond the slack and only where
+    it pulls or pushes; y is what has yielded: where the spring's part would exceed yield_n it stays
+    there and y grows, or shrinks under compression (elastic, perfectly plastic, no hardening).
 
-    kind: "tendon", "spring", "dashpot" or "restrainer".
-    a: place of a part; arm_a: (3,) [m] in its frame from its centre of mass. b: place of another part, or GROUND; arm_b: (3,) [m] likewise, in the
+    kind: "tendon", "spring", "dashpot" or "restrainer". a: place of a part; arm_a: (3,) [m] in its
+    frame from its centre of mass. b: place of another part, or GROUND; arm_b: (3,) [m] likewise, in
+    the
         table frame for the ground.
-    stiffness [N/m]; damping [N s/m]; prestress [N] at the start; slack [m] of elongation to each side before the spring acts.
-    pushes, pulls: whether it takes compression, tension. yield_n [N]: force at which it yields, breaking_n [N]: at which it breaks for good, of one that
-        yields at the elongation at which it would have that force had it not; both infinite where it never does.
+    stiffness [N/m]; damping [N s/m]; prestress [N] at the start; slack [m] of elongation to each
+    side before the spring acts. pushes, pulls: whether it takes compression, tension. yield_n [N]:
+    force at which it yields, breaking_n [N]: at which it breaks for good, of one that
+        yields at the elongation at which it would have that force had it not; both infinite where
+            it never does.
     """
 
     name: str
@@ -207,8 +241,8 @@ class StructureModel:
     """A structure at its start.
 
     parts, joints, links: in the order of the case; joints and links name parts by their places.
-    base: what the ground is to those that stand on it, as `contact.unbounded_base.rigid_base` makes it.
-    observed: place of the part and name of its mark whose horizontal displacement is u_top.
+    base: what the ground is to those that stand on it, as `contact.unbounded_base.rigid_base` makes
+    it. observed: place of the part and name of its mark whose horizontal displacement is u_top.
     """
 
     parts: tuple[Part, ...]

@@ -1,4 +1,6 @@
-"""What is watched of a structure in full order: the columns that the reduced engine writes, of the bodies' mean motion and the tops' nodes."""
+"""What is watched of a structure in full order: the columns that the reduced engine writes, of the
+bodies' mean motion and the tops' nodes.
+"""
 
 from __future__ import annotations
 
@@ -15,17 +17,30 @@ from fecolumn.structures.analysis import of_both_sides
 class StructureObserver:
     """Measures states of a System of many bodies.
 
-    Args:
-        system: of `dynamics.structure.structure_system`. meshed: `elements.Meshed` of each part. structure: StructureModel, as it stands upright: displacements are
-            measured from there. cap: horizontal displacement of the observed mark that counts as overturned [m], 0 for none.
+    Parameters
+    ----------
+    system
+        of `dynamics.structure.structure_system`.
+    meshed
+        `elements.Meshed` of each part.
+    structure
+        StructureModel, as it stands upright: displacements are measured from there.
+    cap
+        horizontal displacement of the observed mark that counts as overturned [m], 0 for none.
     """
 
     def __init__(self, system, meshed: list, structure, cap: float):
         self.system, self.structure, self._meshed = system, structure, meshed
         self.body, self._mark = structure.observed
         part = structure.parts[self.body]
-        self.stance, self.top_arm = never_alone(part.model.inertia, system.weight, cap), part.model.marks[self._mark][0]
-        self._centers, upright = (np.array([getattr(part, name) for part in structure.parts]) for name in ("center", "rotation"))
+        self.stance, self.top_arm = (
+            never_alone(part.model.inertia, system.weight, cap),
+            part.model.marks[self._mark][0],
+        )
+        self._centers, upright = (
+            np.array([getattr(part, name) for part in structure.parts])
+            for name in ("center", "rotation")
+        )
         reference = poses_of(system.interface.interfaces, self._centers, upright)
         self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
         standing = [joint for joint in structure.joints if joint.slave == self.body]
@@ -33,36 +48,85 @@ class StructureObserver:
         self._foot_arm = part.model.arms[nodes].mean(axis=0) if standing else np.zeros(3)
 
     def measure(self, state) -> dict:
-        """Measures of a state by the names of the history file, in SI units; as `analysis.columns_of` tells them."""
-        system, structure, interface, R = self.system, self.structure, self.system.interface, state.rotation
-        moved, forces, own = system.column.centers(state.x) - self._centers, state.forces, R[self.body]
+        """Measures of a state by the names of the history file, in SI units; as
+        `analysis.columns_of` tells them.
+        """
+        system, structure, interface, R = (
+            self.system,
+            self.structure,
+            self.system.interface,
+            state.rotation,
+        )
+        moved, forces, own = (
+            system.column.centers(state.x) - self._centers,
+            state.forces,
+            R[self.body],
+        )
         carries = forces[:, 2] > 0
         tops = [self._top(b, state.x) for b in range(len(structure.parts))]
         row = dict(
-            time=state.time, u_top=tops[self.body], tilt=tilt_angle(own), twist=twist_angle(own), slide=(moved[self.body] + (own - np.eye(3)) @ self._foot_arm)[:2],
-            contact_force=forces[carries & (interface.points["master"] == BASE)].sum(axis=0), active_nodes=int(carries.sum()),
-            penetration=max(0.0, -float(state.relative[state.contact["located"], 2].min(initial=0.0))), ground=state.ground)
+            time=state.time,
+            u_top=tops[self.body],
+            tilt=tilt_angle(own),
+            twist=twist_angle(own),
+            slide=(moved[self.body] + (own - np.eye(3)) @ self._foot_arm)[:2],
+            contact_force=forces[carries & (interface.points["master"] == BASE)].sum(axis=0),
+            active_nodes=int(carries.sum()),
+            penetration=max(
+                0.0, -float(state.relative[state.contact["located"], 2].min(initial=0.0))
+            ),
+            ground=state.ground,
+        )
         for b, part in enumerate(structure.parts):
-            row |= {f"body/{part.name}/displacement": moved[b], f"body/{part.name}/tilt": tilt_angle(R[b]), f"mark/{part.name}.top/displacement": tops[b]}
+            row |= {
+                f"body/{part.name}/displacement": moved[b],
+                f"body/{part.name}/tilt": tilt_angle(R[b]),
+                f"mark/{part.name}.top/displacement": tops[b],
+            }
         poses = poses_of(interface.interfaces, moved + self._centers, R)
-        normal = np.bincount(interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses))
-        for joint, pose, foot, first, force in zip(structure.joints, poses, self._feet, self._normals, normal):
+        normal = np.bincount(
+            interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses)
+        )
+        for joint, pose, foot, first, force in zip(
+            structure.joints, poses, self._feet, self._normals, normal
+        ):
             now, risen = pose["turned"][SLAVE, 2], pose["foot"] - foot
             tilt = float(np.arctan2(np.linalg.norm(np.cross(now, first)), now @ first))
-            row |= {f"interface/{joint.name}/{name}": value for name, value in dict(tilt=tilt, rise=float(risen[2]), slide=risen[:2], force=float(force)).items()}
-        for link, held, tie in zip(structure.links, system.links.links if system.links else (), state.ties):
-            values = dict(tension=tie["force"], elongation=tie["length"] - held["length"], yielded=tie["flowed"], work=tie["work"])
-            row |= {f"link/{link.name}/{name}": float(value) for name, value in values.items()} | {f"link/{link.name}/broken": int(tie["broken"])}
+            row |= {
+                f"interface/{joint.name}/{name}": value
+                for name, value in dict(
+                    tilt=tilt, rise=float(risen[2]), slide=risen[:2], force=float(force)
+                ).items()
+            }
+        for link, held, tie in zip(
+            structure.links, system.links.links if system.links else (), state.ties
+        ):
+            values = dict(
+                tension=tie["force"],
+                elongation=tie["length"] - held["length"],
+                yielded=tie["flowed"],
+                work=tie["work"],
+            )
+            row |= {f"link/{link.name}/{name}": float(value) for name, value in values.items()} | {
+                f"link/{link.name}/broken": int(tie["broken"])
+            }
         return of_both_sides(row, structure)
 
     def _top(self, b: int, x: np.ndarray) -> np.ndarray:
         """Displacement (3,) [m] of the mean of a body's top face."""
         one, part = self._meshed[b], self.structure.parts[b]
-        return one.shares @ one.body.gather(one.top, x[self.system.column.rows[b]]) - (part.center + part.model.marks["top"][0])
+        return one.shares @ one.body.gather(one.top, x[self.system.column.rows[b]]) - (
+            part.center + part.model.marks["top"][0]
+        )
 
     def fallen(self, state, measures: dict, steepest: float) -> int:
-        """As `reduced.observe.lost`: lost where any body has fallen past the ground, or tilted by LOST."""
-        if any(center[2] + measures[f"body/{part.name}/displacement"][2] < 0 for center, part in zip(self._centers, self.structure.parts)):
+        """As `reduced.observe.lost`: lost where any body has fallen past the ground, or tilted by
+        LOST.
+        """
+        if any(
+            center[2] + measures[f"body/{part.name}/displacement"][2] < 0
+            for center, part in zip(self._centers, self.structure.parts)
+        ):
             return FELL
         if any(measures[f"body/{part.name}/tilt"] > LOST for part in self.structure.parts):
             return NO_RETURN

@@ -1,4 +1,6 @@
-"""Contact points of plane faces: those of a slave, which touch, and those of a master, which are touched."""
+"""Contact points of plane faces: those of a slave, which touch, and those of a master, which are
+touched.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,8 @@ _SAME_NODE = 1e-8
 class Patch:
     """Nodes of a face that take part in contact, in the drawing of the body.
 
-    part: of the mesh. positions: (k, 3) [m]; origin: (3,) [m] a point of the plane; axes, areas, outlines, triangles: as of `model.Surface`.
+    part: of the mesh. positions: (k, 3) [m]; origin: (3,) [m] a point of the plane; axes, areas,
+    outlines, triangles: as of `model.Surface`.
     """
 
     part: int
@@ -34,47 +37,91 @@ class Patch:
     triangles: np.ndarray
 
     def surface(self, nodes: np.ndarray, center: np.ndarray) -> Surface:
-        """The patch as surface of a model whose rows `nodes` (k,) are its positions, about its centre of mass (3,) [m]."""
-        return Surface(np.asarray(nodes, np.int64), self.origin - center, self.axes, self.areas, self.outlines, self.triangles)
+        """The patch as surface of a model whose rows `nodes` (k,) are its positions, about its
+        centre of mass (3,) [m].
+        """
+        return Surface(
+            np.asarray(nodes, np.int64),
+            self.origin - center,
+            self.axes,
+            self.areas,
+            self.outlines,
+            self.triangles,
+        )
 
 
 def slave_patch(face: Face, order: int, interior: int, avoided: np.ndarray | None = None) -> Patch:
-    """Contact points of a slave: all nodes on the outlines of its face, and about `interior` inside; see `contact.footprint`.
+    """Contact points of a slave: all nodes on the outlines of its face, and about `interior`
+    inside; see `contact.footprint`.
 
-    avoided: places (k, 3) [m] at which none is wanted, as a point of the master is there: of two in one place no contact law says how much each carries.
+    avoided: places (k, 3) [m] at which none is wanted, as a point of the master is there: of two in
+    one place no contact law says how much each carries.
     """
     whole = whole_face(face, order)
-    chosen = footprint(np.arange(len(whole.positions)), (whole.positions - whole.origin) @ whole.axes, whole.areas, whole.outlines, interior)
+    chosen = footprint(
+        np.arange(len(whole.positions)),
+        (whole.positions - whole.origin) @ whole.axes,
+        whole.areas,
+        whole.outlines,
+        interior,
+    )
     kept = np.ones(len(chosen.nodes), bool)
     if avoided is not None:
         size = np.ptp(whole.positions, axis=0).max()
-        kept = (cKDTree(avoided).query(whole.positions[chosen.nodes])[0] > EDGE * size)
+        kept = cKDTree(avoided).query(whole.positions[chosen.nodes])[0] > EDGE * size
     patch = node_patch(whole, chosen.nodes[kept])
-    return replace(patch, areas=chosen.areas[kept] * (chosen.areas.sum() / chosen.areas[kept].sum()))
+    return replace(
+        patch, areas=chosen.areas[kept] * (chosen.areas.sum() / chosen.areas[kept].sum())
+    )
 
 
 def node_patch(whole: Patch, nodes: np.ndarray) -> Patch:
     """Some nodes (k,) of a face, as contact points of a slave."""
-    return replace(whole, positions=whole.positions[nodes], areas=whole.areas[nodes], outlines=whole.outlines[nodes], triangles=np.zeros((0, 3), np.int64))
+    return replace(
+        whole,
+        positions=whole.positions[nodes],
+        areas=whole.areas[nodes],
+        outlines=whole.outlines[nodes],
+        triangles=np.zeros((0, 3), np.int64),
+    )
 
 
 def master_patch(face: Face, order: int, zones) -> Patch:
-    """Nodes of a master's face in and around `zones` as of `meetings.zones_of`, along its tangents in the drawing."""
+    """Nodes of a master's face in and around `zones` as of `meetings.zones_of`, along its tangents
+    in the drawing.
+    """
     whole = whole_face(face, order)
     plane = whole.positions @ whole.axes[:, :2]
     corners = plane[whole.triangles]
     low, high = corners.min(axis=1), corners.max(axis=1)
-    wanted, edge = np.zeros(len(whole.triangles), bool), 1e-3 * (high - low).max()  # elements that only meet a zone's edge lie outside
+    wanted, edge = (
+        np.zeros(len(whole.triangles), bool),
+        1e-3 * (high - low).max(),
+    )  # elements that only meet a zone's edge lie outside
     for *ends, way in zones:
         side, way = np.reshape(ends, (2, 2)), max(way - edge, edge)
-        near = np.flatnonzero(~wanted & (high > side.min(axis=0) - way).all(axis=1) & (low < side.max(axis=0) + way).all(axis=1))
+        near = np.flatnonzero(
+            ~wanted
+            & (high > side.min(axis=0) - way).all(axis=1)
+            & (low < side.max(axis=0) + way).all(axis=1)
+        )
         wanted[near] = apart_from_side(corners[near], side) < way
     kept, triangles = np.unique(whole.triangles[wanted], return_inverse=True)
-    return Patch(face.part, whole.positions[kept], whole.origin, whole.axes, whole.areas[kept], whole.outlines[kept], triangles.reshape(-1, 3))
+    return Patch(
+        face.part,
+        whole.positions[kept],
+        whole.origin,
+        whole.axes,
+        whole.areas[kept],
+        whole.outlines[kept],
+        triangles.reshape(-1, 3),
+    )
 
 
 def plane_box(face: Face) -> tuple[float, float, float, float]:
-    """Rectangle (low 1, high 1, low 2, high 2) [m] around a face along its tangents, in the drawing."""
+    """Rectangle (low 1, high 1, low 2, high 2) [m] around a face along its tangents, in the
+    drawing.
+    """
     plane = face.corners.reshape(-1, 3) @ face.axes[:, :2]
     return plane[:, 0].min(), plane[:, 0].max(), plane[:, 1].min(), plane[:, 1].max()
 
@@ -96,11 +143,21 @@ def whole_face(face: Face, order: int) -> Patch:
     edges = outline_edges(face.cells)
     number, place = np.unique(face.cells, return_index=True)
     ends = face.corners.reshape(-1, 3)[place][np.searchsorted(number, edges)]
-    line = np.concatenate([ends[:, 0] + t * (ends[:, 1] - ends[:, 0]) for t in np.arange(order) / order])
+    line = np.concatenate(
+        [ends[:, 0] + t * (ends[:, 1] - ends[:, 0]) for t in np.arange(order) / order]
+    )
     outlines = np.zeros(len(positions), bool)
     outlines[cKDTree(positions).query(line)[1]] = True
     origin = axes[:, 2] * face.offset
-    return Patch(face.part, positions, origin, axes, areas, outlines, _triangles(index, order, positions @ axes[:, :2]))
+    return Patch(
+        face.part,
+        positions,
+        origin,
+        axes,
+        areas,
+        outlines,
+        _triangles(index, order, positions @ axes[:, :2]),
+    )
 
 
 def _unique(points, axes, size) -> tuple[np.ndarray, np.ndarray]:
@@ -119,14 +176,21 @@ def _unique(points, axes, size) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _triangles(index: np.ndarray, order: int, plane: np.ndarray) -> np.ndarray:
-    """Triangles (t, 3) of nodes from the nodes (n, m) of each face as of `face_points`, counter-clockwise in the plane (k, 2)."""
+    """Triangles (t, 3) of nodes from the nodes (n, m) of each face as of `face_points`,
+    counter-clockwise in the plane (k, 2).
+    """
     if index.shape[1] == 3:
         found = index
     elif index.shape[1] == 6:  # corners, and the middles of the sides that follow them
-        found = np.concatenate([index[:, list(corners)] for corners in ((0, 3, 5), (1, 4, 3), (2, 5, 4), (3, 4, 5))])
+        found = np.concatenate(
+            [index[:, list(corners)] for corners in ((0, 3, 5), (1, 4, 3), (2, 5, 4), (3, 4, 5))]
+        )
     else:
         grid = index.reshape(-1, order + 1, order + 1)
-        a, b, c, d = (grid[:, i:i + order, j:j + order].reshape(-1) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
+        a, b, c, d = (
+            grid[:, i : i + order, j : j + order].reshape(-1)
+            for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))
+        )
         found = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
     first, second = (plane[found[:, k]] - plane[found[:, 0]] for k in (1, 2))
     clockwise = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0

@@ -13,17 +13,23 @@ from fecolumn.structures.drawn import link_ends, outside
 _COLOURS = ("#c67b5c", "#9fb2c1", "#d8c08a", "#7f9a75", "#b58fa8", "#8c8fb5", "#c9a27e", "#86aeb0")
 _GROUND, _EDGE, _LINK, _JOINT = "#dcded9", "#2f3437", "#1f4e79", "#a02020"
 _WIDTH_MM, _HEIGHT_MM, _LABELS_MM, _DPI = 120.0, 120.0, 62.0, 200
-# Over the structure's width: margin of the ground around it, and half of the middle part, from which a label may go to either side
+# Over the structure's width: margin of the ground around it, and half of the middle part, from
+# which a label may go to either side
 _MARGIN, _MIDDLE = 0.15, 0.1
 # Where on a link its name points, from its first end [-]
 _ON_LINK = 0.3
 
 
 def structure_picture(layout, structure, copies, path) -> Path:
-    """PNG of a structure at its start, in parallel projection; the bodies' names, and those of interfaces and links, stand beside it.
+    """PNG of a structure at its start, in parallel projection; the bodies' names, and those of
+    interfaces and links, stand beside it.
 
-    Args:
-        layout: with the drawings. copies: (body, number) of each part.
+    Parameters
+    ----------
+    layout
+        with the drawings.
+    copies
+        (body, number) of each part.
     """
     import io
 
@@ -31,9 +37,16 @@ def structure_picture(layout, structure, copies, path) -> Path:
     from matplotlib.figure import Figure
 
     right, up, toward = view()
-    solids = [_solid(layout.drawings[name], part) for (name, _), part in zip(copies, structure.parts)]
+    solids = [
+        _solid(layout.drawings[name], part) for (name, _), part in zip(copies, structure.parts)
+    ]
     low, high = _ground(solids)
-    points = np.concatenate([*(points for points, _ in solids), np.array([[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])])])
+    points = np.concatenate(
+        [
+            *(points for points, _ in solids),
+            np.array([[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])]),
+        ]
+    )
     plan, rise = points @ right, points @ up
     centre = np.array([(plan.min() + plan.max()) / 2, (rise.min() + rise.max()) / 2])
     half = np.array([np.ptp(plan), np.ptp(rise)]) / 2 * 1.03
@@ -41,16 +54,44 @@ def structure_picture(layout, structure, copies, path) -> Path:
     size = np.array([millimetres[0] + 2 * _LABELS_MM, max(millimetres[1], 60.0)])
     figure = Figure(figsize=size / 25.4, dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
-    axes = figure.add_axes([_LABELS_MM / size[0], 0.0, millimetres[0] / size[0], millimetres[1] / size[1]])
-    axes.set(xlim=centre[0] + half[0] * np.array([-1, 1]), ylim=centre[1] + half[1] * np.array([-1, 1]))
+    axes = figure.add_axes(
+        [_LABELS_MM / size[0], 0.0, millimetres[0] / size[0], millimetres[1] / size[1]]
+    )
+    axes.set(
+        xlim=centre[0] + half[0] * np.array([-1, 1]), ylim=centre[1] + half[1] * np.array([-1, 1])
+    )
     axes.set_axis_off()
     names = list(layout.drawings)
     colours = [_COLOURS[names.index(name) % len(_COLOURS)] for name, _ in copies]
-    image = _rendered(solids, colours, structure, (right, up, toward), right * centre[0] + up * centre[1], half[1], millimetres)
-    axes.imshow(image, extent=(*(centre[0] + half[0] * np.array([-1, 1])), *(centre[1] + half[1] * np.array([-1, 1]))), interpolation="antialiased", aspect="auto")
+    image = _rendered(
+        solids,
+        colours,
+        structure,
+        (right, up, toward),
+        right * centre[0] + up * centre[1],
+        half[1],
+        millimetres,
+    )
+    axes.imshow(
+        image,
+        extent=(
+            *(centre[0] + half[0] * np.array([-1, 1])),
+            *(centre[1] + half[1] * np.array([-1, 1])),
+        ),
+        interpolation="antialiased",
+        aspect="auto",
+    )
     labels = _labels(structure, right, centre[0], half[0])
     for side in ("left", "right"):
-        _write(axes, [label for label in labels if label[3] == side], (right, up), centre, half, millimetres, side)
+        _write(
+            axes,
+            [label for label in labels if label[3] == side],
+            (right, up),
+            centre,
+            half,
+            millimetres,
+            side,
+        )
     content = io.BytesIO()
     figure.savefig(content, format="png")
     write_bytes(Path(path), content.getvalue())
@@ -72,19 +113,34 @@ def _solid(drawing, part) -> tuple[np.ndarray, list]:
 
 
 def _labels(structure, along: np.ndarray, middle: float, width: float) -> list:
-    """(text, point (3,), colour, side) of every body, link and interface; the side is that to which it is nearer, so that no line crosses the structure.
+    """(text, point (3,), colour, side) of every body, link and interface; the side is that to which
+    it is nearer, so that no line crosses the structure.
 
-    What stands one above the other in the middle has bodies and links to the left, interfaces to the right. along: (3,) direction to the right.
+    What stands one above the other in the middle has bodies and links to the left, interfaces to
+    the right. along: (3,) direction to the right.
     """
-    def side(point, otherwise):
-        return otherwise if abs(point @ along - middle) < _MIDDLE * width else "left" if point @ along < middle else "right"
 
-    labels = [(part.name, part.center, _EDGE, side(part.center, "left")) for part in structure.parts]
+    def side(point, otherwise):
+        return (
+            otherwise
+            if abs(point @ along - middle) < _MIDDLE * width
+            else "left"
+            if point @ along < middle
+            else "right"
+        )
+
+    labels = [
+        (part.name, part.center, _EDGE, side(part.center, "left")) for part in structure.parts
+    ]
     for link in structure.links:
         a, b = link_ends(link, structure.parts)
         named = a + _ON_LINK * (b - a)  # off the middle of the column in which it may run
         labels.append((link.name, named, _LINK, side(named, "left")))
-    return labels + [(joint.name, point, _JOINT, side(point, "right")) for joint in structure.joints for point in [_meeting_point(structure, joint)]]
+    return labels + [
+        (joint.name, point, _JOINT, side(point, "right"))
+        for joint in structure.joints
+        for point in [_meeting_point(structure, joint)]
+    ]
 
 
 def _meeting_point(structure, joint) -> np.ndarray:
@@ -92,7 +148,9 @@ def _meeting_point(structure, joint) -> np.ndarray:
     part = structure.parts[joint.slave]
     surface = part.model.surfaces[joint.slave_surface]
     middle = part.model.arms[surface.nodes].mean(axis=0)
-    return part.center + part.rotation @ (middle + (joint.ball.radius * surface.normal if joint.ball else 0.0))
+    return part.center + part.rotation @ (
+        middle + (joint.ball.radius * surface.normal if joint.ball else 0.0)
+    )
 
 
 def _write(axes, labels, view_axes, centre, half, millimetres, side) -> None:
@@ -112,8 +170,17 @@ def _write(axes, labels, view_axes, centre, half, millimetres, side) -> None:
     sign = -1 if side == "left" else 1
     for height, place in zip(heights, order):
         text, _, colour, _ = labels[place]
-        axes.annotate(text, where[place], (centre[0] + sign * half[0] * 1.02, height), fontsize=6.5, color=_EDGE, va="center", annotation_clip=False,
-                      ha="right" if side == "left" else "left", arrowprops=dict(arrowstyle="-", color=colour, linewidth=0.7, shrinkA=1, shrinkB=0))
+        axes.annotate(
+            text,
+            where[place],
+            (centre[0] + sign * half[0] * 1.02, height),
+            fontsize=6.5,
+            color=_EDGE,
+            va="center",
+            annotation_clip=False,
+            ha="right" if side == "left" else "left",
+            arrowprops=dict(arrowstyle="-", color=colour, linewidth=0.7, shrinkA=1, shrinkB=0),
+        )
         axes.plot(*where[place], "o", markersize=2.2, color=colour, clip_on=False)
 
 
@@ -122,13 +189,43 @@ def _rendered(solids, colours, structure, axes, focus, half_height, millimetres)
     low, high = _ground(solids)
 
     def fill(plotter, pyvista):
-        plotter.add_mesh(pyvista.Plane(center=(*(low + high) / 2, -1e-3 * half_height), i_size=high[0] - low[0], j_size=high[1] - low[1],
-                                       i_resolution=1, j_resolution=1), color=_GROUND, ambient=0.7, diffuse=0.3)
+        plotter.add_mesh(
+            pyvista.Plane(
+                center=(*(low + high) / 2, -1e-3 * half_height),
+                i_size=high[0] - low[0],
+                j_size=high[1] - low[1],
+                i_resolution=1,
+                j_resolution=1,
+            ),
+            color=_GROUND,
+            ambient=0.7,
+            diffuse=0.3,
+        )
         for (nodes, faces), colour in zip(solids, colours):
             for quads in faces:
-                plotter.add_mesh(pyvista.PolyData.from_regular_faces(nodes, quads), color=colour, show_edges=True, edge_color=_EDGE, line_width=1.0, ambient=0.5,
-                                 diffuse=0.55, specular=0.05, smooth_shading=False, opacity=0.85 if structure.links else 1.0)
+                plotter.add_mesh(
+                    pyvista.PolyData.from_regular_faces(nodes, quads),
+                    color=colour,
+                    show_edges=True,
+                    edge_color=_EDGE,
+                    line_width=1.0,
+                    ambient=0.5,
+                    diffuse=0.55,
+                    specular=0.05,
+                    smooth_shading=False,
+                    opacity=0.85 if structure.links else 1.0,
+                )
         for link in structure.links:
-            plotter.add_mesh(pyvista.Line(*link_ends(link, structure.parts)), color=_LINK, line_width=5.0)
+            plotter.add_mesh(
+                pyvista.Line(*link_ends(link, structure.parts)), color=_LINK, line_width=5.0
+            )
 
-    return rendered(fill, [round(2 * _DPI * side / 25.4) for side in millimetres], focus, axes, half_height, 10 * (np.linalg.norm(high - low) + half_height), 0.5)
+    return rendered(
+        fill,
+        [round(2 * _DPI * side / 25.4) for side in millimetres],
+        focus,
+        axes,
+        half_height,
+        10 * (np.linalg.norm(high - low) + half_height),
+        0.5,
+    )

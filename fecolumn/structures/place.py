@@ -1,4 +1,6 @@
-"""Where bodies are at the start: as they stand, or leaning on one another without strain, with velocity and spin."""
+"""Where bodies are at the start: as they stand, or leaning on one another without strain, with
+velocity and spin.
+"""
 
 from __future__ import annotations
 
@@ -20,13 +22,16 @@ from fecolumn.structures.model import GROUND, BodyModel, Joint
 
 # Over the size of a body: places that several supports give it must agree this well
 _AGREE = 1e-6
-# Sine of a tilt below which there is none, and share of a foot's width within which points are equally far ahead
+# Sine of a tilt below which there is none, and share of a foot's width within which points are
+# equally far ahead
 _UPRIGHT, _EDGE = 1e-12, 1e-9
 
 
 @dataclass(frozen=True)
 class Standing:
-    """A part before it is moved: model, place (3,) [m] of its centre of mass upright, its start as of `case.Initial` or None."""
+    """A part before it is moved: model, place (3,) [m] of its centre of mass upright, its start as
+    of `case.Initial` or None.
+    """
 
     name: str
     model: BodyModel
@@ -36,7 +41,9 @@ class Standing:
 
 @dataclass(frozen=True)
 class Placed:
-    """Where a part is: center (3,) [m], rotation (3, 3), velocity (3,) [m/s] of the centre of mass, spin (3,) [rad/s]."""
+    """Where a part is: center (3,) [m], rotation (3, 3), velocity (3,) [m/s] of the centre of mass,
+    spin (3,) [rad/s].
+    """
 
     center: np.ndarray
     rotation: np.ndarray
@@ -45,7 +52,9 @@ class Placed:
 
 
 def touching(standing: list[Standing], joint: Joint) -> np.ndarray:
-    """Rows among the nodes of a joint's slave surface (k,) that have the master below them as the bodies stand."""
+    """Rows among the nodes of a joint's slave surface (k,) that have the master below them as the
+    bodies stand.
+    """
     slave = standing[joint.slave]
     surface = slave.model.surfaces[joint.slave_surface]
     if joint.master == GROUND:
@@ -54,17 +63,22 @@ def touching(standing: list[Standing], joint: Joint) -> np.ndarray:
     face = master.model.surfaces[joint.master_surface]
     corners = face.plane(master.model.arms[face.nodes])[:, :2]
     points = face.plane(slave.center + slave.model.arms[surface.nodes] - master.center)[:, :2]
-    return np.flatnonzero(over(points, corners[face.triangles], 1e-9 * np.ptp(corners, axis=0).max()))
+    return np.flatnonzero(
+        over(points, corners[face.triangles], 1e-9 * np.ptp(corners, axis=0).max())
+    )
 
 
 def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placed]:
     """Places of all parts at the start.
 
-    A part leans by its own tilt about the point of its foot that is farthest in the direction in which it leans against what it stands on; what
-    stands on it keeps its own tilt, 0 unless stated, and comes along with the point on which it then stands.
+    A part leans by its own tilt about the point of its foot that is farthest in the direction in
+    which it leans against what it stands on; what stands on it keeps its own tilt, 0 unless stated,
+    and comes along with the point on which it then stands.
 
-    Raises:
-        InputError: a part whose supports lead it to different places.
+    Raises
+    ------
+    InputError
+        a part whose supports lead it to different places.
     """
     turns = [_turn(part.start) for part in standing]
     supports = supports_of(standing, joints)
@@ -75,10 +89,21 @@ def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placed]:
             pivot, center = _on(standing, between, place, below, turns, found)
             centers.append(center)
         center = np.mean(centers, axis=0) if centers else part.center
-        if centers and np.abs(np.array(centers) - center).max() > _AGREE * (1 + np.ptp(part.model.arms, axis=0).max()):
-            raise InputError(file, f"initial.{part.name}", None, f'"{part.name}" cannot stand on bodies that lean differently: '
-                             "give all that it stands on the same tilt_rad and direction_deg")
-        found[place] = Placed(center, turns[place], *_moving(part, center, pivot, turns[place], supports[place], joints, standing))
+        if centers and np.abs(np.array(centers) - center).max() > _AGREE * (
+            1 + np.ptp(part.model.arms, axis=0).max()
+        ):
+            raise InputError(
+                file,
+                f"initial.{part.name}",
+                None,
+                f'"{part.name}" cannot stand on bodies that lean differently: '
+                "give all that it stands on the same tilt_rad and direction_deg",
+            )
+        found[place] = Placed(
+            center,
+            turns[place],
+            *_moving(part, center, pivot, turns[place], supports[place], joints, standing),
+        )
     return [found[place] for place in range(len(standing))]
 
 
@@ -103,8 +128,13 @@ def supports_of(standing, joints) -> list[list[tuple[int, list[Joint]]]]:
 
 
 def loads(standing, joints) -> list[float]:
-    """Force [N] that each joint carries at rest: what a part and all on it weigh, in equal shares on what it stands on."""
-    supports, carried = supports_of(standing, joints), [part.model.mass * GRAVITY for part in standing]
+    """Force [N] that each joint carries at rest: what a part and all on it weigh, in equal shares
+    on what it stands on.
+    """
+    supports, carried = (
+        supports_of(standing, joints),
+        [part.model.mass * GRAVITY for part in standing],
+    )
     found = {id(joint): 0.0 for joint in joints}
     for place in reversed(_from_below(supports)):
         for below, between in supports[place]:
@@ -116,17 +146,27 @@ def loads(standing, joints) -> list[float]:
 
 
 def _from_below(supports) -> list[int]:
-    """Places of the parts, each after all that it stands on; those in a circle come last, as they are."""
+    """Places of the parts, each after all that it stands on; those in a circle come last, as they
+    are.
+    """
     order, left = [], list(range(len(supports)))
     while left:
-        ready = [place for place in left if all(below == GROUND or below in order for below, _ in supports[place])] or left
+        ready = [
+            place
+            for place in left
+            if all(below == GROUND or below in order for below, _ in supports[place])
+        ] or left
         order += ready
         left = [place for place in left if place not in ready]
     return order
 
 
-def _on(standing, joints: list[Joint], upper: int, below: int, turns, found) -> tuple[np.ndarray, np.ndarray]:
-    """Point (3,) [m] about which a part is turned on what is below it, and where its centre (3,) of mass comes."""
+def _on(
+    standing, joints: list[Joint], upper: int, below: int, turns, found
+) -> tuple[np.ndarray, np.ndarray]:
+    """Point (3,) [m] about which a part is turned on what is below it, and where its centre (3,) of
+    mass comes.
+    """
     part = standing[upper]
     base = np.eye(3) if below == GROUND or below not in found else found[below].rotation
     relative = base.T @ turns[upper]
@@ -141,22 +181,35 @@ def _on(standing, joints: list[Joint], upper: int, below: int, turns, found) -> 
     return carried(touched), carried(touched + relative @ (part.center - pivot - offset))
 
 
-def _rolled(standing, joint: Joint, pivot: np.ndarray, turn: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where a slave that is turned by (3, 3) touches (3,) [m], and its way (3,) there from the pivot, in its own frame: a ball about the pivot has rolled there."""
+def _rolled(
+    standing, joint: Joint, pivot: np.ndarray, turn: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Where a slave that is turned by (3, 3) touches (3,) [m], and its way (3,) there from the
+    pivot, in its own frame: a ball about the pivot has rolled there.
+    """
     if joint.ball is None:
         return pivot, np.zeros(3)
     normal = -standing[joint.slave].model.surfaces[joint.slave_surface].normal
-    interface, offset, lean = interface_of(np.zeros((1, 3))), np.zeros(3), turn[:, 2] - normal * (turn[:, 2] @ normal)
+    interface, offset, lean = (
+        interface_of(np.zeros((1, 3))),
+        np.zeros(3),
+        turn[:, 2] - normal * (turn[:, 2] @ normal),
+    )
     interface["ball"], interface["edge"] = joint.ball.radius, joint.ball.edge
     interpreted(from_center)(interface[0], turn.T @ normal, offset)
     across = np.linalg.norm(offset - normal * (offset @ normal))
     length = np.linalg.norm(lean)
-    way = joint.ball.radius * math.asin(min(across / joint.ball.radius, 1.0)) * lean / length if length > _UPRIGHT else np.zeros(3)
+    way = (
+        joint.ball.radius * math.asin(min(across / joint.ball.radius, 1.0)) * lean / length
+        if length > _UPRIGHT
+        else np.zeros(3)
+    )
     return pivot - joint.ball.radius * normal + way, offset
 
 
 def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray, Joint]:
-    """Point (3,) [m] of joints farthest in the direction `ahead`, as the bodies stand, and its joint; of a round rim on its circle, of an edge its middle.
+    """Point (3,) [m] of joints farthest in the direction `ahead`, as the bodies stand, and its
+    joint; of a round rim on its circle, of an edge its middle.
 
     Of a foot that touches with balls it is the centre of one.
     """
@@ -164,8 +217,16 @@ def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray
     if length >= _UPRIGHT:
         ahead = ahead / length
     leans = length >= _UPRIGHT
-    farthest = [_end_of_region(standing, joint, ahead) if leans and joint.corners else _farthest(standing, joint, ahead, leans) for joint in joints]
-    reached = [point @ ahead if leans and joint.corners or len(touching(standing, joint)) else -math.inf for point, joint in zip(farthest, joints)]
+    farthest = [
+        _end_of_region(standing, joint, ahead)
+        if leans and joint.corners
+        else _farthest(standing, joint, ahead, leans)
+        for joint in joints
+    ]
+    reached = [
+        point @ ahead if leans and joint.corners or len(touching(standing, joint)) else -math.inf
+        for point, joint in zip(farthest, joints)
+    ]
     first = int(np.argmax(np.array(reached) + 0.0)) if length >= _UPRIGHT else 0
     return farthest[first], joints[first]
 
@@ -189,12 +250,17 @@ def _farthest(standing, joint: Joint, ahead: np.ndarray, leans: bool) -> np.ndar
 
 
 def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
-    """Point (3,) [m] farthest in the direction `ahead` of the region in which the faces of a joint with two sides overlap, of an edge its middle; joint: with the roles exchanged.
+    """Point (3,) [m] farthest in the direction `ahead` of the region in which the faces of a joint
+    with two sides overlap, of an edge its middle; joint: with the roles exchanged.
 
-    Of a circle it is a point of that, not of the polygon of its nodes, unless the circles cross there.
+    Of a circle it is a point of that, not of the polygon of its nodes, unless the circles cross
+    there.
     """
     face = standing[joint.slave].model.surfaces[joint.slave_surface].axes
-    outlines = [(corners + standing[place].center) @ face for place, corners in zip((joint.slave, joint.master), joint.corners)]
+    outlines = [
+        (corners + standing[place].center) @ face
+        for place, corners in zip((joint.slave, joint.master), joint.corners)
+    ]
     height, along = outlines[0][0, 2], ahead @ face[:, :2]
     along = along / np.linalg.norm(along)
     region = outlines[1][::-1, :2]
@@ -208,7 +274,9 @@ def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
             continue
         point = own[:, :2].mean(axis=0) + circle.radius * along
         if other_circle is not None:
-            inside = np.linalg.norm(point - other[:, :2].mean(axis=0)) <= other_circle.radius * (1 + SAME_OUTLINE)
+            inside = np.linalg.norm(point - other[:, :2].mean(axis=0)) <= other_circle.radius * (
+                1 + SAME_OUTLINE
+            )
         else:
             inside = _within(point, other[:, :2])
         if inside:
@@ -217,14 +285,19 @@ def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
 
 
 def _cut_off(polygon: np.ndarray, start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """The part (n, 2) of a convex polygon on the left of the line from start to end (Sutherland and Hodgman 1974)."""
+    """The part (n, 2) of a convex polygon on the left of the line from start to end (Sutherland and
+    Hodgman 1974).
+    """
     way = end - start
     left = way[0] * (polygon[:, 1] - start[1]) - way[1] * (polygon[:, 0] - start[0])
     left[np.abs(left) < 1e-12 * (way @ way)] = 0.0
     kept = []
     for k in range(len(polygon)):
         if left[k - 1] * left[k] < 0:
-            kept.append(polygon[k - 1] + (polygon[k] - polygon[k - 1]) * left[k - 1] / (left[k - 1] - left[k]))
+            kept.append(
+                polygon[k - 1]
+                + (polygon[k] - polygon[k - 1]) * left[k - 1] / (left[k - 1] - left[k])
+            )
         if left[k] >= 0:
             kept.append(polygon[k])
     return np.array(kept).reshape(-1, 2)
@@ -238,8 +311,12 @@ def _within(point: np.ndarray, polygon: np.ndarray) -> bool:
     return bool((left >= 0).all() or (left <= 0).all())
 
 
-def _moving(part: Standing, center, pivot, turn, supports, joints, standing) -> tuple[np.ndarray, np.ndarray]:
-    """Velocity (3,) of the centre of mass and spin (3,) of a part: a spin tips it over the point that it stands on, and turns it about its foot."""
+def _moving(
+    part: Standing, center, pivot, turn, supports, joints, standing
+) -> tuple[np.ndarray, np.ndarray]:
+    """Velocity (3,) of the centre of mass and spin (3,) of a part: a spin tips it over the point
+    that it stands on, and turns it about its foot.
+    """
     if part.start is None:
         return np.zeros(3), np.zeros(3)
     spin, velocity = np.array(part.start.spin_rad_s), np.array(part.start.velocity_m_s)
@@ -247,7 +324,12 @@ def _moving(part: Standing, center, pivot, turn, supports, joints, standing) -> 
         return velocity, spin
     axis = pivot
     if not part.start.tilt_rad:
-        pivot, axis = (_rolled(standing, joint, point, np.eye(3))[0] + center - part.center for point, joint in (
-            _pivot(standing, supports[0][1], ahead) for ahead in (np.array([spin[1], -spin[0], 0.0]), np.zeros(3))))
+        pivot, axis = (
+            _rolled(standing, joint, point, np.eye(3))[0] + center - part.center
+            for point, joint in (
+                _pivot(standing, supports[0][1], ahead)
+                for ahead in (np.array([spin[1], -spin[0], 0.0]), np.zeros(3))
+            )
+        )
     level = spin * [1.0, 1.0, 0.0]
     return velocity + np.cross(level, center - pivot) + np.cross(spin - level, center - axis), spin

@@ -1,4 +1,6 @@
-"""Bodies reduced to their contact points: those of finite elements, and those that only give where they touch."""
+"""Bodies reduced to their contact points: those of finite elements, and those that only give where
+they touch.
+"""
 
 from __future__ import annotations
 
@@ -33,17 +35,28 @@ def body_of(shape: Shape, material: Material, comm=None):
     from fecolumn.dynamics.assembly import column_body
     from fecolumn.mesh.specimen import SpecimenMesh
 
-    return column_body(_Column(material, _Meshing(shape.order)), SpecimenMesh(shape.mesh, None, shape.ties, np.zeros(0, int)), comm or MPI.COMM_SELF)
+    return column_body(
+        _Column(material, _Meshing(shape.order)),
+        SpecimenMesh(shape.mesh, None, shape.ties, np.zeros(0, int)),
+        comm or MPI.COMM_SELF,
+    )
 
 
-def elastic_model(shape: Shape, faces: list[Face], patches: dict[str, Patch], material: Material, n_modes: int) -> tuple[BodyModel, np.ndarray]:
+def elastic_model(
+    shape: Shape, faces: list[Face], patches: dict[str, Patch], material: Material, n_modes: int
+) -> tuple[BodyModel, np.ndarray]:
     """Reduce a body of finite elements; also the shapes (m, n_nodes, 3) of the modes all over it.
 
-    As `reduced.build.column_model` does, at the nodes of all patches: rigid motion, elastic modes of the free body, and the exact flexibility by
-    inertia relief. Marks: "top", the mean over the highest level face.
+    As `reduced.build.column_model` does, at the nodes of all patches: rigid motion, elastic modes
+    of the free body, and the exact flexibility by inertia relief. Marks: "top", the mean over the
+    highest level face.
 
-    Args:
-        faces: of the mesh. patches: by the names of the surfaces.
+    Parameters
+    ----------
+    faces
+        of the mesh.
+    patches
+        by the names of the surfaces.
     """
     from fecolumn.fem.effective import blocks, unit_loads
     from fecolumn.fem.free_body import FreeBody
@@ -57,9 +70,9 @@ def elastic_model(shape: Shape, faces: list[Face], patches: dict[str, Patch], ma
     free, n = FreeBody(body), len(nodes)
     flexibility = np.empty((3 * n, 3 * n))
     for first in range(0, n, BATCH // 3):
-        batch = nodes[first:first + BATCH // 3]
+        batch = nodes[first : first + BATCH // 3]
         columns = free.response(unit_loads(body, batch)).reshape(body.n_owned, 3, -1)
-        flexibility[:, 3 * first:3 * (first + len(batch))] = columns[nodes].reshape(3 * n, -1)
+        flexibility[:, 3 * first : 3 * (first + len(batch))] = columns[nodes].reshape(3 * n, -1)
 
     def at(rows):
         return np.ascontiguousarray(fields.transpose(1, 2, 0)[rows])
@@ -68,28 +81,59 @@ def elastic_model(shape: Shape, faces: list[Face], patches: dict[str, Patch], ma
     top = body.find_nodes(positions, top_face(faces).part)
     marks = {"top": (shares @ positions - body.center, np.einsum("i,iam->am", shares, at(top)))}
     model = BodyModel(
-        mass=float(body.total_mass), inertia=free.masses[3:, 3:], center=body.center, frequencies=frequencies, shapes=at(nodes),
-        flexibility=blocks(flexibility), arms=body.all_X[nodes] - body.center, dofs=3 * body.n_nodes,
-        surfaces={name: patch.surface(np.searchsorted(nodes, found[name]), body.center) for name, patch in patches.items()}, marks=marks)
+        mass=float(body.total_mass),
+        inertia=free.masses[3:, 3:],
+        center=body.center,
+        frequencies=frequencies,
+        shapes=at(nodes),
+        flexibility=blocks(flexibility),
+        arms=body.all_X[nodes] - body.center,
+        dofs=3 * body.n_nodes,
+        surfaces={
+            name: patch.surface(np.searchsorted(nodes, found[name]), body.center)
+            for name, patch in patches.items()
+        },
+        marks=marks,
+    )
     return model, fields
 
 
-def rigid_model(shape: Shape, faces: list[Face], patches: dict[str, Patch], material: Material, stiffness: float | None) -> BodyModel:
+def rigid_model(
+    shape: Shape,
+    faces: list[Face],
+    patches: dict[str, Patch],
+    material: Material,
+    stiffness: float | None,
+) -> BodyModel:
     """A body that moves rigidly and gives only where it touches: each contact point by itself.
 
-    Args:
-        stiffness: per area of its faces [N/m3]; None takes `punch_stiffness` of each patch.
+    Parameters
+    ----------
+    stiffness
+        per area of its faces [N/m3]; None takes `punch_stiffness` of each patch.
     """
     masses = mass_properties(shape.mesh, material.density_kg_m3)
     arms, flexibility, surfaces = local_points(patches, masses.centre, material, stiffness)
     top = top_face(faces)
     positions, shares = face_weights(top, 1)
-    return BodyModel(masses.mass, masses.inertia, masses.centre, np.zeros(0), np.zeros((len(arms), 3, 0)), flexibility, arms, 0, surfaces,
-                     {"top": (shares @ positions - masses.centre, np.zeros((3, 0)))})
+    return BodyModel(
+        masses.mass,
+        masses.inertia,
+        masses.centre,
+        np.zeros(0),
+        np.zeros((len(arms), 3, 0)),
+        flexibility,
+        arms,
+        0,
+        surfaces,
+        {"top": (shares @ positions - masses.centre, np.zeros((3, 0)))},
+    )
 
 
 def local_points(patches, center, material, stiffness) -> tuple[np.ndarray, np.ndarray, dict]:
-    """Arms (n, 3) [m], flexibility (n, n, 3, 3) [m/N] and surfaces of the points of all patches, each of which gives alone, 1 / (k A)."""
+    """Arms (n, 3) [m], flexibility (n, n, 3, 3) [m/N] and surfaces of the points of all patches,
+    each of which gives alone, 1 / (k A).
+    """
     arms = np.concatenate([patch.positions for patch in patches.values()]) - center
     flexibility, surfaces, first = np.zeros((len(arms), len(arms), 3, 3)), {}, 0
     for name, patch in patches.items():
@@ -102,8 +146,14 @@ def local_points(patches, center, material, stiffness) -> tuple[np.ndarray, np.n
 
 
 def punch_stiffness(area: float, material: Material) -> float:
-    """Stiffness per area [N/m3] of a half-space under a rigid round punch of an area [m2]: 2 E / ((1 - nu^2) sqrt(pi A)) (Boussinesq 1885)."""
-    return 2 * material.youngs_modulus_pa / ((1 - material.poissons_ratio**2) * math.sqrt(math.pi * area))
+    """Stiffness per area [N/m3] of a half-space under a rigid round punch of an area [m2]: 2 E /
+    ((1 - nu^2) sqrt(pi A)) (Boussinesq 1885).
+    """
+    return (
+        2
+        * material.youngs_modulus_pa
+        / ((1 - material.poissons_ratio**2) * math.sqrt(math.pi * area))
+    )
 
 
 def top_face(faces: list[Face]) -> Face:

@@ -19,7 +19,8 @@ from fecolumn.structures.lines import count_at_ends, count_at_spots, fine_at_end
 
 # Elements around a round body, and along the geometric mean of a block's sides
 AROUND, ALONG = 24, 8
-# Length of linear elements along a bar over its depth d: a length l makes bending stiffer by (l / d)^2 / 2
+# Length of linear elements along a bar over its depth d: a length l makes bending stiffer by (l /
+# d)^2 / 2
 _LONG = 0.2
 # Elements along the longer side of a plate, away from what stands on it
 ACROSS = 8
@@ -27,7 +28,9 @@ ACROSS = 8
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A body's elements: mesh, ties between its parts, polynomial order of the elements, and element size at its foot [m]."""
+    """A body's elements: mesh, ties between its parts, polynomial order of the elements, and
+    element size at its foot [m].
+    """
 
     mesh: BrickMesh
     ties: tuple[Tie, ...]
@@ -38,12 +41,17 @@ class Shape:
 def shape_of(key: str, body, file, spots=()) -> Shape:
     """Mesh of a body that is none of matrices.
 
-    Args:
-        key: of the body in its case, for messages.
-        spots: (low x, high x, low y, high y, size) [m] in the drawing where other bodies meet a plate.
+    Parameters
+    ----------
+    key
+        of the body in its case, for messages.
+    spots
+        (low x, high x, low y, high y, size) [m] in the drawing where other bodies meet a plate.
 
-    Raises:
-        InputError: a mesh file that cannot be used, or parts that cannot be tied.
+    Raises
+    ------
+    InputError
+        a mesh file that cannot be used, or parts that cannot be tied.
     """
     if isinstance(body, Meshed):
         return _own(key, body, file)
@@ -61,59 +69,124 @@ def element_size(body) -> float:
     if isinstance(body, (Plate, Storeys)):
         return max(body.length_m, body.width_m) / ACROSS
     if isinstance(body, Block):
-        return min(math.sqrt(body.length_m * body.width_m) / ALONG, min(body.length_m, body.width_m) / 4)
-    return math.pi * (body.outer_diameter_m - (body.wall_m if isinstance(body, Tube) else 0.0)) / AROUND
+        return min(
+            math.sqrt(body.length_m * body.width_m) / ALONG, min(body.length_m, body.width_m) / 4
+        )
+    return (
+        math.pi
+        * (body.outer_diameter_m - (body.wall_m if isinstance(body, Tube) else 0.0))
+        / AROUND
+    )
 
 
 def counts_of(key: str, body, file, spots=()) -> tuple[int, int]:
-    """Elements and nodes of the mesh that `shape_of` makes, told without making it; arguments as there."""
+    """Elements and nodes of the mesh that `shape_of` makes, told without making it; arguments as
+    there.
+    """
     if isinstance(body, Meshed):
         shape = _own(key, body, file)
         return len(shape.mesh.cells), own_mesh(body.mesh_file).counts(shape.order)[0]
     if isinstance(body, (Plate, Storeys)):
         coarse, lines = _plate_lines(body, spots)
-        grids = [tuple(count_at_spots(length, line, coarse) for length, line in zip((body.length_m, body.width_m), lines)) + (divisions(body.thickness_m, coarse),)]
+        grids = [
+            tuple(
+                count_at_spots(length, line, coarse)
+                for length, line in zip((body.length_m, body.width_m), lines)
+            )
+            + (divisions(body.thickness_m, coarse),)
+        ]
         return _counts(grids, (), _plate_order(body))
     size = element_size(body)
     if isinstance(body, Block):
-        return _counts([(divisions(body.length_m, size), divisions(body.width_m, size), count_at_ends(body.height_m, size, _coarse_size(body, size)))], (),
-                       body.element_order or 1)
-    planes, layers = _planes(body, size), [count_at_ends(body.height_m, size, _coarse_size(body, size))]
+        return _counts(
+            [
+                (
+                    divisions(body.length_m, size),
+                    divisions(body.width_m, size),
+                    count_at_ends(body.height_m, size, _coarse_size(body, size)),
+                )
+            ],
+            (),
+            body.element_order or 1,
+        )
+    planes, layers = (
+        _planes(body, size),
+        [count_at_ends(body.height_m, size, _coarse_size(body, size))],
+    )
     if body.flange:
         layers.append(_flange_layers(body, size))
     cap = body.cap
-    return _counts([[divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m)]] if cap else [], zip(planes, layers), body.element_order or 1)
+    return _counts(
+        [[divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m)]]
+        if cap
+        else [],
+        zip(planes, layers),
+        body.element_order or 1,
+    )
 
 
 def _counts(grids, swept, order: int) -> tuple[int, int]:
     """Elements and nodes of grids (elements along x, y, z) and of sections swept in layers."""
     swept = list(swept)
-    return (sum(math.prod(grid) for grid in grids) + sum(plane.n_cells * layers for plane, layers in swept),
-            sum(math.prod(order * n + 1 for n in grid) for grid in grids) + sum(plane.n_nodes(order) * (order * layers + 1) for plane, layers in swept))
+    return (
+        sum(math.prod(grid) for grid in grids)
+        + sum(plane.n_cells * layers for plane, layers in swept),
+        sum(math.prod(order * n + 1 for n in grid) for grid in grids)
+        + sum(plane.n_nodes(order) * (order * layers + 1) for plane, layers in swept),
+    )
 
 
 def _own(key: str, body: Meshed, file) -> Shape:
     try:
         own = own_mesh(body.mesh_file)
     except InputError as error:
-        raise InputError(file, f"{key}.mesh_file", error.value, f"{body.mesh_file}: {error.allowed}") from None
+        raise InputError(
+            file, f"{key}.mesh_file", error.value, f"{body.mesh_file}: {error.allowed}"
+        ) from None
     if own.is_tetrahedral and body.element_order == 1 and not body.rigid:
-        raise InputError(file, f"{key}.element_order", 1, "must be 2 for tetrahedra: those of first order are far too stiff in bending")
-    return Shape(own.mesh, (), 1 if body.rigid else body.element_order or (2 if own.is_tetrahedral else 1), own.foot_edge)
+        raise InputError(
+            file,
+            f"{key}.element_order",
+            1,
+            "must be 2 for tetrahedra: those of first order are far too stiff in bending",
+        )
+    return Shape(
+        own.mesh,
+        (),
+        1 if body.rigid else body.element_order or (2 if own.is_tetrahedral else 1),
+        own.foot_edge,
+    )
 
 
 def _plate(body: Plate | Storeys, spots) -> Shape:
-    """Tensor grid, fine where other bodies meet it, one layer of second order through the thickness unless it is thick."""
+    """Tensor grid, fine where other bodies meet it, one layer of second order through the thickness
+    unless it is thick.
+    """
     coarse, lines = _plate_lines(body, spots)
-    x, y = (fine_at_spots(length, line, coarse) for length, line in zip((body.length_m, body.width_m), lines))
+    x, y = (
+        fine_at_spots(length, line, coarse)
+        for length, line in zip((body.length_m, body.width_m), lines)
+    )
     z = np.linspace(0.0, body.thickness_m, divisions(body.thickness_m, coarse) + 1)
-    return Shape(swept_grid(x, y, z, UPPER), (), _plate_order(body), min([size for _, _, size in lines[0]], default=coarse))
+    return Shape(
+        swept_grid(x, y, z, UPPER),
+        (),
+        _plate_order(body),
+        min([size for _, _, size in lines[0]], default=coarse),
+    )
 
 
 def _plate_lines(body: Plate | Storeys, spots) -> tuple[float, list]:
-    """Coarse element size [m] of a plate, and its spots along x and y as `lines.fine_at_spots` takes them."""
-    coarse = getattr(body, "coarse_size_m", None) or max(element_size(body), max(body.length_m, body.width_m) / ACROSS)
-    return coarse, [[(spot[2 * axis], spot[2 * axis + 1], body.element_size_m or spot[4]) for spot in spots] for axis in range(2)]
+    """Coarse element size [m] of a plate, and its spots along x and y as `lines.fine_at_spots`
+    takes them.
+    """
+    coarse = getattr(body, "coarse_size_m", None) or max(
+        element_size(body), max(body.length_m, body.width_m) / ACROSS
+    )
+    return coarse, [
+        [(spot[2 * axis], spot[2 * axis + 1], body.element_size_m or spot[4]) for spot in spots]
+        for axis in range(2)
+    ]
 
 
 def _plate_order(body: Plate | Storeys) -> int:
@@ -122,25 +195,40 @@ def _plate_order(body: Plate | Storeys) -> int:
 
 def _block(body: Block) -> Shape:
     size = element_size(body)
-    x, y = (np.linspace(-side / 2, side / 2, divisions(side, size) + 1) for side in (body.length_m, body.width_m))
+    x, y = (
+        np.linspace(-side / 2, side / 2, divisions(side, size) + 1)
+        for side in (body.length_m, body.width_m)
+    )
     z = fine_at_ends(body.height_m, size, _coarse_size(body, size))
     return Shape(swept_grid(x, y, z, UPPER), (), body.element_order or 1, size)
 
 
 def _coarse_size(body, size: float) -> float:
     """Largest element size [m] away from the ends of a block, tube or cylinder."""
-    return body.coarse_size_m or max(size, _LONG * (min(body.length_m, body.width_m) if isinstance(body, Block) else body.outer_diameter_m))
+    return body.coarse_size_m or max(
+        size,
+        _LONG
+        * (min(body.length_m, body.width_m) if isinstance(body, Block) else body.outer_diameter_m),
+    )
 
 
 def _planes(body, size: float) -> list[Annulus | Disc]:
     """Sections of a round body, and of its flange if it has one."""
     radius, wall = body.outer_diameter_m / 2, getattr(body, "wall_m", None)
     n_around = 4 * max(3, round(2 * math.pi * (radius - (wall or 0.0) / 2) / (4 * size)))
-    planes = [Annulus(radius - wall, radius, n_around, divisions(wall, size)) if wall else Disc(radius, n_around, divisions(radius / 2, size))]
+    planes = [
+        Annulus(radius - wall, radius, n_around, divisions(wall, size))
+        if wall
+        else Disc(radius, n_around, divisions(radius / 2, size))
+    ]
     if body.flange:
         outer, inner = body.flange.outer_diameter_m / 2, body.flange.inner_diameter_m / 2
         n_flange = 4 * max(3, round(2 * math.pi * outer / (4 * size)))
-        planes.append(Annulus(inner, outer, n_flange, divisions(outer - inner, size)) if inner else Disc(outer, n_flange, divisions(outer / 2, size)))
+        planes.append(
+            Annulus(inner, outer, n_flange, divisions(outer - inner, size))
+            if inner
+            else Disc(outer, n_flange, divisions(outer / 2, size))
+        )
     return planes
 
 
@@ -149,26 +237,52 @@ def _flange_layers(body, size: float) -> int:
 
 
 def _round(key: str, body, file) -> Shape:
-    """Tube or cylinder, on its flange and below its cap if it has them, tied; element sizes are those of the body's ends."""
+    """Tube or cylinder, on its flange and below its cap if it has them, tied; element sizes are
+    those of the body's ends.
+    """
     size = element_size(body)
     planes = _planes(body, size)
     levels = fine_at_ends(body.height_m, size, _coarse_size(body, size))
     seat = body.flange.thickness_m if body.flange else 0.0
     parts, joints = [_swept(planes[0], seat + levels, UPPER, (not body.flange, not body.cap))], []
     if body.flange:
-        parts.insert(0, _swept(planes[1], np.linspace(0.0, seat, _flange_layers(body, size) + 1), FLANGE, (True, False)))
+        parts.insert(
+            0,
+            _swept(
+                planes[1],
+                np.linspace(0.0, seat, _flange_layers(body, size) + 1),
+                FLANGE,
+                (True, False),
+            ),
+        )
         joints.append((FLANGE, seat, f"{key}.flange, {key}.element_size_m"))
     if body.cap:
         top = seat + body.height_m
-        x, y = (np.linspace(-side / 2, side / 2, divisions(side, size) + 1) for side in (body.cap.length_m, body.cap.width_m))
-        parts.append(swept_grid(x, y, top + np.linspace(0.0, body.cap.thickness_m, divisions(body.cap.thickness_m, size) + 1), CAP))
+        x, y = (
+            np.linspace(-side / 2, side / 2, divisions(side, size) + 1)
+            for side in (body.cap.length_m, body.cap.width_m)
+        )
+        parts.append(
+            swept_grid(
+                x,
+                y,
+                top
+                + np.linspace(0.0, body.cap.thickness_m, divisions(body.cap.thickness_m, size) + 1),
+                CAP,
+            )
+        )
         joints.append((CAP, top, f"{key}.cap, {key}.element_size_m"))
     mesh = merge(parts)
     # how far a slave may be moved: the sagittas of the chords, and a tenth of an element
-    reach = sum(one.equal_area * _outer(one) * (1 - math.cos(math.pi / one.n_around)) for one in planes) + 0.1 * size
+    reach = (
+        sum(one.equal_area * _outer(one) * (1 - math.cos(math.pi / one.n_around)) for one in planes)
+        + 0.1 * size
+    )
     flat = 1e-6 * np.ptp(mesh.points[:, 2])
     try:
-        ties = tuple(tie(mesh, UPPER, part, level, flat, reach, names) for part, level, names in joints)
+        ties = tuple(
+            tie(mesh, UPPER, part, level, flat, reach, names) for part, level, names in joints
+        )
     except InputError as error:
         raise InputError(file, error.key, None, error.allowed) from None
     return Shape(adjust(mesh, ties), ties, body.element_order or 1, size)
@@ -181,8 +295,9 @@ def _outer(plane: Annulus | Disc) -> float:
 def _swept(plane, levels: np.ndarray, part: int, true_ends: tuple[bool, bool]) -> BrickMesh:
     """Bricks of a round section between levels (n,) [m].
 
-    The section is a polygon. At ends that touch other bodies its corners lie on the true circles, since the body rolls on them; between, they
-    lie so far outside that the volume is that of the circle.
+    The section is a polygon. At ends that touch other bodies its corners lie on the true circles,
+    since the body rolls on them; between, they lie so far outside that the volume is that of the
+    circle.
     """
     layers = len(levels) - 1
     mesh = extruded(plane, 0.0, float(layers), layers, part)
@@ -196,7 +311,8 @@ def _swept(plane, levels: np.ndarray, part: int, true_ends: tuple[bool, bool]) -
 
 
 def _spread(equal_area: float, heights: np.ndarray, true_ends: tuple[bool, bool]) -> float:
-    """Factor s on the radii of all levels but those true ends whose factor is 1, by which the volume is that of the circle.
+    """Factor s on the radii of all levels but those true ends whose factor is 1, by which the
+    volume is that of the circle.
 
     A layer of height h between factors p, q has the share h (p^2 + p q + q^2) / 3.
     """

@@ -1,7 +1,9 @@
-"""Reduced bodies and layouts on disk: made once, opened in milliseconds by every analysis of the same structure.
+"""Reduced bodies and layouts on disk: made once, opened in milliseconds by every analysis of the
+same structure.
 
-A body is a folder named after the content it was made from, as `reduced.cache` has them for columns: body.npz and, of finite elements, fields.npy
-with the mode shapes (m, n_nodes, 3) all over it. A layout is a JSON file that names the bodies and their contacts.
+A body is a folder named after the content it was made from, as `reduced.cache` has them for
+columns: body.npz and, of finite elements, fields.npy with the mode shapes (m, n_nodes, 3) all over
+it. A layout is a JSON file that names the bodies and their contacts.
 """
 
 from __future__ import annotations
@@ -26,11 +28,46 @@ from fecolumn.structures.model import BodyModel, Storeys, Surface
 
 # Sources that bodies and layouts are made from
 SOURCES = (
-    "_dolfinx.py", "material", "fem/body.py", "fem/effective.py", "fem/free_body.py", "fem/modes.py", "fem/rayleigh.py",
-    "mesh/base_plate.py", "mesh/bricks.py", "mesh/gmsh_section.py", "mesh/imported.py", "mesh/jacobian.py", "mesh/quality.py", "mesh/section.py",
-    "mesh/surface.py", "mesh/tie.py", "contact/footprint.py", "contact/tolerances.py", "dynamics/assembly.py", "reduced/build.py",
-    *(f"structures/{name}.py" for name in ("bodies", "edges", "faces", "feet", "layout", "lines", "matrices", "meetings", "model", "patches", "reduction",
-                                           "shapes", "store", "storeys")))
+    "_dolfinx.py",
+    "material",
+    "fem/body.py",
+    "fem/effective.py",
+    "fem/free_body.py",
+    "fem/modes.py",
+    "fem/rayleigh.py",
+    "mesh/base_plate.py",
+    "mesh/bricks.py",
+    "mesh/gmsh_section.py",
+    "mesh/imported.py",
+    "mesh/jacobian.py",
+    "mesh/quality.py",
+    "mesh/section.py",
+    "mesh/surface.py",
+    "mesh/tie.py",
+    "contact/footprint.py",
+    "contact/tolerances.py",
+    "dynamics/assembly.py",
+    "reduced/build.py",
+    *(
+        f"structures/{name}.py"
+        for name in (
+            "bodies",
+            "edges",
+            "faces",
+            "feet",
+            "layout",
+            "lines",
+            "matrices",
+            "meetings",
+            "model",
+            "patches",
+            "reduction",
+            "shapes",
+            "store",
+            "storeys",
+        )
+    ),
+)
 #: Modes that a body keeps at least, so that analyses with fewer share it.
 KEPT_MODES = 30
 
@@ -55,7 +92,9 @@ def body_folder(key: str) -> Path:
 
 
 def keep_body(key: str, make) -> None:
-    """Have a reduced body on disk; `make` returns the model and its fields, or None for these, where there is none yet."""
+    """Have a reduced body on disk; `make` returns the model and its fields, or None for these,
+    where there is none yet.
+    """
     folder = body_folder(key)
     if folder.is_dir():
         return
@@ -91,20 +130,34 @@ def kept_body(key: str) -> BodyModel:
             storeys[rest[0]] = values
         else:
             plain[name] = values if values.ndim else values.item()
-    return BodyModel(**plain, surfaces={name: Surface(**values) for name, values in surfaces.items()},
-                     marks={name: (values["arm"], values["shape"]) for name, values in marks.items()}, storeys=Storeys(**storeys) if storeys else None)
+    return BodyModel(
+        **plain,
+        surfaces={name: Surface(**values) for name, values in surfaces.items()},
+        marks={name: (values["arm"], values["shape"]) for name, values in marks.items()},
+        storeys=Storeys(**storeys) if storeys else None,
+    )
 
 
 def _arrays(model: BodyModel) -> dict[str, np.ndarray]:
     """A model as arrays by names such as "surfaces/foot/areas"."""
-    arrays = {field.name: getattr(model, field.name) for field in fields(model) if field.name not in ("surfaces", "marks", "storeys")}
+    arrays = {
+        field.name: getattr(model, field.name)
+        for field in fields(model)
+        if field.name not in ("surfaces", "marks", "storeys")
+    }
     arrays = {name: values for name, values in arrays.items() if values is not None}
     for name, surface in model.surfaces.items():
-        arrays |= {f"surfaces/{name}/{field.name}": getattr(surface, field.name) for field in fields(surface)}
+        arrays |= {
+            f"surfaces/{name}/{field.name}": getattr(surface, field.name)
+            for field in fields(surface)
+        }
     for name, (arm, shape) in model.marks.items():
         arrays |= {f"marks/{name}/arm": arm, f"marks/{name}/shape": shape}
     if model.storeys:
-        arrays |= {f"storeys/{field.name}": getattr(model.storeys, field.name) for field in fields(model.storeys)}
+        arrays |= {
+            f"storeys/{field.name}": getattr(model.storeys, field.name)
+            for field in fields(model.storeys)
+        }
     return arrays
 
 

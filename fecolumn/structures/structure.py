@@ -14,7 +14,13 @@ from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.schema import InputError
 from fecolumn.structures import model as models
 from fecolumn.structures.case import identity
-from fecolumn.structures.check import check_joints, check_layout, check_links, check_points, check_rest
+from fecolumn.structures.check import (
+    check_joints,
+    check_layout,
+    check_links,
+    check_points,
+    check_rest,
+)
 from fecolumn.structures.check_keys import material_of
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.keys import GROUND, Matrices, Storeys
@@ -22,7 +28,14 @@ from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
 from fecolumn.structures.place import Standing, loads, placed
 from fecolumn.structures.size import size_of
-from fecolumn.structures.store import KEPT_MODES, keep_body, keep_layout, kept_body, kept_layout, key_of
+from fecolumn.structures.store import (
+    KEPT_MODES,
+    keep_body,
+    keep_layout,
+    kept_body,
+    kept_layout,
+    key_of,
+)
 
 # Keys of a body that no operator has
 _LOOSE = ("at_m", "copies_m", "modes", "damping_ratio", "material")
@@ -31,11 +44,17 @@ _LOOSE = ("at_m", "copies_m", "modes", "damping_ratio", "material")
 def structure_model(case, file="case", say=lambda text: None) -> StructureModel:
     """The structure of a case at its start; bodies that are on disk are not made again.
 
-    Args:
-        file: of the case, for messages. say: told what takes long.
+    Parameters
+    ----------
+    file
+        of the case, for messages.
+    say
+        told what takes long.
 
-    Raises:
-        InputError: a structure that cannot be, told by the names of its bodies, interfaces and links.
+    Raises
+    ------
+    InputError
+        a structure that cannot be, told by the names of its bodies, interfaces and links.
     """
     found = _layout(case, file, say)
     wanted = {name: kept_body(one) for name, one in found["models"].items()}
@@ -60,16 +79,27 @@ def _layout(case, file, say) -> dict:
 
 def _geometry(case) -> dict:
     """What of a case decides its layout and the reduced bodies."""
-    bodies = {name: _made_of(case, name) | {"places": body.places} for name, body in case.bodies.items()}
+    bodies = {
+        name: _made_of(case, name) | {"places": body.places} for name, body in case.bodies.items()
+    }
     keys = ("slave", "on", "interior_points", "allowance_m")
-    return {"bodies": bodies, "interfaces": {name: [getattr(one, key) for key in keys] for name, one in case.interfaces.items()},
-            "interior": case.contact.interior_points}
+    return {
+        "bodies": bodies,
+        "interfaces": {
+            name: [getattr(one, key) for key in keys] for name, one in case.interfaces.items()
+        },
+        "interior": case.contact.interior_points,
+    }
 
 
 def _made_of(case, name: str) -> dict:
     """What of a body's keys decides its reduced model."""
     body = case.bodies[name]
-    table = {key: value for key, value in identity(body).items() if key not in _LOOSE or isinstance(body, Storeys) and key == "damping_ratio"}
+    table = {
+        key: value
+        for key, value in identity(body).items()
+        if key not in _LOOSE or isinstance(body, Storeys) and key == "damping_ratio"
+    }
     if not isinstance(body, Matrices):
         material = dataclasses.asdict(material_of(body, case.materials))
         if not isinstance(body, Storeys):
@@ -84,7 +114,10 @@ def keep_models(case, layout: Layout, file, say) -> dict:
     keys = {}
     for name, one in layout.drawings.items():
         patches = layout.patches[name]
-        said = {surface: [patch.positions.tolist(), patch.axes.tolist(), len(patch.triangles)] for surface, patch in patches.items()}
+        said = {
+            surface: [patch.positions.tolist(), patch.axes.tolist(), len(patch.triangles)]
+            for surface, patch in patches.items()
+        }
         keys[name] = key_of([_made_of(case, name), said])
         count = max(case.modes_of(name), KEPT_MODES)
 
@@ -97,7 +130,9 @@ def keep_models(case, layout: Layout, file, say) -> dict:
 
 
 def check_drawings(case, layout: Layout, file) -> None:
-    """Refuse bodies that overlap or stand on nothing, those with too many contact points, and links to nowhere."""
+    """Refuse bodies that overlap or stand on nothing, those with too many contact points, and links
+    to nowhere.
+    """
     check_layout(case, layout, file)
     check_links(case, _extents(layout), file)
     for name in layout.drawings:
@@ -107,19 +142,28 @@ def check_drawings(case, layout: Layout, file) -> None:
 def said_of(layout: Layout) -> dict:
     """What `assembled` takes of a layout."""
     sizes = {name: one.shape.size for name, one in layout.drawings.items() if one.shape}
-    return {"sizes": sizes, "extents": _extents(layout), "contacts": [dataclasses.asdict(contact) for contact in layout.contacts]}
+    return {
+        "sizes": sizes,
+        "extents": _extents(layout),
+        "contacts": [dataclasses.asdict(contact) for contact in layout.contacts],
+    }
 
 
 def _extents(layout: Layout) -> dict:
     """Lowest and highest place (3,) [m] of each body by name, as it is drawn."""
-    return {name: [one.points.min(axis=0).tolist(), one.points.max(axis=0).tolist()] for name, one in layout.drawings.items()}
+    return {
+        name: [one.points.min(axis=0).tolist(), one.points.max(axis=0).tolist()]
+        for name, one in layout.drawings.items()
+    }
 
 
 def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> StructureModel:
     """Structure of the reduced `bodies` by name, put together as a `layout` of `keep_models` says.
 
-    Raises:
-        InputError: as of `structure_model`.
+    Raises
+    ------
+    InputError
+        as of `structure_model`.
     """
     # again, as a layout that is on disk says nothing of links
     check_links(case, layout["extents"], file)
@@ -127,23 +171,53 @@ def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> Structu
     places = {copy: place for place, copy in enumerate(copies)}
     kept = {name: _that_moves(case, name, model) for name, model in bodies.items()}
     standing = _standing(case, copies, [kept[name] for name, _ in copies])
-    joints = [_joint(case, contact, kept, places, layout["sizes"], file) for contact in layout["contacts"]]
+    joints = [
+        _joint(case, contact, kept, places, layout["sizes"], file) for contact in layout["contacts"]
+    ]
     check_joints(joints, standing, file)
     joints = _with_hertz(case, joints, standing, copies)
-    parts = tuple(Part(one.name, one.model, there.center, there.rotation, _damping(case, name, one.model), there.velocity, there.spin)
-                  for (name, _), one, there in zip(copies, standing, placed(standing, joints, file)))
+    parts = tuple(
+        Part(
+            one.name,
+            one.model,
+            there.center,
+            there.rotation,
+            _damping(case, name, one.model),
+            there.velocity,
+            there.spin,
+        )
+        for (name, _), one, there in zip(copies, standing, placed(standing, joints, file))
+    )
     links = tuple(link for name in case.links for link in _links(case, name, places, standing))
-    extents = [np.array(layout["extents"][name]) - one.model.center for (name, _), one in zip(copies, standing)]
+    extents = [
+        np.array(layout["extents"][name]) - one.model.center
+        for (name, _), one in zip(copies, standing)
+    ]
     # a dome has one node, which is no measure of it
-    ground = rigid_base(np.concatenate([one.center + reach for one, own in zip(standing, extents) for reach in (one.model.arms, own)]))
-    structure = StructureModel(parts, tuple(joints), links, ground, _observed(case, parts, places, file))
+    ground = rigid_base(
+        np.concatenate(
+            [
+                one.center + reach
+                for one, own in zip(standing, extents)
+                for reach in (one.model.arms, own)
+            ]
+        )
+    )
+    structure = StructureModel(
+        parts, tuple(joints), links, ground, _observed(case, parts, places, file)
+    )
     check_rest(case, structure, standing, file)
     return structure
 
 
 def _that_moves(case, name: str, model: BodyModel) -> BodyModel:
-    """A body with its modes; in the rigid engine without any give but that of a stated contact stiffness."""
-    if case.integration.engine == "rigid" and getattr(case.bodies[name], "contact_stiffness_n_m3", None) is None:
+    """A body with its modes; in the rigid engine without any give but that of a stated contact
+    stiffness.
+    """
+    if (
+        case.integration.engine == "rigid"
+        and getattr(case.bodies[name], "contact_stiffness_n_m3", None) is None
+    ):
         return model.undeformed()
     return model.with_modes(case.modes_of(name))
 
@@ -156,8 +230,15 @@ def standing_of(case, structure: StructureModel) -> list[Standing]:
 
 def _standing(case, copies, bodies: list[BodyModel]) -> list[Standing]:
     starts = _starts(case)
-    return [Standing(case.names_of(name)[number], model, np.array(case.bodies[name].places[number]) + model.center, starts.get((name, number)))
-            for (name, number), model in zip(copies, bodies)]
+    return [
+        Standing(
+            case.names_of(name)[number],
+            model,
+            np.array(case.bodies[name].places[number]) + model.center,
+            starts.get((name, number)),
+        )
+        for (name, number), model in zip(copies, bodies)
+    ]
 
 
 def _starts(case) -> dict[tuple[str, int], Initial]:
@@ -172,34 +253,78 @@ def _starts(case) -> dict[tuple[str, int], Initial]:
 def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
     name, (body, number) = contact["interface"], contact["slave"]
     keys, model, master = case.interfaces[name], bodies[body], contact["master"]
-    own = {key: getattr(keys, key) for key in ("friction_coefficient", "law", "penalty_factor", "restitution")}
-    contact_keys = dataclasses.replace(case.contact, **{key: value for key, value in own.items() if value is not None})
+    own = {
+        key: getattr(keys, key)
+        for key in ("friction_coefficient", "law", "penalty_factor", "restitution")
+    }
+    contact_keys = dataclasses.replace(
+        case.contact, **{key: value for key, value in own.items() if value is not None}
+    )
     surface = model.surfaces[contact["slave_surface"]]
-    corners = tuple(np.array(own) - bodies[of[0]].center for own, of in zip(contact["corners"], (contact["slave"], master)))
+    corners = tuple(
+        np.array(own) - bodies[of[0]].center
+        for own, of in zip(contact["corners"], (contact["slave"], master))
+    )
     if contact_keys.law == "penalty" and body not in sizes:
-        raise InputError(file, f"interfaces.{name}.law", contact_keys.law, f'must be augmented_lagrange where the slave, "{body}", has no elements')
-    youngs = 0.0 if body not in sizes else material_of(case.bodies[body], case.materials).youngs_modulus_pa
+        raise InputError(
+            file,
+            f"interfaces.{name}.law",
+            contact_keys.law,
+            f'must be augmented_lagrange where the slave, "{body}", has no elements',
+        )
+    youngs = (
+        0.0
+        if body not in sizes
+        else material_of(case.bodies[body], case.materials).youngs_modulus_pa
+    )
     law = interface_compliance(contact_keys, youngs, sizes.get(body, 1.0), surface.areas)
     ball = ball_of(case.bodies[body]) if contact["slave_surface"] == "foot" else None
-    round_rim = not (ball and ball.is_dome) and Rim.find(surface.plane(model.arms[surface.nodes])) is not None
+    round_rim = (
+        not (ball and ball.is_dome)
+        and Rim.find(surface.plane(model.arms[surface.nodes])) is not None
+    )
     title = case.names_of(body)[number]
     where = GROUND if master is None else case.names_of(master[0])[master[1]]
     shown = f"{name}, edge" if contact["slave_surface"].endswith(", edge") else name
-    return Joint(f"{shown}: {title} on {where}", places[body, number], contact["slave_surface"], models.GROUND if master is None else places[tuple(master)],
-                 contact["master_surface"], contact_keys.friction_coefficient, law, round_rim, contact_keys.restitution, ball, contact["pair"], corners)
+    return Joint(
+        f"{shown}: {title} on {where}",
+        places[body, number],
+        contact["slave_surface"],
+        models.GROUND if master is None else places[tuple(master)],
+        contact["master_surface"],
+        contact_keys.friction_coefficient,
+        law,
+        round_rim,
+        contact_keys.restitution,
+        ball,
+        contact["pair"],
+        corners,
+    )
 
 
 def _with_hertz(case, joints, standing, copies) -> list[Joint]:
-    """The joints, domes with the compliance of a sphere on what they stand on, linear about what they carry at rest; none in the rigid engine."""
+    """The joints, domes with the compliance of a sphere on what they stand on, linear about what
+    they carry at rest; none in the rigid engine.
+    """
     if case.integration.engine == "rigid":
         return joints
     found = []
     for joint, load in zip(joints, loads(standing, joints)):
         if joint.ball and joint.ball.is_dome:
-            bodies = [case.bodies[copies[place][0]] for place in (joint.slave, joint.master) if place != models.GROUND]
+            bodies = [
+                case.bodies[copies[place][0]]
+                for place in (joint.slave, joint.master)
+                if place != models.GROUND
+            ]
             if bodies[0].contact_stiffness_n_m3 is None:
-                materials = [material_of(body, case.materials) for body in bodies if not isinstance(body, Matrices)]
-                joint = dataclasses.replace(joint, law=joint.law + hertz(joint.ball.radius, load, *materials))
+                materials = [
+                    material_of(body, case.materials)
+                    for body in bodies
+                    if not isinstance(body, Matrices)
+                ]
+                joint = dataclasses.replace(
+                    joint, law=joint.law + hertz(joint.ball.radius, load, *materials)
+                )
         found.append(joint)
     return found
 
@@ -226,9 +351,22 @@ def _links(case, name: str, places, standing: list[Standing]):
             other = places[other_body, other_number]
         end = origin + keys.to_point_m
         both = keys.kind in ("spring", "restrainer")
-        yield Link(name if len(numbers) == 1 else f"{name} {number + 1}", keys.kind, a, origin + keys.point_m - standing[a].center,
-                   other, end if other == models.GROUND else end - standing[other].center, keys.stiffness_n_m, keys.damping_n_s_m, keys.prestress_n,
-                   keys.slack_m, both, both or keys.kind == "tendon", keys.yield_n or math.inf, keys.breaking_n or math.inf)
+        yield Link(
+            name if len(numbers) == 1 else f"{name} {number + 1}",
+            keys.kind,
+            a,
+            origin + keys.point_m - standing[a].center,
+            other,
+            end if other == models.GROUND else end - standing[other].center,
+            keys.stiffness_n_m,
+            keys.damping_n_s_m,
+            keys.prestress_n,
+            keys.slack_m,
+            both,
+            both or keys.kind == "tendon",
+            keys.yield_n or math.inf,
+            keys.breaking_n or math.inf,
+        )
 
 
 def _observed(case, parts, places, file) -> tuple[int, str]:
@@ -237,6 +375,14 @@ def _observed(case, parts, places, file) -> tuple[int, str]:
         body, (number,) = case.meant_by(name)
         place, mark = places[body, number], mark or "top"
         if mark not in (known := parts[place].model.marks):
-            raise InputError(file, "observed", case.observed, f'"{name}" has no such mark; its marks: {", ".join(known)}')
+            raise InputError(
+                file,
+                "observed",
+                case.observed,
+                f'"{name}" has no such mark; its marks: {", ".join(known)}',
+            )
         return place, mark
-    return max(range(len(parts)), key=lambda place: parts[place].center[2] + parts[place].model.marks["top"][0][2]), "top"
+    return max(
+        range(len(parts)),
+        key=lambda place: parts[place].center[2] + parts[place].model.marks["top"][0][2],
+    ), "top"

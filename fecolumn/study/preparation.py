@@ -1,4 +1,6 @@
-"""What the first analyses of a study wait for: what is made once on a machine and kept for all later ones."""
+"""What the first analyses of a study wait for: what is made once on a machine and kept for all
+later ones.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,10 @@ def preparation(analyses: Iterable) -> str:
 
     It looks at the files of the cache alone: the driver of a study loads no engine.
 
-    Args:
-        analyses: `plan.Analysis`, those in the hands of workers.
+    Parameters
+    ----------
+    analyses
+        `plan.Analysis`, those in the hands of workers.
     """
     if not any(analysis.case.integration.engine in _COMPILED for analysis in analyses):
         return ""
@@ -25,7 +29,11 @@ def preparation(analyses: Iterable) -> str:
     from fecolumn._compiled import cache_folder, compiled_folder
     from fecolumn.lock import held
 
-    if any(held(lock) for name in ("model", "body") for lock in cache_folder().glob(f".{name}-*.lock")):
+    if any(
+        held(lock) for name in ("model", "body") for lock in cache_folder().glob(f".{name}-*.lock")
+    ):
         return MODELLING
-    kept = any(Path(compiled_folder()).glob("*/*.advance-*.nbi"))  # the one function of the engine that Python calls, see reduced.run
+    kept = any(
+        Path(compiled_folder()).glob("*/*.advance-*.nbi")
+    )  # the one function of the engine that Python calls, see reduced.run
     return "" if kept or numba.config.DISABLE_JIT else COMPILING

@@ -13,14 +13,19 @@ from fecolumn.study.outcome import DONE, FAILED, Outcome
 class Progress(Bar):
     """Counts of a running study.
 
-    The remaining time is judged by the work, not by analyses: the longest come first. Time in which workers wait for what is made
-    once on a machine is told, and left out of it.
+    The remaining time is judged by the work, not by analyses: the longest come first. Time in which
+    workers wait for what is made once on a machine is told, and left out of it.
 
-    Args:
-        counts: of the ledger at the start, number by state.
-        effort: expected work of what is missing, see `plan.Analysis.effort`.
-        workers: how many there are.
-        stream: terminal or file.
+    Parameters
+    ----------
+    counts
+        of the ledger at the start, number by state.
+    effort
+        expected work of what is missing, see `plan.Analysis.effort`.
+    workers
+        how many there are.
+    stream
+        terminal or file.
     """
 
     def __init__(self, counts: dict[str, int], effort: float, workers: int, stream):
@@ -45,15 +50,21 @@ class Progress(Bar):
         self._remaining -= effort
 
     def busy(self, elapsed_s: float) -> float:
-        """Share of the workers' time [-] that went into analyses that have ended, after `elapsed_s` of wall time [s], preparation apart."""
+        """Share of the workers' time [-] that went into analyses that have ended, after `elapsed_s`
+        of wall time [s], preparation apart.
+        """
         return self._busy_s / (self._workers * max(elapsed_s - self._prepared_s, 1e-9))
 
     def prepare(self, words: str, elapsed_s: float) -> None:
-        """Take note of what the workers wait for before they can begin, empty for nothing: that time is no analysis'.
+        """Take note of what the workers wait for before they can begin, empty for nothing: that
+        time is no analysis'.
 
-        Args:
-            words: such as "compiling the reduced engine, once on this machine".
-            elapsed_s: wall time since the start [s].
+        Parameters
+        ----------
+        words
+            such as "compiling the reduced engine, once on this machine".
+        elapsed_s
+            wall time since the start [s].
         """
         if words:
             self._began_s = elapsed_s if words != self._preparing else self._began_s
@@ -71,8 +82,14 @@ class Progress(Bar):
             parts.append(f"{rate:.3g} a second" if rate >= 2 else f"{60 * rate:.3g} a minute")
             if self.done + self.failed < self._analyses:
                 parts.append(f"{clock(working_s * max(self._remaining, 0.0) / self._worked)} to go")
-        parts += [f"{self.overturned} overturned", *([f"{self.slid_off} slid off"] if self.slid_off else []), f"{self.failed} failed"]
-        return ", ".join(parts + ([f"workers {100 * self.busy(elapsed_s):.0f} % busy"] if self.ended else []))
+        parts += [
+            f"{self.overturned} overturned",
+            *([f"{self.slid_off} slid off"] if self.slid_off else []),
+            f"{self.failed} failed",
+        ]
+        return ", ".join(
+            parts + ([f"workers {100 * self.busy(elapsed_s):.0f} % busy"] if self.ended else [])
+        )
 
     def show(self, preparing: str = "") -> None:
         """Draw the line where it is time to; `preparing` as of `prepare`."""
@@ -91,7 +108,9 @@ class Progress(Bar):
 
 
 def analysis_s(outcome: Outcome) -> float:
-    """Wall time of an analysis itself [s], without what it made or compiled for all: as its summary says, else as its worker has measured."""
+    """Wall time of an analysis itself [s], without what it made or compiled for all: as its summary
+    says, else as its worker has measured.
+    """
     measured = outcome.wall_s or 0.0
     try:
         stated = json.loads(outcome.summary or "{}").get("wall_s")

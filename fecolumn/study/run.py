@@ -23,40 +23,69 @@ __all__ = ["ENTRY", "StudyError", "check_motions", "run_study"]
 
 ENTRY = "fecolumn.simulation:run"
 
-# Work handed out at a time: less would keep driver and workers busy with messages, more would leave some idle at the end
+# Work handed out at a time: less would keep driver and workers busy with messages, more would leave
+# some idle at the end
 _BATCH_S, _BATCH_MOST = 0.5, 200
-# Free vibration that is reckoned with where it goes on until the column is at rest: a column of a metre or two takes seconds
+# Free vibration that is reckoned with where it goes on until the column is at rest: a column of a
+# metre or two takes seconds
 _TO_REST_S = 10.0
 _DISK_FULL = "the disk is full; free room"
 
 
-def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry_failed: bool = False,
-              stream=sys.stderr, share: tuple[int, int] | None = None, team: Team | None = None,
-              only: set[str] | None = None) -> list[dict]:
+def run_study(
+    plan: Plan,
+    folder,
+    *,
+    workers: int = 1,
+    entry: str = ENTRY,
+    retry_failed: bool = False,
+    stream=sys.stderr,
+    share: tuple[int, int] | None = None,
+    team: Team | None = None,
+    only: set[str] | None = None,
+) -> list[dict]:
     """Do what is missing of a study, and return the ledger.
 
-    An analysis that fails, or takes its worker down with it, is recorded with its reason and the rest goes on. Stopping
-    by any means (Ctrl-C, kill -9, power) loses only the analyses in flight; the next call does what is missing.
+    An analysis that fails, or takes its worker down with it, is recorded with its reason and the
+    rest goes on. Stopping by any means (Ctrl-C, kill -9, power) loses only the analyses in flight;
+    the next call does what is missing.
 
-    Args:
-        plan: the study.
-        folder: where its ledger and results are or will be.
-        workers: number of analyses at a time, each in a process of its own with one thread.
-        entry: "module:function" of the analysis, called as run(case, folder, comm=MPI.COMM_SELF, file=..., quiet=True);
-            it writes folder/summary.json atomically.
-        retry_failed: whether analyses that failed before are run again.
-        stream: where the progress line goes.
-        share: (index, size) of a task of a job array; it does every size-th analysis only. Tasks may work in one folder at once.
-        team: who does the work, instead of processes on this machine.
-        only: ids of the analyses to do; the others stay planned.
+    Parameters
+    ----------
+    plan
+        the study.
+    folder
+        where its ledger and results are or will be.
+    workers
+        number of analyses at a time, each in a process of its own with one thread.
+    entry
+        "module:function" of the analysis, called as run(case, folder, comm=MPI.COMM_SELF, file=...,
+        quiet=True); it writes folder/summary.json atomically.
+    retry_failed
+        whether analyses that failed before are run again.
+    stream
+        where the progress line goes.
+    share
+        (index, size) of a task of a job array; it does every size-th analysis only. Tasks may work
+        in one folder at once.
+    team
+        who does the work, instead of processes on this machine.
+    only
+        ids of the analyses to do; the others stay planned.
 
-    Returns:
-        One dict an analysis in the order of the study file, see `store.Study.rows`; with `share` only its own.
+    Returns
+    -------
+    One dict an analysis in the order of the study file, see `store.Study.rows`; with `share`
+        only its own.
 
-    Raises:
-        InputError: the folder is not this study's, or another driver works in it.
-        StudyError: workers cannot start, or the disk is full.
-        KeyboardInterrupt: Ctrl-C; the workers are stopped and the ledger is closed.
+    Raises
+    ------
+    InputError
+        the folder is not this study's, or another driver works in it.
+    StudyError
+        workers cannot start, or the disk is full.
+    KeyboardInterrupt
+        Ctrl-C; the workers are stopped and the ledger is closed.
     """
     try:
         with Store(folder, plan, entry, share) as store:
@@ -68,7 +97,9 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
             return store.rows()
     except sqlite3.DatabaseError as error:
         full = "full" in str(error) or "disk I/O" in str(error)
-        raise StudyError(_DISK_FULL if full else f"the ledger of {folder} cannot be written ({error})") from None
+        raise StudyError(
+            _DISK_FULL if full else f"the ledger of {folder} cannot be written ({error})"
+        ) from None
     except OSError as error:
         if disk_full(error):
             raise StudyError(_DISK_FULL) from None
@@ -76,9 +107,15 @@ def run_study(plan: Plan, folder, *, workers: int = 1, entry: str = ENTRY, retry
 
 
 def drive(store: Store, team: Team, stream, only: set[str] | None = None) -> Progress:
-    """Have a team do what is missing in a study's folder, or of the ids `only`; the counts, of which `stream` is told."""
-    queue = collections.deque(analysis for analysis in store.missing(team.size) if only is None or analysis.id in only)
-    progress = Progress(store.ledger.counts(), sum(a.effort for a in queue), min(team.size, len(queue)), stream)
+    """Have a team do what is missing in a study's folder, or of the ids `only`; the counts, of
+    which `stream` is told.
+    """
+    queue = collections.deque(
+        analysis for analysis in store.missing(team.size) if only is None or analysis.id in only
+    )
+    progress = Progress(
+        store.ledger.counts(), sum(a.effort for a in queue), min(team.size, len(queue)), stream
+    )
     try:
         _work_off(store, queue, team, progress)
     finally:
@@ -92,13 +129,16 @@ def drive(store: Store, team: Team, stream, only: set[str] | None = None) -> Pro
 def check_motions(plan: Plan) -> None:
     """Load every ground motion once, before anything runs, and note how long its analyses are.
 
-    Raises:
-        InputError: a motion that cannot be used, in the loader's words.
+    Raises
+    ------
+    InputError
+        a motion that cannot be used, in the loader's words.
     """
-    from fecolumn.motions.load import load_motion
     from fecolumn.analysis import cut_text
+    from fecolumn.motions.load import load_motion
 
-    # factor and direction change neither length nor whether it can be used; the longest step is the most demanding
+    # factor and direction change neither length nor whether it can be used; the longest step is the
+    # most demanding
     longest_step, users = {}, {}
     for analysis in plan.analyses:
         if motion := analysis.case.motion:
@@ -110,15 +150,23 @@ def check_motions(plan: Plan) -> None:
         ground = load_motion(motion, dt_s, plan.file)
         for analysis in users[motion]:
             given, free = analysis.case.integration.duration_s, motion.free_vibration_s
-            analysis.duration_s = given or ground.duration + (min(_TO_REST_S, motion.rest_ceiling_s) if free == REST else free)
+            analysis.duration_s = given or ground.duration + (
+                min(_TO_REST_S, motion.rest_ceiling_s) if free == REST else free
+            )
             if given and given < ground.duration - dt_s:
                 cut.append((ground.duration, given))
     if cut:
         length, given = max(cut)
-        warnings.warn(f"{cut_text(plan.file, given, length)} ({len(cut)} of {len(plan.analyses)} analyses are cut)", stacklevel=2)
+        warnings.warn(
+            f"{cut_text(plan.file, given, length)} ({len(cut)} of {len(plan.analyses)} "
+            "analyses are cut)",
+            stacklevel=2,
+        )
 
 
-def _work_off(store: Store, queue: collections.deque[Analysis], team: Team, progress: Progress) -> None:
+def _work_off(
+    store: Store, queue: collections.deque[Analysis], team: Team, progress: Progress
+) -> None:
     pace, given = _Pace(), {}
     while queue or team.at_work:
         while queue and team.wants(2 if pace.seconds(queue[0]) < _BATCH_S else 1):
@@ -151,17 +199,25 @@ class _Pace:
     def note(self, outcome, analysis: Analysis) -> None:
         if outcome.started is not None:
             s = analysis_s(outcome) / analysis.effort
-            self._s_per_effort = s if self._s_per_effort is None else 0.8 * self._s_per_effort + 0.2 * s
+            self._s_per_effort = (
+                s if self._s_per_effort is None else 0.8 * self._s_per_effort + 0.2 * s
+            )
 
     def seconds(self, analysis: Analysis) -> float:
         """Expected wall time [s]."""
         return float("inf") if self._s_per_effort is None else self._s_per_effort * analysis.effort
 
     def batch(self, queue: collections.deque[Analysis], workers: int) -> list[Analysis]:
-        """The next analyses of the queue, at least one, worth half a second, but no more than a fair share of what is left."""
+        """The next analyses of the queue, at least one, worth half a second, but no more than a
+        fair share of what is left.
+        """
         most = min(_BATCH_MOST, max(1, len(queue) // (2 * workers)))
         batch = [queue.popleft()]
         expected = self.seconds(batch[0])
-        while queue and len(batch) < most and (expected := expected + self.seconds(queue[0])) < _BATCH_S:
+        while (
+            queue
+            and len(batch) < most
+            and (expected := expected + self.seconds(queue[0])) < _BATCH_S
+        ):
             batch.append(queue.popleft())
         return batch

@@ -1,4 +1,6 @@
-"""The sample of peak displacements that a user names: the folder of a study, with a choice of its settings, or a CSV file."""
+"""The sample of peak displacements that a user names: the folder of a study, with a choice of its
+settings, or a CSV file.
+"""
 
 from __future__ import annotations
 
@@ -17,28 +19,43 @@ from fecolumn.study.store import DONE, read_study
 
 
 def read_sample(text: str) -> Sample:
-    """Sample of "results/study", "results/study@integration.dt_s=1e-3,integration.alpha_hht=-0.2" or "experiment.csv".
+    """Sample of "results/study", "results/study@integration.dt_s=1e-3,integration.alpha_hht=-0.2"
+    or "experiment.csv".
 
-    Raises:
-        InputError: neither study nor CSV, an axis or value the study does not have, settings that are not told apart,
-            nothing done yet.
+    Raises
+    ------
+    InputError
+        neither study nor CSV, an axis or value the study does not have, settings that are not told
+        apart, nothing done yet.
     """
     place, mark, choice = text.rpartition("@")
     if not mark or "=" not in choice:
         place, choice = text, ""
     if Path(place).is_dir():
-        return _of_study(place, dict(_chosen(text, part) for part in choice.split(",") if part.strip()))
+        return _of_study(
+            place, dict(_chosen(text, part) for part in choice.split(",") if part.strip())
+        )
     if choice:
         raise InputError(place, "", None, "no such folder; @axis=value chooses settings of a study")
     maxima = read_maxima(place)
-    return Sample(place, Path(place).stem, {}, maxima.motions, maxima.u_max, maxima.overturned, np.zeros(len(maxima.motions), bool))
+    return Sample(
+        place,
+        Path(place).stem,
+        {},
+        maxima.motions,
+        maxima.u_max,
+        maxima.overturned,
+        np.zeros(len(maxima.motions), bool),
+    )
 
 
 def _chosen(text: str, part: str) -> tuple[str, object]:
     """Key and value of "key=value"; a value that is no JSON is text."""
     key, mark, value = part.partition("=")
     if not (mark and key.strip() and value.strip()):
-        raise InputError(text, "", None, f"{part!r}: a choice is written axis=value, several with commas between")
+        raise InputError(
+            text, "", None, f"{part!r}: a choice is written axis=value, several with commas between"
+        )
     try:
         return key.strip(), json.loads(value)
     except ValueError:
@@ -49,36 +66,81 @@ def _of_study(folder: str, choice: dict) -> Sample:
     study = read_study(folder)
     rows = study.rows
     if not rows:
-        raise InputError(folder, "", None, "its ledger holds no analysis, or is of an earlier version; run fecolumn study on this folder again")
+        raise InputError(
+            folder,
+            "",
+            None,
+            "its ledger holds no analysis, or is of an earlier version; run fecolumn "
+            "study on this folder again",
+        )
     for key, value in choice.items():
         if key not in study.axes:
-            raise InputError(folder, key, value, f"is no axis of this study; its axes: {', '.join(study.axes)}")
+            raise InputError(
+                folder, key, value, f"is no axis of this study; its axes: {', '.join(study.axes)}"
+            )
         rows = [row for row in rows if same_value(row["axes"][key], value)]
         if not rows:
-            raise InputError(folder, key, value, f"not run with the other settings chosen; the axis has {_listed(study.axes[key])}")
+            raise InputError(
+                folder,
+                key,
+                value,
+                f"not run with the other settings chosen; the axis has {_listed(study.axes[key])}",
+            )
     for key, values in study.axes.items():
-        if key not in ENSEMBLE_AXES and any(row["axes"][key] != rows[0]["axes"][key] for row in rows):
-            raise InputError(folder, key, None, f"has several values, {_listed(values)}: choose one, {folder}@{key}={json.dumps(values[0])}")
+        if key not in ENSEMBLE_AXES and any(
+            row["axes"][key] != rows[0]["axes"][key] for row in rows
+        ):
+            raise InputError(
+                folder,
+                key,
+                None,
+                f"has several values, {_listed(values)}: choose one, "
+                f"{folder}@{key}={json.dumps(values[0])}",
+            )
     done = [row for row in rows if row["state"] == DONE]
     if not done:
         raise InputError(folder, "", None, f"none of the {len(rows)} analyses chosen is done")
     motions = tuple(_motion_name(row["axes"]) for row in done)
-    summaries, shown = [row["summary"] for row in done], {key: rows[0]["axes"][key] for key in choice}
-    beyond, off = (np.array([bool(value) for value in values]) for values in zip(*((lost(one), one.get("slid_off")) for one in summaries)))
+    summaries, shown = (
+        [row["summary"] for row in done],
+        {key: rows[0]["axes"][key] for key in choice},
+    )
+    beyond, off = (
+        np.array([bool(value) for value in values])
+        for values in zip(*((lost(one), one.get("slid_off")) for one in summaries))
+    )
     u_max = np.where(beyond, np.nan, np.array([one["u_max_m"] for one in summaries], float))
-    return Sample(folder, study.title, shown, motions, u_max, beyond, off, len(rows) - len(done), cut_short(summaries))
+    return Sample(
+        folder,
+        study.title,
+        shown,
+        motions,
+        u_max,
+        beyond,
+        off,
+        len(rows) - len(done),
+        cut_short(summaries),
+    )
 
 
 def _motion_name(axes: dict) -> str:
-    """Name of a run's motion that does not depend on where files lie: their last part, and what else makes the ensemble."""
+    """Name of a run's motion that does not depend on where files lie: their last part, and what
+    else makes the ensemble.
+    """
     values = [axes[key] for key in ENSEMBLE_AXES if key in axes]
-    texts = [value if isinstance(value, str) else json.dumps(value, sort_keys=True) for value in values]
-    return " ".join(text if ":" in text else text.replace("\\", "/").rpartition("/")[2] for text in texts)
+    texts = [
+        value if isinstance(value, str) else json.dumps(value, sort_keys=True) for value in values
+    ]
+    return " ".join(
+        text if ":" in text else text.replace("\\", "/").rpartition("/")[2] for text in texts
+    )
 
 
 def same_value(found, wanted) -> bool:
     """Whether a value of an axis is the one asked for; numbers up to rounding."""
-    numbers = all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in (found, wanted))
+    numbers = all(
+        isinstance(value, (int, float)) and not isinstance(value, bool) for value in (found, wanted)
+    )
     return math.isclose(found, wanted, rel_tol=1e-9) if numbers else found == wanted
 
 

@@ -1,8 +1,11 @@
-"""A study that goes on until its question is decided: more motions of its ensemble until each pair of settings is told apart, or told alike.
+"""A study that goes on until its question is decided: more motions of its ensemble until each pair
+of settings is told apart, or told alike.
 
-A look at the results after each stage of motions may end it. Each look is one more chance to be wrong, so that the error allowed is divided among the looks
-that are planned (Bonferroni): whatever the course of the study, a false statement on a pair is as rare as that error. Each gets its share by its number of motions,
-since few decide little. For "differ" the p-values are corrected (Holm 1979) for all pairs besides.
+A look at the results after each stage of motions may end it. Each look is one more chance to be
+wrong, so that the error allowed is divided among the looks that are planned (Bonferroni): whatever
+the course of the study, a false statement on a pair is as rare as that error. Each gets its share
+by its number of motions, since few decide little. For "differ" the p-values are corrected (Holm
+1979) for all pairs besides.
 """
 
 from __future__ import annotations
@@ -23,8 +26,10 @@ FIRST = 40
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """When a study is decided: two settings are alike where the data exclude a distance of their CDFs beyond `margin`; `error`: allowed for each
-    statement; `most`: motions in each setting at most."""
+    """When a study is decided: two settings are alike where the data exclude a distance of their
+    CDFs beyond `margin`; `error`: allowed for each statement; `most`: motions in each setting at
+    most.
+    """
 
     margin: float = SMALL
     error: float = 0.05
@@ -33,14 +38,21 @@ class Rule:
     def check(self, file) -> None:
         """Refuse a rule that cannot be followed.
 
-        Raises:
-            InputError: names the option and its range.
+        Raises
+        ------
+        InputError
+            names the option and its range.
         """
-        for option, value, low, high in (("--margin", self.margin, 0.01, 0.5), ("--error", self.error, 0.001, 0.2)):
+        for option, value, low, high in (
+            ("--margin", self.margin, 0.01, 0.5),
+            ("--error", self.error, 0.001, 0.2),
+        ):
             if not low <= value <= high:
                 raise InputError(file, option, value, f"must lie in [{low:g}, {high:g}]")
         if self.most < FIRST:
-            raise InputError(file, "--most", self.most, f"must be at least {FIRST} motions, the first stage")
+            raise InputError(
+                file, "--most", self.most, f"must be at least {FIRST} motions, the first stage"
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,21 +65,32 @@ class Verdict:
     def text(self, rule: Rule) -> str:
         """One line for a reader."""
         pair = self.pair
-        judged = {DIFFER: "differ", ALIKE: f"alike within {rule.margin:g}", OPEN: "not decided"}[self.word]
-        return f"{pair.names[0]} and {pair.names[1]}: {judged}; distance {pair.distance:.3f}, at most {pair.bound:.3f}, p = {pair.p:.4f}, N = {pair.n}"
+        judged = {DIFFER: "differ", ALIKE: f"alike within {rule.margin:g}", OPEN: "not decided"}[
+            self.word
+        ]
+        return (
+            f"{pair.names[0]} and {pair.names[1]}: {judged}; distance {pair.distance:.3f}, "
+            f"at most {pair.bound:.3f}, p = {pair.p:.4f}, N = {pair.n}"
+        )
 
 
 def stages(plan: Plan, rule: Rule) -> list[int]:
     """Numbers of motions after which the results are looked at.
 
-    Raises:
-        InputError: the study has nothing to compare, or fewer motions than the first stage.
+    Raises
+    ------
+    InputError
+        the study has nothing to compare, or fewer motions than the first stage.
     """
     motions = len({member_of(analysis.values) for analysis in plan.analyses})
     if len({repr(analysis.combination) for analysis in plan.analyses}) < 2:
-        raise InputError(plan.file, "axes", None, "has one setting alone: there is nothing to decide between")
+        raise InputError(
+            plan.file, "axes", None, "has one setting alone: there is nothing to decide between"
+        )
     if motions < FIRST:
-        raise InputError(plan.file, "axes", None, f"has {motions} motions; deciding begins with {FIRST}")
+        raise InputError(
+            plan.file, "axes", None, f"has {motions} motions; deciding begins with {FIRST}"
+        )
     last, found = min(motions, rule.most), [FIRST]
     while found[-1] < last:
         found.append(min(2 * found[-1], last))
@@ -75,18 +98,38 @@ def stages(plan: Plan, rule: Rule) -> list[int]:
 
 
 def stage_analyses(plan: Plan, motions: int, verdicts: list[Verdict]) -> set[str]:
-    """Ids of the analyses of the first so many motions, of the settings that are not decided yet; of all before the first look."""
+    """Ids of the analyses of the first so many motions, of the settings that are not decided yet;
+    of all before the first look.
+    """
     taken = dict.fromkeys(member_of(analysis.values) for analysis in plan.analyses)
     chosen = set(itertools.islice(taken, motions))
-    open_settings = {repr(values) for verdict in verdicts if verdict.word == OPEN for values in verdict.pair.settings}
-    return {analysis.id for analysis in plan.analyses if member_of(analysis.values) in chosen and (not verdicts or repr(analysis.combination) in open_settings)}
+    open_settings = {
+        repr(values)
+        for verdict in verdicts
+        if verdict.word == OPEN
+        for values in verdict.pair.settings
+    }
+    return {
+        analysis.id
+        for analysis in plan.analyses
+        if member_of(analysis.values) in chosen
+        and (not verdicts or repr(analysis.combination) in open_settings)
+    }
 
 
-def judge(plan: Plan, rows: list[dict], rule: Rule, looks: list[int], motions: int, before: list[Verdict]) -> list[Verdict]:
+def judge(
+    plan: Plan, rows: list[dict], rule: Rule, looks: list[int], motions: int, before: list[Verdict]
+) -> list[Verdict]:
     """Verdict on each pair of settings after a stage; those of `before` that are decided stay.
 
-    Args:
-        rows: of the ledger. looks: motions of all stages, as of `stages`; motions: those of this one.
+    Parameters
+    ----------
+    rows
+        of the ledger.
+    looks
+        motions of all stages, as of `stages`
+    motions
+        those of this one.
     """
     level = rule.error * motions / sum(looks)
     pairs = pairs_of(settings_of(plan, rows), confidence=1 - level)

@@ -14,25 +14,53 @@ from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.study.plan import Plan
 from fecolumn.study.store import DONE
 
-# The axis told apart by lines where it is varied, all others by panels; where it is not, the axis of most levels that a panel can show
+# The axis told apart by lines where it is varied, all others by panels; where it is not, the axis
+# of most levels that a panel can show
 _LINE_AXIS, _LINES = "integration.alpha_hht", 7
 
-_TABLE = ("planned", "n", "overturned", "slid_off", "p_overturn", "wilson_low", "wilson_high", "exact_low", "exact_high",
-          "u_max_16_m", "u_max_50_m", "u_max_84_m", "energy_closure_worst")
-_ANALYSES = ("u_max_m", "overturned", "slid_off", "outcome", "residual_slide_m", "steps", "energy_closure_rel")
+_TABLE = (
+    "planned",
+    "n",
+    "overturned",
+    "slid_off",
+    "p_overturn",
+    "wilson_low",
+    "wilson_high",
+    "exact_low",
+    "exact_high",
+    "u_max_16_m",
+    "u_max_50_m",
+    "u_max_84_m",
+    "energy_closure_worst",
+)
+_ANALYSES = (
+    "u_max_m",
+    "overturned",
+    "slid_off",
+    "outcome",
+    "residual_slide_m",
+    "steps",
+    "energy_closure_rel",
+)
 
 
 def combinations(plan: Plan, rows: list[dict]) -> list[tuple[dict, list[dict], int]]:
-    """The ensembles of a study in the order of its file: axis values, summaries of what is done, number planned.
+    """The ensembles of a study in the order of its file: axis values, summaries of what is done,
+    number planned.
 
-    Args:
-        plan: the study.
-        rows: its ledger, as `run_study` returns it.
+    Parameters
+    ----------
+    plan
+        the study.
+    rows
+        its ledger, as `run_study` returns it.
     """
     states = {row["id"]: row for row in rows}
     groups: dict[tuple, tuple[dict, list, list]] = {}
     for analysis in plan.analyses:
-        values, done, planned = groups.setdefault(tuple(map(repr, analysis.combination.values())), (analysis.combination, [], []))
+        values, done, planned = groups.setdefault(
+            tuple(map(repr, analysis.combination.values())), (analysis.combination, [], [])
+        )
         planned.append(analysis.id)
         if states[analysis.id]["state"] == DONE:
             done.append(states[analysis.id]["summary"])
@@ -42,7 +70,10 @@ def combinations(plan: Plan, rows: list[dict]) -> list[tuple[dict, list[dict], i
 def ensemble(summaries: list[dict]) -> EnsembleSummary:
     """Row of one combination from the summaries of its analyses, at least one."""
     columns = ("u_max_m", "overturned", "energy_closure_rel", "s_per_step")
-    return summarize(*([summary[column] for summary in summaries] for column in columns), [bool(summary.get("slid_off")) for summary in summaries])
+    return summarize(
+        *([summary[column] for summary in summaries] for column in columns),
+        [bool(summary.get("slid_off")) for summary in summaries],
+    )
 
 
 def write_tables(plan: Plan, rows: list[dict], folder) -> None:
@@ -53,74 +84,145 @@ def write_tables(plan: Plan, rows: list[dict], folder) -> None:
         if done:
             row = ensemble(done)
             shares = (row.p_overturn, *row.wilson, *row.exact)
-            table.append([*texts, planned, row.n, row.overturned, row.slid_off, *(f"{p:.6f}" for p in shares),
-                          *(f"{u:.6e}" for u in (row.u16_m, row.u50_m, row.u84_m)), f"{row.energy_closure_worst:.3e}"])
-            timing.append([*texts, row.n, f"{row.s_per_step:.6f}", f"{sum(s['wall_s'] for s in done):.2f}"])
+            table.append(
+                [
+                    *texts,
+                    planned,
+                    row.n,
+                    row.overturned,
+                    row.slid_off,
+                    *(f"{p:.6f}" for p in shares),
+                    *(f"{u:.6e}" for u in (row.u16_m, row.u50_m, row.u84_m)),
+                    f"{row.energy_closure_worst:.3e}",
+                ]
+            )
+            timing.append(
+                [*texts, row.n, f"{row.s_per_step:.6f}", f"{sum(s['wall_s'] for s in done):.2f}"]
+            )
         else:
             table.append([*texts, planned, 0] + [""] * (len(_TABLE) - 2))
     axes = list(plan.analyses[0].combination)
     write_csv(Path(folder) / "table.csv", [[*axes, *_TABLE], *table])
     write_csv(Path(folder) / "timing.csv", [[*axes, "n", "s_per_step", "wall_s"], *timing])
-    write_csv(Path(folder) / "analyses.csv", [["case_id", *plan.axes, "state", *_ANALYSES], *map(_analysis_row, rows)])
+    write_csv(
+        Path(folder) / "analyses.csv",
+        [["case_id", *plan.axes, "state", *_ANALYSES], *map(_analysis_row, rows)],
+    )
 
 
 def _analysis_row(row: dict) -> list:
     texts, summary = [row["id"], *row["axes"].values(), row["state"]], row["summary"]
     if not summary:
         return texts + [""] * len(_ANALYSES)
-    peak = "" if lost(summary) else f"{summary['u_max_m']:.6e}"  # what overturned or slid off has none
-    return [*texts, peak, int(summary["overturned"]), int(bool(summary.get("slid_off"))), summary.get("outcome", ""),
-            f"{summary['residual_slide_m']:.6e}", summary["steps"],
-            f"{summary['energy_closure_rel']:.3e}"]
+    peak = (
+        "" if lost(summary) else f"{summary['u_max_m']:.6e}"
+    )  # what overturned or slid off has none
+    return [
+        *texts,
+        peak,
+        int(summary["overturned"]),
+        int(bool(summary.get("slid_off"))),
+        summary.get("outcome", ""),
+        f"{summary['residual_slide_m']:.6e}",
+        summary["steps"],
+        f"{summary['energy_closure_rel']:.3e}",
+    ]
 
 
 def table_text(plan: Plan, rows: list[dict]) -> str:
-    """The table for a reader: a line for each combination, axes of one value left out; columns that slid off their base are counted where
-    there are any."""
+    """The table for a reader: a line for each combination, axes of one value left out; columns that
+    slid off their base are counted where there are any.
+    """
     levels = varied(plan)
-    off = any(summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done)
-    lines = [[*(key.split(".")[-1] for key in levels),
-              "n", "overturned", *(["slid off"] if off else []), "P [95 % Wilson]", "u16 mm", "u50 mm", "u84 mm", "closure", "s/step"]]
+    off = any(
+        summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done
+    )
+    lines = [
+        [
+            *(key.split(".")[-1] for key in levels),
+            "n",
+            "overturned",
+            *(["slid off"] if off else []),
+            "P [95 % Wilson]",
+            "u16 mm",
+            "u50 mm",
+            "u84 mm",
+            "closure",
+            "s/step",
+        ]
+    ]
     for values, done, planned in combinations(plan, rows):
         texts = [str(values[key]) for key in levels]
         if not done:
             lines.append([*texts, f"0/{planned}"] + ["-"] * (7 + off))
             continue
         row = ensemble(done)
-        lines.append([*texts, f"{row.n}/{planned}", str(row.overturned), *([str(row.slid_off)] if off else []),
-                      f"{100 * row.p_overturn:.1f} % [{100 * row.wilson[0]:.1f}, {100 * row.wilson[1]:.1f}]",
-                      *(f"{1e3 * u:.2f}" if math.isfinite(u) else "lost" if off else "overturn" for u in (row.u16_m, row.u50_m, row.u84_m)),
-                      f"{row.energy_closure_worst:.1e}", f"{row.s_per_step:.3g}"])
+        lines.append(
+            [
+                *texts,
+                f"{row.n}/{planned}",
+                str(row.overturned),
+                *([str(row.slid_off)] if off else []),
+                f"{100 * row.p_overturn:.1f} % [{100 * row.wilson[0]:.1f}, "
+                f"{100 * row.wilson[1]:.1f}]",
+                *(
+                    f"{1e3 * u:.2f}" if math.isfinite(u) else "lost" if off else "overturn"
+                    for u in (row.u16_m, row.u50_m, row.u84_m)
+                ),
+                f"{row.energy_closure_worst:.1e}",
+                f"{row.s_per_step:.3g}",
+            ]
+        )
     widths = [max(map(len, column)) for column in zip(*lines)]
-    return "\n".join("  ".join(cell.rjust(width) for cell, width in zip(line, widths)) for line in lines)
+    return "\n".join(
+        "  ".join(cell.rjust(width) for cell, width in zip(line, widths)) for line in lines
+    )
 
 
 def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
-    """Write cdf.png and cdf.pdf: a line for each level of one axis, a panel for each setting of the others; axes of one value are left out."""
+    """Write cdf.png and cdf.pdf: a line for each level of one axis, a panel for each setting of the
+    others; axes of one value are left out.
+    """
     panels: dict[str, list] = {}
     levels = varied(plan)
     line = line_axis(levels)
     for values, done, _ in combinations(plan, rows):
-        title = ", ".join(axis_text(key, value) for key, value in values.items() if key != line and key in levels)
+        title = ", ".join(
+            axis_text(key, value) for key, value in values.items() if key != line and key in levels
+        )
         if done:
             label = axis_text(line, values[line]) if line else f"$n$ = {len(done)}"
-            panels.setdefault(title, []).append((label, ecdf([s["u_max_m"] for s in done], [lost(s) for s in done])))
+            panels.setdefault(title, []).append(
+                (label, ecdf([s["u_max_m"] for s in done], [lost(s) for s in done]))
+            )
     if not panels:
         return []
-    off = any(summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done)
-    return cdf_figure([Panel(title or plan.title, tuple(lines), P_LOST if off else P_OVERTURN) for title, lines in panels.items()], Path(folder) / "cdf")
+    off = any(
+        summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done
+    )
+    return cdf_figure(
+        [
+            Panel(title or plan.title, tuple(lines), P_LOST if off else P_OVERTURN)
+            for title, lines in panels.items()
+        ],
+        Path(folder) / "cdf",
+    )
 
 
 def varied(plan: Plan) -> dict[str, int]:
     """Number of levels of each axis that tells ensembles apart and has more than one."""
-    levels = {key: len({repr(analysis.combination[key]) for analysis in plan.analyses}) for key in plan.analyses[0].combination}
+    levels = {
+        key: len({repr(analysis.combination[key]) for analysis in plan.analyses})
+        for key in plan.analyses[0].combination
+    }
     return {key: count for key, count in levels.items() if count > 1}
 
 
 def line_axis(levels: dict[str, int]) -> str | None:
-    """The axis whose levels are the lines of a figure, from the numbers of levels of those that vary; None where one line a panel is left."""
+    """The axis whose levels are the lines of a figure, from the numbers of levels of those that
+    vary; None where one line a panel is left.
+    """
     if _LINE_AXIS in levels:
         return _LINE_AXIS
     few = [key for key in levels if levels[key] <= _LINES]
     return max(few, key=levels.get, default=None)
-

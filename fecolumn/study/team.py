@@ -8,15 +8,20 @@ from fecolumn.study.outcome import Outcome, Task
 
 
 class StudyError(RuntimeError):
-    """The study as a whole cannot go on, for example because no worker can start or the disk is full."""
+    """The study as a whole cannot go on, for example because no worker can start or the disk is
+    full.
+    """
 
 
 class Team(Protocol):
     """Workers that take batches of tasks and tell what became of each.
 
-    Attributes:
-        size: number of workers.
-        at_work: whether some task's outcome has not been collected yet.
+    Attributes
+    ----------
+    size
+        number of workers.
+    at_work
+        whether some task's outcome has not been collected yet.
     """
 
     size: int
@@ -33,8 +38,10 @@ class Team(Protocol):
     def collect(self, timeout_s: float) -> list[Outcome]:
         """What has ended, waiting for something at most `timeout_s` [s].
 
-        Raises:
-            StudyError: no worker can start.
+        Raises
+        ------
+        StudyError
+            no worker can start.
         """
 
     def stop(self) -> None:

@@ -21,7 +21,9 @@ from fecolumn.files import is_file
 from fecolumn.study.outcome import FAILED, FULL, Outcome, Task, finished
 
 # One thread a worker: BLAS threads of several workers on the same cores only disturb each other.
-ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")}
+ONE_THREAD = dict.fromkeys(
+    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1"
+)
 _PR_SET_PDEATHSIG = 1  # linux/prctl.h
 
 
@@ -34,10 +36,14 @@ def analysis_function(entry: str):
 def work_off(batch: list[Task], run, file: str) -> Iterator[Outcome]:
     """Do the tasks of a batch in order; stops at a full disk.
 
-    Args:
-        batch: what to do.
-        run: analysis function, see `fecolumn.study.run.run_study`.
-        file: study file, for messages.
+    Parameters
+    ----------
+    batch
+        what to do.
+    run
+        analysis function, see `fecolumn.study.run.run_study`.
+    file
+        study file, for messages.
     """
     from mpi4py import MPI
 
@@ -59,11 +65,15 @@ def work_off(batch: list[Task], run, file: str) -> Iterator[Outcome]:
             if full:
                 return
         else:
-            yield finished(task.id, task.folder, **told) or Outcome(task.id, FAILED, "ended without a summary.json of its own", **told)
+            yield finished(task.id, task.folder, **told) or Outcome(
+                task.id, FAILED, "ended without a summary.json of its own", **told
+            )
 
 
 def _analyse(task: Task, run, comm, file: str) -> tuple[str, bool]:
-    """Do one analysis, its words in its own log: why it failed, empty where it did not, and whether the disk is full."""
+    """Do one analysis, its words in its own log: why it failed, empty where it did not, and whether
+    the disk is full.
+    """
     task.folder.mkdir(parents=True, exist_ok=True)
     (task.folder / "summary.json").unlink(missing_ok=True)  # damaged, or of another case
     problem, full = "", False
@@ -93,7 +103,9 @@ def _try(speak) -> None:
 
 
 def _speak_into(log) -> None:
-    """Send what Python, libraries and crashes say on standard output and error to the analysis' own log."""
+    """Send what Python, libraries and crashes say on standard output and error to the analysis' own
+    log.
+    """
     for stream, number in ((sys.stdout, 1), (sys.stderr, 2)):
         _try(stream.flush)
         os.dup2(log.fileno(), number)
@@ -102,7 +114,9 @@ def _speak_into(log) -> None:
 
 @contextlib.contextmanager
 def streams_kept():
-    """Give a process that goes on to live its standard output and error back, which `work_off` lends to the logs of analyses."""
+    """Give a process that goes on to live its standard output and error back, which `work_off`
+    lends to the logs of analyses.
+    """
     kept = [(number, os.dup(number)) for number in (1, 2)]
     try:
         yield
@@ -113,13 +127,17 @@ def streams_kept():
 
 
 def give_back_memory() -> None:
-    """Give free memory back to the machine: glibc keeps what lies between pieces in use, gigabytes once models of a dozen specimens were made."""
+    """Give free memory back to the machine: glibc keeps what lies between pieces in use, gigabytes
+    once models of a dozen specimens were made.
+    """
     if trim := getattr(ctypes.CDLL(None), "malloc_trim", None):
         trim(0)
 
 
 def die_with_parent() -> None:
-    """Have the kernel kill this process the moment its parent is gone, lest it works on into a folder a new driver has taken over."""
+    """Have the kernel kill this process the moment its parent is gone, lest it works on into a
+    folder a new driver has taken over.
+    """
     ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, int(signal.SIGKILL))
 
 
@@ -128,7 +146,10 @@ def machine() -> str:
     """Name and processor of this machine."""
     try:
         with open("/proc/cpuinfo") as file:
-            model = next((line.partition(":")[2].strip() for line in file if line.startswith("model name")), platform.machine())
+            model = next(
+                (line.partition(":")[2].strip() for line in file if line.startswith("model name")),
+                platform.machine(),
+            )
     except OSError:
         model = platform.machine()
     return f"{platform.node()}, {model}"

@@ -1,14 +1,36 @@
-"""Cases with an exact answer, beside what the engines compute. One module a case: run(engine, long) returns its Result."""
+"""Cases with an exact answer, beside what the engines compute.
 
-#: Engines of the suite: the two kinematics of the full order, the reduced engine with and without modes, and rocking models of rigid bodies.
+One module a case: run(engine, long) returns its Result.
+"""
+
+#: Engines of the suite: the two kinematics of the full order, the reduced engine with and without
+#: modes, and rocking models of rigid bodies.
 FULL, REDUCED, MODELS = ("corotated", "total_lagrangian"), ("reduced", "rigid"), ("models",)
 ELEMENTS = FULL + REDUCED
 ALL_ENGINES = ELEMENTS + MODELS
-#: Modules of this package that hold a case, in the order of the table, with the engines it applies to; the manual (theory) says why.
+#: Modules of this package that hold a case, in the order of the table, with the engines it applies
+#: to; the manual (theory) says why.
 CASES = {
-    "patch": FULL, "hertz": FULL, "bar_impact": (*FULL, "reduced"), "hht_scheme": (*FULL, "reduced"), "elastodynamics": FULL,
-    "sliding": ELEMENTS, "rocking": ELEMENTS, "wobbling": ELEMENTS, "frames": (*FULL, "reduced"),
-    "scaling": (*FULL, "reduced"), "invariance": (*FULL, "reduced"), "ledger": (*FULL, "reduced"),
-    "several_bodies": ("rigid",), "joints": ("corotated", *REDUCED), "structures": ("reduced",), "structures_feet": REDUCED, "full_structures": ("corotated",), "rocking_models": MODELS, "rocking_tables": MODELS,
-    "wobbling_models": MODELS, "podium": MODELS, "masonry": MODELS,
+    "patch": FULL,
+    "hertz": FULL,
+    "bar_impact": (*FULL, "reduced"),
+    "hht_scheme": (*FULL, "reduced"),
+    "elastodynamics": FULL,
+    "sliding": ELEMENTS,
+    "rocking": ELEMENTS,
+    "wobbling": ELEMENTS,
+    "frames": (*FULL, "reduced"),
+    "scaling": (*FULL, "reduced"),
+    "invariance": (*FULL, "reduced"),
+    "ledger": (*FULL, "reduced"),
+    "several_bodies": ("rigid",),
+    "joints": ("corotated", *REDUCED),
+    "structures": ("reduced",),
+    "structures_feet": REDUCED,
+    "full_structures": ("corotated",),
+    "rocking_models": MODELS,
+    "rocking_tables": MODELS,
+    "wobbling_models": MODELS,
+    "podium": MODELS,
+    "masonry": MODELS,
 }

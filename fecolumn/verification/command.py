@@ -9,18 +9,45 @@ from fecolumn.verification import ALL_ENGINES, CASES
 
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn verify`."""
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder for table and figures")
-    parser.add_argument("-k", "--case", metavar="NAME", default="", help=f"cases whose name contains NAME, of {', '.join(CASES)}")
-    parser.add_argument("--engine", metavar="E", action="append", choices=ALL_ENGINES, help="engine, of %(choices)s (default: each)")
-    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1, help="cases at a time (default: %(default)s)")
-    parser.add_argument("--long", action="store_true", help="finer meshes and smaller steps as well, about three hours on two cores")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", required=True, help="folder for table and figures"
+    )
+    parser.add_argument(
+        "-k",
+        "--case",
+        metavar="NAME",
+        default="",
+        help=f"cases whose name contains NAME, of {', '.join(CASES)}",
+    )
+    parser.add_argument(
+        "--engine",
+        metavar="E",
+        action="append",
+        choices=ALL_ENGINES,
+        help="engine, of %(choices)s (default: each)",
+    )
+    parser.add_argument(
+        "-j",
+        "--jobs",
+        metavar="N",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="cases at a time (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--long",
+        action="store_true",
+        help="finer meshes and smaller steps as well, about three hours on two cores",
+    )
 
 
 def main(args) -> int:
     """Run the cases; 0 when every row holds, 1 when one does not.
 
-    Raises:
-        InputError: no case of that name, or a folder that cannot be written.
+    Raises
+    ------
+    InputError
+        no case of that name, or a folder that cannot be written.
     """
     from fecolumn.folder import written
     from fecolumn.schema import InputError
@@ -28,11 +55,15 @@ def main(args) -> int:
 
     pairs = tasks(args.case, args.engine or ALL_ENGINES)
     if not pairs:
-        raise InputError("fecolumn verify", "-k", args.case, f"must be part of a case's name: {', '.join(CASES)}")
+        raise InputError(
+            "fecolumn verify", "-k", args.case, f"must be part of a case's name: {', '.join(CASES)}"
+        )
     if args.jobs < 1:
         raise InputError("fecolumn verify", "-j", args.jobs, "must be at least 1")
     with written(args.output, "verify", names=("table.csv", "table.txt")) as draft:
-        findings = verify(pairs, draft, args.long, args.jobs, show=lambda text: print(text, flush=True))
+        findings = verify(
+            pairs, draft, args.long, args.jobs, show=lambda text: print(text, flush=True)
+        )
     print(f"wrote {os.path.join(args.output, 'table.csv')}")
     print(count(findings))
     return 0 if all(finding.ok for finding in findings) else 1

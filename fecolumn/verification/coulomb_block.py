@@ -10,20 +10,30 @@ from scipy.optimize import brentq
 class NewmarkBlock:
     """Slip under the pulse A sin(w t), 0 < w t < 2 pi, friction mu g = r (Newmark 1965).
 
-    At rest until A sin(w t1) = r; then against the ground until t2, (A/w) (cos w t2 - cos w t1) + r (t2 - t1) = 0. There the
-    ground still pulls with more than r, and the block turns round at once; it stops after the pulse.
+    At rest until A sin(w t1) = r; then against the ground until t2, (A/w) (cos w t2 - cos w t1) + r
+    (t2 - t1) = 0. There the ground still pulls with more than r, and the block turns round at once;
+    it stops after the pulse.
 
-    Args:
-        amplitude, frequency, resistance: A [m/s2], w [rad/s], r [m/s2]; A / r near 2, for which the sequence is as said.
+    Parameters
+    ----------
+    amplitude, frequency, resistance
+        A [m/s2], w [rad/s], r [m/s2]; A / r near 2, for which the sequence is as said.
 
-    Attributes:
-        frequency: w. stop: end of slip [s]. distance: what it is off in the end [m]. path: all it slid [m].
+    Attributes
+    ----------
+    frequency
+        w. stop: end of slip [s]. distance: what it is off in the end [m]. path: all it slid [m].
     """
 
     def __init__(self, amplitude: float, frequency: float, resistance: float):
         A, w, r = self.amplitude, self.frequency, self.resistance = amplitude, frequency, resistance
         begin, end = np.arcsin(r / A) / w, 2 * np.pi / w
-        turn = brentq(lambda t: A / w * (np.cos(w * t) - np.cos(w * begin)) + r * (t - begin), np.pi / w, end, xtol=1e-15)
+        turn = brentq(
+            lambda t: A / w * (np.cos(w * t) - np.cos(w * begin)) + r * (t - begin),
+            np.pi / w,
+            end,
+            xtol=1e-15,
+        )
         if A * abs(np.sin(w * turn)) < r:
             raise ValueError("the block would rest between its two slides")
         speed = A / w * (1 - np.cos(w * turn)) - r * (end - turn)
@@ -36,25 +46,44 @@ class NewmarkBlock:
 
     def _slip(self, piece: int, t: float) -> float:
         """Displacement [m] at time t in a piece; the last has no ground motion."""
-        (begin, position, speed, direction), A, w = self._pieces[piece], self.amplitude, self.frequency
+        (begin, position, speed, direction), A, w = (
+            self._pieces[piece],
+            self.amplitude,
+            self.frequency,
+        )
         past = t - begin
-        driven = A / w * ((np.sin(w * t) - np.sin(w * begin)) / w - np.cos(w * begin) * past) if piece < 2 else 0.0
+        driven = (
+            A / w * ((np.sin(w * t) - np.sin(w * begin)) / w - np.cos(w * begin) * past)
+            if piece < 2
+            else 0.0
+        )
         return position + speed * past + driven - direction * self.resistance * past**2 / 2
 
     def displacement(self, times) -> np.ndarray:
         """Slip [m] at `times` [s]."""
         pieces = np.searchsorted([piece[0] for piece in self._pieces], times, side="right") - 1
-        return np.array([self._slip(piece, min(t, self.stop)) if piece >= 0 else 0.0 for t, piece in zip(times, pieces)])
+        return np.array(
+            [
+                self._slip(piece, min(t, self.stop)) if piece >= 0 else 0.0
+                for t, piece in zip(times, pieces)
+            ]
+        )
 
 
 class TurningBlock:
-    """Slip (2,) on ground that turns, a_g = A (cos w t, sin w t), from rest; friction r < A, so that the slip never stops.
+    """Slip (2,) on ground that turns, a_g = A (cos w t, sin w t), from rest; friction r < A, so
+    that the slip never stops.
 
-    From rest u' = -(A - r) t e(k w t), e the unit vector of an angle and k = A / (2 A - r) from the transverse balance
-    (A - r) k = A (1 - k); after a microsecond of it an explicit Runge-Kutta method of order 8 takes over.
+    From rest u' = -(A - r) t e(k w t), e the unit vector of an angle and k = A / (2 A - r) from the
+    transverse balance (A - r) k = A (1 - k); after a microsecond of it an explicit Runge-Kutta
+    method of order 8 takes over.
 
-    Args:
-        amplitude, frequency, resistance: A [m/s2], w [rad/s], r [m/s2]. seconds: how long.
+    Parameters
+    ----------
+    amplitude, frequency, resistance
+        A [m/s2], w [rad/s], r [m/s2].
+    seconds
+        how long.
     """
 
     def __init__(self, amplitude: float, frequency: float, resistance: float, seconds: float):
@@ -66,7 +95,9 @@ class TurningBlock:
         angle = amplitude / (2 * amplitude - resistance) * frequency * self._first
         speed = -(amplitude - resistance) * self._first * np.array([np.cos(angle), np.sin(angle)])
         start = np.concatenate([speed * self._first / 2, speed])
-        self._path = solve_ivp(rate, (self._first, seconds), start, "DOP853", rtol=1e-12, atol=1e-15, dense_output=True).sol
+        self._path = solve_ivp(
+            rate, (self._first, seconds), start, "DOP853", rtol=1e-12, atol=1e-15, dense_output=True
+        ).sol
 
     def ground(self, t: float) -> np.ndarray:
         """Ground acceleration (2,) [m/s2]."""

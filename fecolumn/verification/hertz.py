@@ -1,34 +1,41 @@
 """Hertz contact: a cylinder and a sphere pressed on a flat, both elastic.
 
-Requirement: contact radius, peak pressure and approach of Hertz's solution to second order in h, the pressure at single nodes to
-first order, at any load.
+Requirement: contact radius, peak pressure and approach of Hertz's solution to second order in h,
+the pressure at single nodes to first order, at any load.
 
-Derivation. With 1/E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, a surface r^2 / 2R pressed on a flat without friction touches within a,
+Derivation. With 1/E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, a surface r^2 / 2R pressed on a flat
+without friction touches within a,
 
     cylinder (b long)   P = pi a^2 E* b / 4R,   p0 = a E* / 2R,      approach / P = c - 2 ln(a) / pi E* b,
     sphere              P = 4 a^3 E* / 3R,      p0 = 2 a E* / pi R,  approach / P = c + 3 / (4 E* a),
 
-under the pressure p0 (1 - r^2 / a^2)^(1/2). The weight of a block with a curved bottom is P; the base is a block of the same size,
-held below. The cylinder is a slice of one brick along y, with nu = 0 in plane strain exactly. Its contact is filtered, as the impact
-law needs it, the sphere's is not. Materials differ, friction is 0; of equal materials both surfaces stretch alike, so that friction
-changes nothing. Three things differ from half-spaces:
+under the pressure p0 (1 - r^2 / a^2)^(1/2). The weight of a block with a curved bottom is P; the
+base is a block of the same size, held below. The cylinder is a slice of one brick along y, with nu
+= 0 in plane strain exactly. Its contact is filtered, as the impact law needs it, the sphere's is
+not. Materials differ, friction is 0; of equal materials both surfaces stretch alike, so that
+friction changes nothing. Three things differ from half-spaces:
 
-Compliance of the blocks. Bending, compression and the support far below add a settlement in proportion to P, the same at any a.
-It is c above (for the half-plane infinite), and goes out of approach(P) - s approach(P / s).
-Their size L. The smooth part of their compliance also bends the surfaces under the contact, by a share (a / L)^d of r^2 / 2R
-with d = 2 for the cylinder, 3 for the sphere (P / E L^d beside 1 / R). Half the size shows 2^d times the effect: if it changes the
-radius by no more than (2^d - 1) (a / L)^d, then (a / L)^d bounds what is left.
-Bricks. A node's force is a pressure weighted by the node's basis function; where it acts is known up to the second moment h^2 / 6
-of that function along each axis. The radius is found from the second moment of the forces, a^2 / 4 for the cylinder, 2 a^2 / 5 for the
-sphere; it is off by e = (h / a)^2 / 3 and 5 (h / a)^2 / 12 at most, as the contact's edge comes to lie anywhere in a brick. Several
-loads on one mesh show this; the worst of them counts, and orders scatter with them, the more the fewer the bricks.
+Compliance of the blocks. Bending, compression and the support far below add a settlement in
+proportion to P, the same at any a. It is c above (for the half-plane infinite), and goes out of
+approach(P) - s approach(P / s). Their size L. The smooth part of their compliance also bends the
+surfaces under the contact, by a share (a / L)^d of r^2 / 2R with d = 2 for the cylinder, 3 for the
+sphere (P / E L^d beside 1 / R). Half the size shows 2^d times the effect: if it changes the radius
+by no more than (2^d - 1) (a / L)^d, then (a / L)^d bounds what is left. Bricks. A node's force is a
+pressure weighted by the node's basis function; where it acts is known up to the second moment h^2 /
+6 of that function along each axis. The radius is found from the second moment of the forces, a^2 /
+4 for the cylinder, 2 a^2 / 5 for the sphere; it is off by e = (h / a)^2 / 3 and 5 (h / a)^2 / 12 at
+most, as the contact's edge comes to lie anywhere in a brick. Several loads on one mesh show this;
+the worst of them counts, and orders scatter with them, the more the fewer the bricks.
 
-Source. Hertz (1882); Johnson, Contact Mechanics (1985), chapter 4 and, for the approach of cylinders, section 5.6.
+Source. Hertz (1882); Johnson, Contact Mechanics (1985), chapter 4 and, for the approach of
+cylinders, section 5.6.
 
-Tolerances. Radius: e + (a / L)^d + a / R for finite strains. Peak pressure: d - 1 times that, for p0 a^(d-1) is P. Approach: that of its
-second term, a known to the same share at either load. Pressures: weighted by its basis function, p at a node on the edge is
-(2/3 - 2/5) (2 h / a)^(1/2) p0 instead of 0, and these nodes have the share (d - 1) h / a of the area: (4 / 15) (2 d - 2)^(1/2) h / a
-in the mean square. Equal materials: weight and support stretch the two blocks differently by a share a / L of p0 / E, which friction resists.
+Tolerances. Radius: e + (a / L)^d + a / R for finite strains. Peak pressure: d - 1 times that, for
+p0 a^(d-1) is P. Approach: that of its second term, a known to the same share at either load.
+Pressures: weighted by its basis function, p at a node on the edge is (2/3 - 2/5) (2 h / a)^(1/2) p0
+instead of 0, and these nodes have the share (d - 1) h / a of the area: (4 / 15) (2 d - 2)^(1/2) h /
+a in the mean square. Equal materials: weight and support stretch the two blocks differently by a
+share a / L of p0 / E, which friction resists.
 """
 
 from __future__ import annotations
@@ -48,13 +55,17 @@ LARGEST, CURVATURE = 0.01, 100.0  # a under full load and R [m]
 LENGTH = LARGEST / 8  # of the slice of the cylinder [m]
 MODULI, DENSITY = (70e9, 210e9), 7850.0  # of block and base [Pa, kg/m3]
 RIM, DEPTH = 1.2, 0.5  # half-width and depth of the equal bricks over a
-GROWTH = 5  # of the bricks beyond, over as many of them as lie along a: a finer mesh is finer everywhere
+GROWTH = (
+    5  # of the bricks beyond, over as many of them as lie along a: a finer mesh is finer everywhere
+)
 QUANTITIES = {"radius": "o-", "peak": "s:", "spread": "^--"}  # errors of Pressed
 
 
 @dataclass(frozen=True, slots=True)
 class Hertz:
-    """Exact solution. axes: along which the surface is curved; poisson: of both; moduli: of block and base [Pa]; size: L / a."""
+    """Exact solution. axes: along which the surface is curved; poisson: of both; moduli: of block
+    and base [Pa]; size: L / a.
+    """
 
     axes: int
     poisson: float
@@ -104,8 +115,9 @@ class Hertz:
 class Pressed:
     """A block on bricks of side h [m] under one load.
 
-    a: exact radius [m]. place: (n,) r of the foot's nodes over a; pressures: (n,) over p0. radius, peak: relative errors. spread: of the
-    pressures, root of the mean square over the contact. approach: settlement of the block [m]. friction: largest share of p0.
+    a: exact radius [m]. place: (n,) r of the foot's nodes over a; pressures: (n,) over p0. radius,
+    peak: relative errors. spread: of the pressures, root of the mean square over the contact.
+    approach: settlement of the block [m]. friction: largest share of p0.
     """
 
     h: float
@@ -122,25 +134,50 @@ class Pressed:
 def lines(h: float, fine: float, far: float, growth: float) -> np.ndarray:
     """Grid lines [m] from 0 to `far`: equal bricks of side h until `fine`, then growing."""
     equal = h * np.arange(np.ceil(fine / h - 1e-9) + 1)
-    steps = h * growth ** np.arange(1, np.ceil(np.log((far - equal[-1]) / h * (growth - 1) / growth + 1) / np.log(growth)) + 1)
+    steps = h * growth ** np.arange(
+        1, np.ceil(np.log((far - equal[-1]) / h * (growth - 1) / growth + 1) / np.log(growth)) + 1
+    )
     return np.concatenate([equal, equal[-1] + np.cumsum(steps) * (far - equal[-1]) / steps.sum()])
 
 
 def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) -> list[Pressed]:
-    """A block with `bricks` along the largest radius at rest under the loads that belong to `radii` [m]."""
+    """A block with `bricks` along the largest radius at rest under the loads that belong to `radii`
+    [m].
+    """
     h, far, growth = LARGEST / bricks, exact.size * LARGEST, GROWTH ** (1 / bricks)
     half, up = lines(h, RIM * LARGEST, far / 2, growth), lines(h, DEPTH * LARGEST, far, growth)
     x = np.concatenate([-half[:0:-1], half])
     # a slice of the base is longer by a hair: no point may leave it
-    y, under = (x, x) if exact.axes == 2 else (LENGTH * np.array([-0.5, 0.5]), LENGTH * np.array([-0.5, 0.5]) * (1 + 1e-8))
+    y, under = (
+        (x, x)
+        if exact.axes == 2
+        else (LENGTH * np.array([-0.5, 0.5]), LENGTH * np.array([-0.5, 0.5]) * (1 + 1e-8))
+    )
     mesh = box(x, y, up)
-    mesh = replace(mesh, points=mesh.points + np.outer((mesh.points[:, :exact.axes] ** 2).sum(axis=1) / (2 * CURVATURE), [0, 0, 1]))
-    block, base = (Material(youngs_modulus_pa=modulus, poissons_ratio=exact.poisson, density_kg_m3=DENSITY) for modulus in exact.moduli)
-    system = block_system(engine, mesh, box(x, under, -up[::-1]), HHT(1e-3, -0.05), material=block, base_material=base, friction=friction,
-                          filtered=exact.axes == 1, foot_height=(RIM * LARGEST + h) ** 2 / (2 * CURVATURE))
+    mesh = replace(
+        mesh,
+        points=mesh.points
+        + np.outer((mesh.points[:, : exact.axes] ** 2).sum(axis=1) / (2 * CURVATURE), [0, 0, 1]),
+    )
+    block, base = (
+        Material(youngs_modulus_pa=modulus, poissons_ratio=exact.poisson, density_kg_m3=DENSITY)
+        for modulus in exact.moduli
+    )
+    system = block_system(
+        engine,
+        mesh,
+        box(x, under, -up[::-1]),
+        HHT(1e-3, -0.05),
+        material=block,
+        base_material=base,
+        friction=friction,
+        filtered=exact.axes == 1,
+        foot_height=(RIM * LARGEST + h) ** 2 / (2 * CURVATURE),
+    )
     found = []
     for a in radii:
-        # at rest gravity and mass are one: of a material that there is, a small block needs more than the Earth's
+        # at rest gravity and mass are one: of a material that there is, a small block needs more
+        # than the Earth's
         system.weight = exact.load(a)
         system.gravity = np.array([0.0, 0.0, -system.weight / system.column.total_mass])
         found.append(measured(exact, system, begin(engine, system).start, a, h))
@@ -149,7 +186,7 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
 
 def measured(exact: Hertz, system, state, a: float, h: float) -> Pressed:
     """What a state at rest under the load of radius `a` [m] shows."""
-    squares, column = (system.interface.reference[:, :exact.axes] ** 2).sum(axis=1), system.column
+    squares, column = (system.interface.reference[:, : exact.axes] ** 2).sum(axis=1), system.column
     forces, p0 = state.forces[:, 2], exact.peak(a)
     radius = np.sqrt(forces @ squares / forces.sum() / exact.moment)
     pressures = forces / system.areas / p0
@@ -157,24 +194,49 @@ def measured(exact: Hertz, system, state, a: float, h: float) -> Pressed:
     contact = 2 * a * LENGTH if exact.axes == 1 else np.pi * a**2
     sunk = column.node_mass @ (column.X - state.x)[:, 2] / column.total_mass
     rubbed = np.linalg.norm(state.forces[:, :2], axis=1) / system.areas / p0
-    return Pressed(h, a, np.sqrt(squares) / a, pressures, radius / a - 1, pressures[squares.argmin()] - 1,
-                   np.sqrt(wrong**2 @ system.areas / contact), sunk, rubbed.max())
+    return Pressed(
+        h,
+        a,
+        np.sqrt(squares) / a,
+        pressures,
+        radius / a - 1,
+        pressures[squares.argmin()] - 1,
+        np.sqrt(wrong**2 @ system.areas / contact),
+        sunk,
+        rubbed.max(),
+    )
 
 
 def run(engine: str, long: bool) -> Result:
     """Cylinder with 4 to 12 bricks along the radius, sphere with 3 to 5; up to 24 and 7 if `long`."""
-    meshes = {Hertz(1, 0.0, 64): (4, 6, 8, 12) + (16, 24) * long, Hertz(2, 0.3, 8): (3, 4, 5) + (6, 7) * long}
+    meshes = {
+        Hertz(1, 0.0, 64): (4, 6, 8, 12) + (16, 24) * long,
+        Hertz(2, 0.3, 8): (3, 4, 5) + (6, 7) * long,
+    }
     result, found = Result(size=(7.2, 5.2)), {}
     for exact, bricks in meshes.items():
         radii = LARGEST * np.linspace(1, 0.7, 5 if exact.axes == 1 else 3)
         found[exact] = series = {n: press(engine, exact, n, radii) for n in bricks}
         result.rows += rows(exact, series)
         smaller = press(engine, replace(exact, size=exact.size / 2), bricks[0], radii[:1])[0]
-        result.rows.append(Row(f"{exact.name}: change of the radius in blocks of half the size [-]", 0.0,
-                               smaller.radius - series[bricks[0]][0].radius, (2 ** (exact.axes + 1) - 1) * exact.left(LARGEST)))
+        result.rows.append(
+            Row(
+                f"{exact.name}: change of the radius in blocks of half the size [-]",
+                0.0,
+                smaller.radius - series[bricks[0]][0].radius,
+                (2 ** (exact.axes + 1) - 1) * exact.left(LARGEST),
+            )
+        )
     cylinder = next(iter(meshes))
     rough = press(engine, replace(cylinder, moduli=MODULI[:1] * 2), 8, [LARGEST], friction=0.3)[0]
-    result.rows.append(Row("cylinder, equal materials, rough: largest friction / peak pressure [-]", 0.0, rough.friction, 1 / cylinder.size))
+    result.rows.append(
+        Row(
+            "cylinder, equal materials, rough: largest friction / peak pressure [-]",
+            0.0,
+            rough.friction,
+            1 / cylinder.size,
+        )
+    )
     result.draw = lambda figure: draw(figure, found)
     return result
 
@@ -190,22 +252,58 @@ def rows(exact: Hertz, series: dict[int, list[Pressed]]) -> list[Row]:
     loads = series[bricks]
     full, least, h = loads[0], loads[-1], loads[0].h
     allowed = exact.allowed(least.a, h)
-    order = {quantity: -np.polyfit(np.log(list(series)), np.log(worst(quantity, series)), 1)[0] for quantity in QUANTITIES}
-    ratio, spring = exact.load(full.a) / exact.load(least.a), exact.softness(full.a) - exact.softness(least.a)
-    known = sum(exact.steepness(one.a) * exact.allowed(one.a, h) for one in (full, least)) / abs(spring)
+    order = {
+        quantity: -np.polyfit(np.log(list(series)), np.log(worst(quantity, series)), 1)[0]
+        for quantity in QUANTITIES
+    }
+    ratio, spring = (
+        exact.load(full.a) / exact.load(least.a),
+        exact.softness(full.a) - exact.softness(least.a),
+    )
+    known = sum(exact.steepness(one.a) * exact.allowed(one.a, h) for one in (full, least)) / abs(
+        spring
+    )
 
     def of(quantity):
         return max((getattr(one, quantity) for one in loads), key=abs)
 
-    every = max(abs(one.radius) / exact.allowed(one.a, one.h) for some in series.values() for one in some)
+    every = max(
+        abs(one.radius) / exact.allowed(one.a, one.h) for some in series.values() for one in some
+    )
     return [
-        Row(f"{name}, {bricks} bricks along the radius: contact radius / exact [-]", 1.0, 1 + of("radius"), allowed, order=order["radius"]),
-        Row(f"{name}: contact radius, error over that allowed at its h, all meshes [-]", 0.0, every, 1.0),
-        Row(f"{name}: peak pressure / exact [-]", 1.0, 1 + of("peak"), exact.axes * allowed, order=order["peak"]),
-        Row(f"{name}: pressure at the nodes, rms error / peak [-]", 0.0, of("spread"), 4 / 15 * np.sqrt(2 * exact.axes) * h / least.a,
-            order=order["spread"]),
-        Row(f"{name}: approach(P) - {ratio:.2f} approach(P / {ratio:.2f}) [m]", exact.load(full.a) * spring,
-            full.approach - ratio * least.approach, known),
+        Row(
+            f"{name}, {bricks} bricks along the radius: contact radius / exact [-]",
+            1.0,
+            1 + of("radius"),
+            allowed,
+            order=order["radius"],
+        ),
+        Row(
+            f"{name}: contact radius, error over that allowed at its h, all meshes [-]",
+            0.0,
+            every,
+            1.0,
+        ),
+        Row(
+            f"{name}: peak pressure / exact [-]",
+            1.0,
+            1 + of("peak"),
+            exact.axes * allowed,
+            order=order["peak"],
+        ),
+        Row(
+            f"{name}: pressure at the nodes, rms error / peak [-]",
+            0.0,
+            of("spread"),
+            4 / 15 * np.sqrt(2 * exact.axes) * h / least.a,
+            order=order["spread"],
+        ),
+        Row(
+            f"{name}: approach(P) - {ratio:.2f} approach(P / {ratio:.2f}) [m]",
+            exact.load(full.a) * spring,
+            full.approach - ratio * least.approach,
+            known,
+        ),
     ]
 
 
@@ -218,32 +316,78 @@ def draw(figure, found) -> None:
         axes.plot(r, np.sqrt(1 - r**2), "k-", linewidth=0.8, label="Hertz")
         for n, colour, mark in zip((min(series), max(series)), colours, "o^"):
             one = series[n][0]
-            axes.plot(one.place, one.pressures, mark, color=colour, markersize=3.5, fillstyle="none", label=f"$a/h$ = {n}")
-        axes.set(title=f"{exact.name}, full load", xlabel="$r/a$", ylabel="$p/p_0$", xlim=(-0.03, 1.3), ylim=(-0.03, 1.1))
+            axes.plot(
+                one.place,
+                one.pressures,
+                mark,
+                color=colour,
+                markersize=3.5,
+                fillstyle="none",
+                label=f"$a/h$ = {n}",
+            )
+        axes.set(
+            title=f"{exact.name}, full load",
+            xlabel="$r/a$",
+            ylabel="$p/p_0$",
+            xlim=(-0.03, 1.3),
+            ylim=(-0.03, 1.1),
+        )
         axes.legend()
     for (exact, series), colour in zip(found.items(), colours):
         loads = series[max(series)]
         radii, full = np.linspace(loads[-1].a, LARGEST), loads[0]
-        softening.plot(radii / LARGEST, (exact.softness(radii) - exact.softness(LARGEST)) / exact.steepness(LARGEST), "k-", linewidth=0.8,
-                       label="Hertz" if exact.axes == 1 else None)
-        softer = np.array([one.approach / exact.load(one.a) for one in loads]) - full.approach / exact.load(full.a)
-        softening.plot([one.a / LARGEST for one in loads], softer / exact.steepness(LARGEST), "o^"[exact.axes - 1], color=colour,
-                       markersize=4, fillstyle="none", label=exact.name)
+        softening.plot(
+            radii / LARGEST,
+            (exact.softness(radii) - exact.softness(LARGEST)) / exact.steepness(LARGEST),
+            "k-",
+            linewidth=0.8,
+            label="Hertz" if exact.axes == 1 else None,
+        )
+        softer = np.array(
+            [one.approach / exact.load(one.a) for one in loads]
+        ) - full.approach / exact.load(full.a)
+        softening.plot(
+            [one.a / LARGEST for one in loads],
+            softer / exact.steepness(LARGEST),
+            "o^"[exact.axes - 1],
+            color=colour,
+            markersize=4,
+            fillstyle="none",
+            label=exact.name,
+        )
         sizes = 1 / np.array(list(series))
         for quantity, mark in QUANTITIES.items():
-            errors.loglog(sizes, worst(quantity, series), mark, color=colour, markersize=3.5, linewidth=0.9)
+            errors.loglog(
+                sizes, worst(quantity, series), mark, color=colour, markersize=3.5, linewidth=0.9
+            )
     sizes = np.array([1 / 13, 1 / 2.8])
     for power, factor in ((1, 0.42), (2, 0.7)):
         errors.loglog(sizes, factor * sizes**power, "k-", linewidth=0.6)
-        errors.annotate(f"order {power}", (sizes[0], factor * sizes[0] ** power), xytext=(0, 5), textcoords="offset points", fontsize=7)
+        errors.annotate(
+            f"order {power}",
+            (sizes[0], factor * sizes[0] ** power),
+            xytext=(0, 5),
+            textcoords="offset points",
+            fontsize=7,
+        )
     for exact, colour in zip(found, colours):
         errors.plot([], [], "-", color=colour, label=exact.name)
-    for label, mark in zip(("contact radius", "peak pressure", "pressure, rms / peak"), QUANTITIES.values()):
+    for label, mark in zip(
+        ("contact radius", "peak pressure", "pressure, rms / peak"), QUANTITIES.values()
+    ):
         errors.plot([], [], mark, color="0.4", markersize=3.5, linewidth=0.9, label=label)
-    errors.set(xlabel="$h/a$, full load", ylabel="relative error", title="worst of the loads", ylim=(2e-4, 1.5))
+    errors.set(
+        xlabel="$h/a$, full load",
+        ylabel="relative error",
+        title="worst of the loads",
+        ylim=(2e-4, 1.5),
+    )
     errors.set_xticks((1 / 12, 1 / 8, 1 / 6, 1 / 4, 1 / 3), ("1/12", "1/8", "1/6", "1/4", "1/3"))
     errors.set_xticks((), minor=True)
     errors.legend(ncols=2, loc="upper left")
-    softening.set(xlabel=r"$a$ / $a$ of full load $\hat P$", ylabel=r"$(\delta/P - \hat\delta/\hat P)\,/\,|\hat a\,d(\delta/P)/da|$",
-                  title="approach")
+    softening.set(
+        xlabel=r"$a$ / $a$ of full load $\hat P$",
+        ylabel=r"$(\delta/P - \hat\delta/\hat P)\,/\,|\hat a\,d(\delta/P)/da|$",
+        title="approach",
+    )
     softening.legend()

@@ -1,30 +1,36 @@
 """The time integration alone: one free vibration mode of a block that touches nothing.
 
-Requirement: order 2 in dt for displacement, velocity and acceleration; numerical damping, period error and spectral radius are
-those of the method for every alpha; alpha = 0 keeps the energy.
+Requirement: order 2 in dt for displacement, velocity and acceleration; numerical damping, period
+error and spectral radius are those of the method for every alpha; alpha = 0 keeps the energy.
 
 Derivation. In a mode of frequency w, with W = w dt and z = (u, dt v, dt^2 a), a step is z1 = A z0:
 
     a1 + (1 + al) W^2 u1 - al W^2 u0 = 0,   u1 = u0 + v0 + (1/2 - be) a0 + be a1,   v1 = v0 + (1 - ga) a0 + ga a1,
     be = (1 - al)^2 / 4,   ga = 1/2 - al.
 
-The principal eigenvalues exp(W' (-xi +- i)) of A give the damping ratio xi and the period error W / W' - 1 (Hughes 1987); at infinite
-W the largest one has the modulus (1 + al) / (1 - al). The forces are in balance at t1 + al dt: there the acceleration is second order,
-a1 = a(t1 + al dt) + O(dt^2), while read at t1 it is off by |al| w dt for any alpha but 0 (Erlicher, Bonaventura and Bursi 2002).
-The mode is the lowest elastic one of the free block's own mass and stiffness, so that the mesh has no part in the errors; it starts
-from u0 = phi, a0 = -w^2 phi. Rigid motion is orthogonal to it, so that gravity has no part either.
+The principal eigenvalues exp(W' (-xi +- i)) of A give the damping ratio xi and the period error W /
+W' - 1 (Hughes 1987); at infinite W the largest one has the modulus (1 + al) / (1 - al). The forces
+are in balance at t1 + al dt: there the acceleration is second order, a1 = a(t1 + al dt) + O(dt^2),
+while read at t1 it is off by |al| w dt for any alpha but 0 (Erlicher, Bonaventura and Bursi 2002).
+The mode is the lowest elastic one of the free block's own mass and stiffness, so that the mesh has
+no part in the errors; it starts from u0 = phi, a0 = -w^2 phi. Rigid motion is orthogonal to it, so
+that gravity has no part either.
 
-Source. Hilber, Hughes and Taylor (1977); Hughes (1987), The Finite Element Method, section 9.3; Erlicher et al. (2002).
+Source. Hilber, Hughes and Taylor (1977); Hughes (1987), The Finite Element Method, section 9.3;
+Erlicher et al. (2002).
 
-Tolerances. Order: the series of the error goes on with a relative W^2 / 2 or less; at 16 steps a period that bends a least-squares
-slope over a factor of 8 by W^2 / (2 ln 8) = 0.037, 2 % of 2. Departure from A: the solver leaves an unbalanced force of 4 eps k L,
-1e-7 of the mode's, in a step, and a few of these add up; the strains of 1e-5 make the total Lagrangian block stiffer by no more:
-1e-6 of the amplitude, of its energy, of W' and of ln |A|. Entries of A: a block that moves by 1e-6 m, position rounding of 1e-16 m
-and an unbalanced force of 1e-6 of the mode's, in one step: 1e-6. It moves so little because of the moment of second order that internal
-forces have: in a step of 15 s it turns a block far, and the iteration that takes it away, of which the factored matrix knows nothing,
-contracts by 5e-2 at w dt = 1e5, and diverges where the block moves ten times as far. Spectral radius: the modulus at infinity is a
-double eigenvalue, that perturbations e of A split by (e / d)^(1/2), d the distance of its modulus to the third one's, -al / (1 + al): 1e-3
-at alpha = -0.333, else more. With e = 1e-10, both of rounding and of (w dt)^-2 at w dt = 1e5: 1e-3.
+Tolerances. Order: the series of the error goes on with a relative W^2 / 2 or less; at 16 steps a
+period that bends a least-squares slope over a factor of 8 by W^2 / (2 ln 8) = 0.037, 2 % of 2.
+Departure from A: the solver leaves an unbalanced force of 4 eps k L, 1e-7 of the mode's, in a step,
+and a few of these add up; the strains of 1e-5 make the total Lagrangian block stiffer by no more:
+1e-6 of the amplitude, of its energy, of W' and of ln |A|. Entries of A: a block that moves by 1e-6
+m, position rounding of 1e-16 m and an unbalanced force of 1e-6 of the mode's, in one step: 1e-6. It
+moves so little because of the moment of second order that internal forces have: in a step of 15 s
+it turns a block far, and the iteration that takes it away, of which the factored matrix knows
+nothing, contracts by 5e-2 at w dt = 1e5, and diverges where the block moves ten times as far.
+Spectral radius: the modulus at infinity is a double eigenvalue, that perturbations e of A split by
+(e / d)^(1/2), d the distance of its modulus to the third one's, -al / (1 + al): 1e-3 at alpha =
+-0.333, else more. With e = 1e-10, both of rounding and of (w dt)^-2 at w dt = 1e5: 1e-3.
 """
 
 from __future__ import annotations
@@ -45,7 +51,8 @@ PERIODS = 2
 COARSE = (0.05, 0.1, 0.2, 0.4)
 STIFF = 1e5
 FIELDS = ("u", "v", "a at t + alpha dt")
-# Amplitude of the modal coordinate [m sqrt(kg)]: the block moves by 1e-5 m, far above rounding and far below finite strains
+# Amplitude of the modal coordinate [m sqrt(kg)]: the block moves by 1e-5 m, far above rounding and
+# far below finite strains
 AMPLITUDE = 1e-4
 # Of the amplification matrix, whose longest step lasts 15 s: see Tolerances
 MATRIX_AMPLITUDE = 1e-5
@@ -54,8 +61,10 @@ MATRIX_AMPLITUDE = 1e-5
 class Mode:
     """The lowest elastic mode of a free block in the solver.
 
-    Attributes:
-        shape: (n, 3) with unit modal mass. frequency: w [rad/s].
+    Attributes
+    ----------
+    shape
+        (n, 3) with unit modal mass. frequency: w [rad/s].
     """
 
     def __init__(self, engine: str):
@@ -65,47 +74,85 @@ class Mode:
 
     def system(self, dt: float, alpha: float):
         body = box(np.linspace(-0.1, 0.1, 3), np.linspace(-0.15, 0.15, 3), np.linspace(0, 1, 7))
-        return block_system(self.engine, body, box([-1, 1], [-1, 1], [-0.1, 0]), HHT(dt, alpha), gravity=(0, 0, -1e-6))
+        return block_system(
+            self.engine,
+            body,
+            box([-1, 1], [-1, 1], [-0.1, 0]),
+            HHT(dt, alpha),
+            gravity=(0, 0, -1e-6),
+        )
 
-    def steps(self, alpha: float, angle: float, start, count: int, amplitude: float = AMPLITUDE) -> tuple[np.ndarray, np.ndarray, float]:
-        """z = (u, dt v, dt^2 a) of the mode (count + 1, 3) from z0 = `start`, at w dt = `angle`; with the mechanical energy
-        (count + 1,) and the ledger's closure, both over the first energy."""
+    def steps(
+        self, alpha: float, angle: float, start, count: int, amplitude: float = AMPLITUDE
+    ) -> tuple[np.ndarray, np.ndarray, float]:
+        """Z = (u, dt v, dt^2 a) of the mode (count + 1, 3) from z0 = `start`, at w dt = `angle`;
+        with the mechanical energy (count + 1,) and the ledger's closure, both over the first
+        energy.
+        """
         dt = angle / self.frequency
         system = self.system(dt, alpha)
         scale = amplitude * np.array([1, 1 / dt, 1 / dt**2])
-        trial = begin(self.engine, system, lambda system: afloat(system, *(value * self.shape for value in scale * start), height=1e-3))
-        rest, measure = trial.state.x - scale[0] * start[0] * self.shape, system.column.momentum(self.shape)
+        trial = begin(
+            self.engine,
+            system,
+            lambda system: afloat(
+                system, *(value * self.shape for value in scale * start), height=1e-3
+            ),
+        )
+        rest, measure = (
+            trial.state.x - scale[0] * start[0] * self.shape,
+            system.column.momentum(self.shape),
+        )
         history, energy = [np.array(start, float)], [trial.mechanical()]
         for _ in range(count):
             state = trial.step()
-            history.append([system.column.dot(measure, field) for field in (state.x - rest, state.v, state.a)] / scale)
+            history.append(
+                [system.column.dot(measure, field) for field in (state.x - rest, state.v, state.a)]
+                / scale
+            )
             energy.append(trial.mechanical())
-        return np.array(history), np.array(energy) / energy[0], trial.energy()["closure"] / energy[0]
+        return (
+            np.array(history),
+            np.array(energy) / energy[0],
+            trial.energy()["closure"] / energy[0],
+        )
 
     def matrix(self, alpha: float, angle: float) -> np.ndarray:
         """Amplification matrix (3, 3) of the solver, one step from each of three starts."""
-        return np.column_stack([self.steps(alpha, angle, start, 1, MATRIX_AMPLITUDE)[0][1] for start in np.eye(3)])
+        return np.column_stack(
+            [self.steps(alpha, angle, start, 1, MATRIX_AMPLITUDE)[0][1] for start in np.eye(3)]
+        )
 
 
 def amplification(alpha: float, angle: float) -> np.ndarray:
     """Amplification matrix (3, 3) of the method for z = (u, dt v, dt^2 a) at w dt = `angle`."""
     hht = HHT(1.0, alpha)
     guess = np.array([1, 1, 0.5 - hht.beta])
-    a = angle**2 * (alpha * np.array([1, 0, 0]) - (1 + alpha) * guess) / (1 + hht.beta * (1 + alpha) * angle**2)
+    a = (
+        angle**2
+        * (alpha * np.array([1, 0, 0]) - (1 + alpha) * guess)
+        / (1 + hht.beta * (1 + alpha) * angle**2)
+    )
     return np.array([guess + hht.beta * a, np.array([0, 1, 1 - hht.gamma]) + hht.gamma * a, a])
 
 
 def principal(eigenvalues: np.ndarray) -> tuple[float, float]:
-    """(damping ratio, w dt of the numerical period) of the oscillating pair among eigenvalues of a step."""
+    """(damping ratio, w dt of the numerical period) of the oscillating pair among eigenvalues of a
+    step.
+    """
     pair = eigenvalues[np.argmax(eigenvalues.imag)]
     angle = float(np.angle(pair))
     return float(-np.log(abs(pair))) / angle, angle
 
 
 def of_history(values: np.ndarray) -> tuple[float, float]:
-    """`principal` of a decaying oscillation (n,), from the recurrence u2 = p u1 + q u0 that fits it best after its first quarter."""
-    values = values[len(values) // 4:]
-    (p, q), *_ = np.linalg.lstsq(np.column_stack([values[1:-1], values[:-2]]), values[2:], rcond=None)
+    """`principal` of a decaying oscillation (n,), from the recurrence u2 = p u1 + q u0 that fits it
+    best after its first quarter.
+    """
+    values = values[len(values) // 4 :]
+    (p, q), *_ = np.linalg.lstsq(
+        np.column_stack([values[1:-1], values[:-2]]), values[2:], rcond=None
+    )
     return principal(np.roots([1, -p, -q]).astype(complex))
 
 
@@ -123,36 +170,93 @@ def run(engine: str, long: bool) -> Result:
         errors[alpha] = np.array(found)
         for field, series in zip(FIELDS, errors[alpha].T):
             slope = -np.polyfit(np.log(PER_PERIOD), np.log(series), 1)[0]
-            result.rows.append(Row(f"slope of the error of {field}, alpha {alpha:g} [-]", 2.0, slope, 0.02, order=slope))
+            result.rows.append(
+                Row(
+                    f"slope of the error of {field}, alpha {alpha:g} [-]",
+                    2.0,
+                    slope,
+                    0.02,
+                    order=slope,
+                )
+            )
         if alpha == 0:
-            result.rows.append(Row(f"energy, largest change in {PERIODS} periods, alpha 0 [-]", 0.0, drift, 1e-6))
-    result.rows.append(Row("u, v, a: largest departure from the amplification matrix / amplitude [-]", 0.0, departure, 1e-6))
+            result.rows.append(
+                Row(f"energy, largest change in {PERIODS} periods, alpha 0 [-]", 0.0, drift, 1e-6)
+            )
+    result.rows.append(
+        Row(
+            "u, v, a: largest departure from the amplification matrix / amplitude [-]",
+            0.0,
+            departure,
+            1e-6,
+        )
+    )
 
     damped = {alpha: decays(mode, alpha) for alpha in ALPHAS}
     for alpha, series in damped.items():
         exact, computed, closure = series[COARSE.index(0.1)]
-        result.rows += [Row(f"damping ratio at dt / T = 0.1, alpha {alpha:g} [-]", round(exact[0], 12), computed[0], 1e-6, scale=1.0),
-                        Row(f"period error at dt / T = 0.1, alpha {alpha:g} [-]", exact[1], computed[1], 1e-6, scale=1.0)]
+        result.rows += [
+            Row(
+                f"damping ratio at dt / T = 0.1, alpha {alpha:g} [-]",
+                round(exact[0], 12),
+                computed[0],
+                1e-6,
+                scale=1.0,
+            ),
+            Row(
+                f"period error at dt / T = 0.1, alpha {alpha:g} [-]",
+                exact[1],
+                computed[1],
+                1e-6,
+                scale=1.0,
+            ),
+        ]
     worst = max(abs(closure) for series in damped.values() for _, _, closure in series)
     result.rows.append(Row("ledger closure / energy, worst alpha and dt [-]", 0.0, worst, 1e-6))
 
     angles, radii, departure = 2 * np.pi * np.geomspace(0.05, STIFF / (2 * np.pi), 12), {}, 0.0
     for alpha in ALPHAS:
         matrices = [mode.matrix(alpha, angle) for angle in angles]
-        departure = max(departure, *(np.abs(found - amplification(alpha, angle)).max() for found, angle in zip(matrices, angles)))
+        departure = max(
+            departure,
+            *(
+                np.abs(found - amplification(alpha, angle)).max()
+                for found, angle in zip(matrices, angles)
+            ),
+        )
         radii[alpha] = [np.abs(np.linalg.eigvals(found)).max() for found in matrices]
         limit = (1 + alpha) / (1 - alpha)
-        result.rows.append(Row(f"spectral radius at w dt = {STIFF:g}, alpha {alpha:g} [-]", limit, radii[alpha][-1], 1e-3))
-    result.rows.append(Row(f"entries of the amplification matrix, w dt 0.3 to {STIFF:g}, largest departure [-]", 0.0, departure, 1e-6))
+        result.rows.append(
+            Row(
+                f"spectral radius at w dt = {STIFF:g}, alpha {alpha:g} [-]",
+                limit,
+                radii[alpha][-1],
+                1e-3,
+            )
+        )
+    result.rows.append(
+        Row(
+            f"entries of the amplification matrix, w dt 0.3 to {STIFF:g}, largest departure [-]",
+            0.0,
+            departure,
+            1e-6,
+        )
+    )
     result.draw = lambda figure: draw(figure, errors, damped, angles, radii)
     return result
 
 
-def convergence(mode: Mode, alpha: float, angle: float, count: int) -> tuple[np.ndarray, float, float]:
-    """Largest errors (4,) of FIELDS and of a at t over their amplitudes, departure from the amplification matrix, and change of energy."""
-    history, energy, _ = mode.steps(alpha, angle, (1, 0, -angle**2), count)
+def convergence(
+    mode: Mode, alpha: float, angle: float, count: int
+) -> tuple[np.ndarray, float, float]:
+    """Largest errors (4,) of FIELDS and of a at t over their amplitudes, departure from the
+    amplification matrix, and change of energy.
+    """
+    history, energy, _ = mode.steps(alpha, angle, (1, 0, -(angle**2)), count)
     phase, scale = angle * np.arange(1, count + 1), np.array([1, angle, angle**2])
-    exact = np.column_stack([np.cos(phase), -np.sin(phase), -np.cos(phase + alpha * angle), -np.cos(phase)])
+    exact = np.column_stack(
+        [np.cos(phase), -np.sin(phase), -np.cos(phase + alpha * angle), -np.cos(phase)]
+    )
     error = np.abs((history[1:] / scale)[:, [0, 1, 2, 2]] - exact).max(axis=0)
     z, A, away = history[0], amplification(alpha, angle), 0.0
     for found in history[1:]:
@@ -161,12 +265,16 @@ def convergence(mode: Mode, alpha: float, angle: float, count: int) -> tuple[np.
     return error, away, float(np.abs(energy - 1).max())
 
 
-def decays(mode: Mode, alpha: float) -> list[tuple[tuple[float, float], tuple[float, float], float]]:
-    """(damping ratio, period error) of the method and of five periods of the solver, and its closure, for each of COARSE."""
+def decays(
+    mode: Mode, alpha: float
+) -> list[tuple[tuple[float, float], tuple[float, float], float]]:
+    """(damping ratio, period error) of the method and of five periods of the solver, and its
+    closure, for each of COARSE.
+    """
     found = []
     for ratio in COARSE:
         angle = 2 * np.pi * ratio
-        history, _, closure = mode.steps(alpha, angle, (1, 0, -angle**2), round(5 / ratio))
+        history, _, closure = mode.steps(alpha, angle, (1, 0, -(angle**2)), round(5 / ratio))
         both = principal(np.linalg.eigvals(amplification(alpha, angle))), of_history(history[:, 0])
         pairs = [(damping, angle / turned - 1) for damping, turned in both]
         found.append((*pairs, closure))
@@ -174,30 +282,78 @@ def decays(mode: Mode, alpha: float) -> list[tuple[tuple[float, float], tuple[fl
 
 
 def draw(figure, errors, damped, angles, radii) -> None:
-    """Convergence, damping ratio, period error and spectral radius against dt over the period; lines exact but for the first."""
+    """Convergence, damping ratio, period error and spectral radius against dt over the period;
+    lines exact but for the first.
+    """
     (converged, damping), (period, radius) = figure.subplots(2, 2)
-    ratios, fine, wide = 1 / np.array(PER_PERIOD), np.linspace(0.01, 0.42, 42), np.geomspace(0.05, angles[-1] / (2 * np.pi), 300)
+    ratios, fine, wide = (
+        1 / np.array(PER_PERIOD),
+        np.linspace(0.01, 0.42, 42),
+        np.geomspace(0.05, angles[-1] / (2 * np.pi), 300),
+    )
     shapes = ("o", 3, "$u$"), ("s", 6, "$v$"), ("^", 3.5, r"$a$, as of $t + \alpha\,\Delta t$")
     for alpha, (colour, dashes) in zip(ALPHAS, LINES):
         line = dict(color=colour, linestyle=dashes, label=rf"$\alpha$ = {alpha:g}")
         mark = dict(color=colour, linestyle="none", markersize=3.5)
-        pairs = np.array([principal(np.linalg.eigvals(amplification(alpha, 2 * np.pi * ratio))) for ratio in fine])
+        pairs = np.array(
+            [
+                principal(np.linalg.eigvals(amplification(alpha, 2 * np.pi * ratio)))
+                for ratio in fine
+            ]
+        )
         found = np.array([computed for _, computed, _ in damped[alpha]])
-        largest = [np.abs(np.linalg.eigvals(amplification(alpha, 2 * np.pi * ratio))).max() for ratio in wide]
-        for axes, exact, computed in ((damping, pairs[:, 0], found[:, 0]), (period, 2 * np.pi * fine / pairs[:, 1] - 1, found[:, 1])):
+        largest = [
+            np.abs(np.linalg.eigvals(amplification(alpha, 2 * np.pi * ratio))).max()
+            for ratio in wide
+        ]
+        for axes, exact, computed in (
+            (damping, pairs[:, 0], found[:, 0]),
+            (period, 2 * np.pi * fine / pairs[:, 1] - 1, found[:, 1]),
+        ):
             axes.plot(fine, 100 * exact, **line)
             axes.plot(COARSE, 100 * computed, marker="o", **mark)
         radius.semilogx(wide, largest, **line)
         radius.semilogx(angles / (2 * np.pi), radii[alpha], marker="o", **mark)
         if alpha in (0.0, -0.333):
             for series, (shape, size, _) in zip(errors[alpha].T, shapes):
-                converged.loglog(ratios, series, color=colour, linestyle=dashes, linewidth=0.7, marker=shape, markersize=size,
-                                 markerfacecolor="none")
+                converged.loglog(
+                    ratios,
+                    series,
+                    color=colour,
+                    linestyle=dashes,
+                    linewidth=0.7,
+                    marker=shape,
+                    markersize=size,
+                    markerfacecolor="none",
+                )
     for shape, size, field in shapes:
-        converged.plot([], [], "k", linestyle="none", marker=shape, markersize=size, markerfacecolor="none", label=field)
-    converged.loglog(ratios, errors[-0.333][:, 3], "k", linestyle=":", marker="x", markersize=4, linewidth=0.7,
-                     label=r"$a$, as of $t$ ($\alpha$ = -0.333)")
-    converged.loglog(ratios, 0.4 * errors[0.0][-1, 0] * (ratios / ratios[-1]) ** 2, "k--", linewidth=0.8, label="order 2")
+        converged.plot(
+            [],
+            [],
+            "k",
+            linestyle="none",
+            marker=shape,
+            markersize=size,
+            markerfacecolor="none",
+            label=field,
+        )
+    converged.loglog(
+        ratios,
+        errors[-0.333][:, 3],
+        "k",
+        linestyle=":",
+        marker="x",
+        markersize=4,
+        linewidth=0.7,
+        label=r"$a$, as of $t$ ($\alpha$ = -0.333)",
+    )
+    converged.loglog(
+        ratios,
+        0.4 * errors[0.0][-1, 0] * (ratios / ratios[-1]) ** 2,
+        "k--",
+        linewidth=0.8,
+        label="order 2",
+    )
     converged.set_xticks(ratios, [f"1/{number}" for number in PER_PERIOD])
     converged.set_xticks([], minor=True)
     converged.set(ylabel=f"largest error / amplitude, {PERIODS} periods")

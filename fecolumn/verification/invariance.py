@@ -1,16 +1,19 @@
 """What must not matter: an interruption, the number of ranks, the numbers of the nodes.
 
-Requirement: an analysis stopped and resumed from its checkpoint is the uninterrupted one; two ranks give the answer of one;
-node and brick numbers change nothing beyond rounding.
+Requirement: an analysis stopped and resumed from its checkpoint is the uninterrupted one; two ranks
+give the answer of one; node and brick numbers change nothing beyond rounding.
 
-Derivation. A checkpoint holds the whole state in binary, and a step depends on nothing else: equality to the last bit but for
-sums whose order the restart may change. Ranks and numbers change the order of sums and the elimination order of the factor:
-differences of eps = 2e-16 of positions and internal forces, and, since an iteration ends where the unbalanced force falls below
-the tolerance, of that tolerance: the bound of `trial.solver_drift`. No closed form is needed: the computation itself is the reference.
+Derivation. A checkpoint holds the whole state in binary, and a step depends on nothing else:
+equality to the last bit but for sums whose order the restart may change. Ranks and numbers change
+the order of sums and the elimination order of the factor: differences of eps = 2e-16 of positions
+and internal forces, and, since an iteration ends where the unbalanced force falls below the
+tolerance, of that tolerance: the bound of `trial.solver_drift`. No closed form is needed: the
+computation itself is the reference.
 
 Source. Requirement; growth of differences as in `fecolumn.verification.trial.solver_drift`.
 
-Tolerances. Restart: 1e-10 of the path's peak, as required. Ranks: 1e-6, as required. Numbers: twice the solver's drift at the end.
+Tolerances. Restart: 1e-10 of the path's peak, as required. Ranks: 1e-6, as required. Numbers: twice
+the solver's drift at the end.
 """
 
 from __future__ import annotations
@@ -46,7 +49,9 @@ FLOOR = 1e-18  # m, drawn for no difference at all
 
 
 def run(engine: str, long: bool) -> Result:
-    """The reduced engine runs on one core; it is interrupted where it looks for Ctrl-C, between chunks of steps."""
+    """The reduced engine runs on one core; it is interrupted where it looks for Ctrl-C, between
+    chunks of steps.
+    """
     case, motion = column_case(engine), shaking(TIMES)
     specimen, off = specimen_mesh(case), {}
 
@@ -61,20 +66,51 @@ def run(engine: str, long: bool) -> Result:
         one, two = (on_ranks(engine, n, motion) for n in (1, 2))
         off["restart"] = np.abs(interrupted(trial, motion) - path).max(axis=(1, 2))
         off["two ranks"] = np.abs(two - one)[1:].max(axis=1)
-        result.rows.append(Row(f"two ranks against one, {STEPS} steps: top's path off / peak", 0.0, off["two ranks"].max() / np.abs(one).max(), 1e-6))
+        result.rows.append(
+            Row(
+                f"two ranks against one, {STEPS} steps: top's path off / peak",
+                0.0,
+                off["two ranks"].max() / np.abs(one).max(),
+                1e-6,
+            )
+        )
     else:
-        off["restart"] = np.abs(resumed(engine, motion, 2) - resumed(engine, motion, 1))[1:].max(axis=1)
+        off["restart"] = np.abs(resumed(engine, motion, 2) - resumed(engine, motion, 1))[1:].max(
+            axis=1
+        )
     off["renumbered"] = np.abs(trial(shuffled(specimen)).shake(motion) - path).max(axis=(1, 2))
-    result.rows = [Row(f"restart at half, {STEPS} steps: path off / peak", 0.0, off["restart"].max() / peak, 1e-10), *result.rows,
-                   Row(f"nodes and bricks renumbered, {STEPS} steps: path off [m]", 0.0, off["renumbered"].max(), drift[-1])]
+    result.rows = [
+        Row(
+            f"restart at half, {STEPS} steps: path off / peak",
+            0.0,
+            off["restart"].max() / peak,
+            1e-10,
+        ),
+        *result.rows,
+        Row(
+            f"nodes and bricks renumbered, {STEPS} steps: path off [m]",
+            0.0,
+            off["renumbered"].max(),
+            drift[-1],
+        ),
+    ]
 
     def draw(figure):
         axes = figure.subplots()
         for (label, difference), (colour, dashes) in zip(off.items(), LINES):
-            axes.semilogy(TIMES, np.maximum(difference, FLOOR), color=colour, linestyle=dashes, label=label)
+            axes.semilogy(
+                TIMES, np.maximum(difference, FLOOR), color=colour, linestyle=dashes, label=label
+            )
         axes.semilogy(TIMES, drift, "k:", label="solver's drift, bound")
-        axes.semilogy(TIMES, np.abs(path[:, 0]).max(axis=1), "k-", linewidth=0.6, label="the path itself")
-        axes.set(xlabel="time [s]", ylabel="difference of displacement [m]", ylim=(FLOOR / 10, None), xlim=(0, TIMES[-1]))
+        axes.semilogy(
+            TIMES, np.abs(path[:, 0]).max(axis=1), "k-", linewidth=0.6, label="the path itself"
+        )
+        axes.set(
+            xlabel="time [s]",
+            ylabel="difference of displacement [m]",
+            ylim=(FLOOR / 10, None),
+            xlim=(0, TIMES[-1]),
+        )
         axes.legend(ncols=2)
 
     result.draw = draw
@@ -82,7 +118,9 @@ def run(engine: str, long: bool) -> Result:
 
 
 def interrupted(trial, motion) -> np.ndarray:
-    """Path of an analysis that ends at half, and of one in a new system that goes on from its checkpoint."""
+    """Path of an analysis that ends at half, and of one in a new system that goes on from its
+    checkpoint.
+    """
     first, half = trial(), STEPS // 2
     before = first.shake(motion[:half])
     with tempfile.TemporaryDirectory() as folder:
@@ -97,8 +135,13 @@ def shuffled(specimen: SpecimenMesh, seed: int = 1) -> SpecimenMesh:
     body, random = specimen.body, np.random.default_rng(seed)
     order, bricks = random.permutation(len(body.points)), random.permutation(len(body.cells))
     number = np.argsort(order)  # new number of each old point
-    mixed = replace(body, points=body.points[order], cells=number[body.cells][bricks], part=body.part[bricks])
-    ties = tuple(replace(tie, slave_nodes=number[tie.slave_nodes], master_quads=number[tie.master_quads]) for tie in specimen.ties)
+    mixed = replace(
+        body, points=body.points[order], cells=number[body.cells][bricks], part=body.part[bricks]
+    )
+    ties = tuple(
+        replace(tie, slave_nodes=number[tie.slave_nodes], master_quads=number[tie.master_quads])
+        for tie in specimen.ties
+    )
     return replace(specimen, body=mixed, ties=ties, foot_nodes=np.sort(number[specimen.foot_nodes]))
 
 
@@ -106,8 +149,24 @@ def on_ranks(engine: str, n: int, motion) -> np.ndarray:
     """Path of the top (steps + 1, 3) [m] by the command line on n ranks."""
     with tempfile.TemporaryDirectory() as folder:
         case, out = _case_file(Path(folder), engine, motion), Path(folder) / "out"
-        done = subprocess.run(["mpirun", "-n", str(n), sys.executable, "-m", "fecolumn.cli", "run", str(case), "-q", "-o", str(out)],
-                              env=launch_environment(), capture_output=True, text=True)
+        done = subprocess.run(
+            [
+                "mpirun",
+                "-n",
+                str(n),
+                sys.executable,
+                "-m",
+                "fecolumn.cli",
+                "run",
+                str(case),
+                "-q",
+                "-o",
+                str(out),
+            ],
+            env=launch_environment(),
+            capture_output=True,
+            text=True,
+        )
         if done.returncode:
             raise RuntimeError(f"mpirun -n {n}: {done.stderr}")
         return read_history(out / "history.h5")["u_top"]
@@ -116,14 +175,27 @@ def on_ranks(engine: str, n: int, motion) -> np.ndarray:
 def resumed(engine: str, motion, parts: int) -> np.ndarray:
     """Path of the top (steps + 1, 3) [m] of an analysis in one part, or in two by Ctrl-C at half."""
     with tempfile.TemporaryDirectory() as folder:
-        # fields and states at half: what is written must not matter either, and the reduced engine looks for Ctrl-C wherever it writes
+        # fields and states at half: what is written must not matter either, and the reduced engine
+        # looks for Ctrl-C wherever it writes
         half = len(motion) // 2
-        case, out = read_case(_case_file(Path(folder), engine, motion, {"output": dict.fromkeys(("fields_every_s", "states_every_s"), half * DT)})), Path(folder) / "out"
+        case, out = (
+            read_case(
+                _case_file(
+                    Path(folder),
+                    engine,
+                    motion,
+                    {"output": dict.fromkeys(("fields_every_s", "states_every_s"), half * DT)},
+                )
+            ),
+            Path(folder) / "out",
+        )
         if parts == 2:
             with contextlib.suppress(KeyboardInterrupt):
                 simulation.run(case, out, comm=MPI.COMM_SELF, quiet=True, stop=lambda: True)
             if (made := len(read_history(out / "history.h5")["u_top"]) - 1) != half:
-                raise RuntimeError(f"the analysis was interrupted after {made} steps, not at half of {len(motion)}")
+                raise RuntimeError(
+                    f"the analysis was interrupted after {made} steps, not at half of {len(motion)}"
+                )
         simulation.run(case, out, comm=MPI.COMM_SELF, quiet=True)
         return read_history(out / "history.h5")["u_top"]
 
@@ -132,10 +204,22 @@ def _case_file(folder: Path, engine: str, motion, more=None) -> Path:
     times = DT * np.arange(len(motion) + 1)
     rows = [f"{t:.17g},{a[0]:.17g},{a[1]:.17g}\n" for t, a in zip(times, [np.zeros(3), *motion])]
     (folder / "motion.csv").write_text("time [s],ax [m/s2],ay [m/s2]\n" + "".join(rows))
-    tables = merge(merge(COARSE, more or {}), {"integration": {"kinematics" if engine in FULL else "engine": engine, "dt_s": DT, "duration_s": times[-1]},
-                                               "motion": {"source": "motion.csv"}})
+    tables = merge(
+        merge(COARSE, more or {}),
+        {
+            "integration": {
+                "kinematics" if engine in FULL else "engine": engine,
+                "dt_s": DT,
+                "duration_s": times[-1],
+            },
+            "motion": {"source": "motion.csv"},
+        },
+    )
     del tables["title"]
-    lines = [line for name, table in tables.items()
-             for line in (f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items()))]
+    lines = [
+        line
+        for name, table in tables.items()
+        for line in (f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items()))
+    ]
     (folder / "case.toml").write_text("\n".join(lines))
     return folder / "case.toml"

@@ -1,7 +1,8 @@
-"""A body on a heavy flat one with an equal face, and its closed forms, for `verification.joints` and its tests.
+"""A body on a heavy flat one with an equal face, and its closed forms, for `verification.joints`
+and its tests.
 
-The body below is a thousand times as heavy as the one on it and flat, so that it stays and the one above has closed forms. Stones are so stiff that
-what their modes store is not seen.
+The body below is a thousand times as heavy as the one on it and flat, so that it stays and the one
+above has closed forms. Stones are so stiff that what their modes store is not seen.
 """
 
 from __future__ import annotations
@@ -30,10 +31,22 @@ def tables(engine: str, above: dict, below: dict | None = None, dt: float = DT, 
     """Tables of a case; above, below: keys beside those of a block."""
     shape = dict(kind="block", length_m=2 * B, width_m=2 * W) if "kind" not in above else {}
     stone = dict(youngs_modulus_pa=5e12, poissons_ratio=0.2) | shape
-    heavy, light = dict(height_m=BELOW, density_kg_m3=1e5), dict(height_m=2 * H, density_kg_m3=100.0, at_m=[0.0, 0.0, BELOW])
-    return dict(bodies=dict(low=stone | heavy | (below or {}), up=stone | light | above), contact=dict(friction_coefficient=0.8, interior_points=0),
-                interfaces=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])),
-                integration=dict(engine=engine, dt_s=dt, duration_s=5.0) | (dict(n_modes=10) if engine == "reduced" else {})) | more
+    heavy, light = (
+        dict(height_m=BELOW, density_kg_m3=1e5),
+        dict(height_m=2 * H, density_kg_m3=100.0, at_m=[0.0, 0.0, BELOW]),
+    )
+    return (
+        dict(
+            bodies=dict(low=stone | heavy | (below or {}), up=stone | light | above),
+            contact=dict(friction_coefficient=0.8, interior_points=0),
+            interfaces=dict(
+                feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])
+            ),
+            integration=dict(engine=engine, dt_s=dt, duration_s=5.0)
+            | (dict(n_modes=10) if engine == "reduced" else {}),
+        )
+        | more
+    )
 
 
 def engines(tables: dict):
@@ -49,7 +62,9 @@ def two(engine: str, above: dict, below: dict | None = None, **more):
 
 
 class Rocks(NamedTuple):
-    """A block let go: of(time) gives tilt [rad] and rate [rad/s]; time of the first impact [s], the rates' ratio over it."""
+    """A block let go: of(time) gives tilt [rad] and rate [rad/s]; time of the first impact [s], the
+    rates' ratio over it.
+    """
 
     of: callable
     impact: float
@@ -57,12 +72,18 @@ class Rocks(NamedTuple):
 
 
 def rocks(near: float, far: float, inertia: float = INERTIA, end: float = 0.5) -> Rocks:
-    """Closed form of a block let go from TILT about an edge at the arm `near` [m], which lands on one at `far` on the other side, until a second impact.
+    """Closed form of a block let go from TILT about an edge at the arm `near` [m], which lands on
+    one at `far` on the other side, until a second impact.
 
-    An impact keeps the angular momentum about the edge on which the block lands. inertia: about the middle, over the mass [m2].
+    An impact keeps the angular momentum about the edge on which the block lands. inertia: about the
+    middle, over the mass [m2].
     """
+
     def turn(arm):
-        return lambda _, state: [state[1], -GRAVITY * (arm * np.cos(state[0]) - H * np.sin(state[0])) / (inertia + arm**2 + H**2)]
+        return lambda _, state: [
+            state[1],
+            -GRAVITY * (arm * np.cos(state[0]) - H * np.sin(state[0])) / (inertia + arm**2 + H**2),
+        ]
 
     def lands(_, state):
         return state[0]
@@ -77,52 +98,85 @@ def rocks(near: float, far: float, inertia: float = INERTIA, end: float = 0.5) -
 
 
 def arms(displaced: float) -> tuple[float, float]:
-    """Arms [m] of a block displaced towards the side to which it leans: of the edge there, of the block below where it is nearer, and of that on the other side."""
+    """Arms [m] of a block displaced towards the side to which it leans: of the edge there, of the
+    block below where it is nearer, and of that on the other side.
+    """
     return B - max(displaced, 0.0), B - max(-displaced, 0.0)
 
 
 def rocked(made, exact: Rocks, angle: float, last: float = 0.2) -> np.ndarray:
-    """Errors of a block let go towards `angle` [deg]: tilt before its first impact over TILT, mean rates in the last and next 10 ms beside the impact, tilt at the last instant [s].
+    """Errors of a block let go towards `angle` [deg]: tilt before its first impact over TILT, mean
+    rates in the last and next 10 ms beside the impact, tilt at the last instant [s].
 
-    Rates are means, read from tilts 2.5 and 12.5 ms from the impact: an edge that stays has a velocity that changes its sign in each step.
+    Rates are means, read from tilts 2.5 and 12.5 ms from the impact: an edge that stays has a
+    velocity that changes its sign in each step.
     """
     turn, dt = np.radians(angle), made.hht.dt
     direction = np.array([np.cos(turn), np.sin(turn), 0.0])
     impact, beside, away = exact.impact / dt, round(0.0025 / dt), round(0.0125 / dt)
-    steps = [int(impact) - away, int(impact) - beside, int(impact) + beside, int(impact) + away, round(last / dt)]
+    steps = [
+        int(impact) - away,
+        int(impact) - beside,
+        int(impact) + beside,
+        int(impact) + away,
+        round(last / dt),
+    ]
     tilts = []
     for before, now in zip([0, *steps], steps):
         made.advance(np.zeros((now - before, 3)))
         rotation = made.motion.rotation[1]
         tilts.append(np.arctan2(rotation[:, 2] @ direction, rotation[2, 2]))
     true = [exact.of(step * dt)[0] for step in steps]
-    return np.array([(tilts[1] - true[1]) / TILT, (tilts[1] - tilts[0]) / (true[1] - true[0]) - 1, (tilts[3] - tilts[2]) / (true[3] - true[2]) - 1, tilts[4] / true[4] - 1])
+    return np.array(
+        [
+            (tilts[1] - true[1]) / TILT,
+            (tilts[1] - tilts[0]) / (true[1] - true[0]) - 1,
+            (tilts[3] - tilts[2]) / (true[3] - true[2]) - 1,
+            tilts[4] / true[4] - 1,
+        ]
+    )
 
 
 def lifts(make, push: float, towards: np.ndarray) -> float:
-    """Acceleration of the ground [m/s2] at which the body above lifts, pushed `towards` a direction (2,) across an edge, near a foreseen one.
+    """Acceleration of the ground [m/s2] at which the body above lifts, pushed `towards` a direction
+    (2,) across an edge, near a foreseen one.
 
-    Pushed by more it leans as the excess times a function of time: two pushes, by 0.5 and 1 thousandths more, tell by which it would not. Both grow within 30 ms to 0.5
-    thousandths less and are then met by what contact gives: a kick, which second differences of tilts at 0, 50 and 100 ms leave out.
+    Pushed by more it leans as the excess times a function of time: two pushes, by 0.5 and 1
+    thousandths more, tell by which it would not. Both grow within 30 ms to 0.5 thousandths less and
+    are then met by what contact gives: a kick, which second differences of tilts at 0, 50 and 100
+    ms leave out.
     """
     bends = []
     for more in (5e-4, 1e-3):
         made, leans = make(), []
         grows, stays = (round(time / made.hht.dt) for time in (0.03, 0.05))
-        for level in (0.9995 * np.sin(np.pi / 2 * np.arange(1, grows + 1) / grows) ** 2, *[np.full(stays, 1 + more)] * 2):
+        for level in (
+            0.9995 * np.sin(np.pi / 2 * np.arange(1, grows + 1) / grows) ** 2,
+            *[np.full(stays, 1 + more)] * 2,
+        ):
             made.advance(-push * np.outer(level, [*towards, 0.0]))
             leans.append(made.motion.rotation[1][:2, 2] @ towards)
         bends.append(leans[2] - 2 * leans[1] + leans[0])
     return push * (1 + 5e-4 * (1 - bends[0] / (bends[1] - bends[0])))
 
 
-def turns(made, push: float, towards: np.ndarray, normal: np.ndarray, apart: float, inertia: float) -> float:
-    """Error of the angular acceleration of the body above about an edge, over that of the closed form; pushed `towards` a direction (2,) across it by the ground [m/s2].
+def turns(
+    made, push: float, towards: np.ndarray, normal: np.ndarray, apart: float, inertia: float
+) -> float:
+    """Error of the angular acceleration of the body above about an edge, over that of the closed
+    form; pushed `towards` a direction (2,) across it by the ground [m/s2].
 
-    The second difference of tilts at 20, 30 and 40 ms, set beside that of the motion that leans as much at 20 ms: in its first step the push is not whole, and contact kicks.
+    The second difference of tilts at 20, 30 and 40 ms, set beside that of the motion that leans as
+    much at 20 ms: in its first step the push is not whole, and contact kicks.
 
-    Args:
-        normal: (2,) of the edge, outwards; apart: its distance from the middle [m]. inertia: about any horizontal axis through the middle, over the mass [m2].
+    Parameters
+    ----------
+    normal
+        (2,) of the edge, outwards
+    apart
+        its distance from the middle [m].
+    inertia
+        about any horizontal axis through the middle, over the mass [m2].
     """
     step, across, leans = round(0.01 / made.hht.dt), push * (towards @ normal), []
     for steps in (2 * step, step, step):
@@ -131,7 +185,9 @@ def turns(made, push: float, towards: np.ndarray, normal: np.ndarray, apart: flo
         leans.append(np.arctan2(normal @ rotation[:2, 2], rotation[2, 2]))
 
     def rate(_, state):
-        moment = across * (H * np.cos(state[0]) + apart * np.sin(state[0])) - GRAVITY * (apart * np.cos(state[0]) - H * np.sin(state[0]))
+        moment = across * (H * np.cos(state[0]) + apart * np.sin(state[0])) - GRAVITY * (
+            apart * np.cos(state[0]) - H * np.sin(state[0])
+        )
         return [state[1], moment / (inertia + apart**2 + H**2)]
 
     exact = solve_ivp(rate, (0, 0.06), [0.0, 0.0], rtol=1e-11, atol=1e-14, dense_output=True).sol
@@ -141,7 +197,9 @@ def turns(made, push: float, towards: np.ndarray, normal: np.ndarray, apart: flo
 
 
 def region(angle: float, displaced, half=(B, W)) -> np.ndarray:
-    """Corners (n, 2) [m] from the middle of the block above of the region in which two equal faces overlap, one turned by an angle [deg] (Sutherland and Hodgman 1974)."""
+    """Corners (n, 2) [m] from the middle of the block above of the region in which two equal faces
+    overlap, one turned by an angle [deg] (Sutherland and Hodgman 1974).
+    """
     b, w = half
     corners = np.array([[-b, -w], [b, -w], [b, w], [-b, w]])
     cosine, sine = np.cos(np.radians(angle)), np.sin(np.radians(angle))
@@ -153,7 +211,9 @@ def region(angle: float, displaced, half=(B, W)) -> np.ndarray:
         kept = []
         for k in range(len(found)):
             if left[k - 1] * left[k] < 0:
-                kept.append(found[k - 1] + (found[k] - found[k - 1]) * left[k - 1] / (left[k - 1] - left[k]))
+                kept.append(
+                    found[k - 1] + (found[k] - found[k - 1]) * left[k - 1] / (left[k - 1] - left[k])
+                )
             if left[k] >= 0:
                 kept.append(found[k])
         found = np.array(kept)
@@ -161,23 +221,43 @@ def region(angle: float, displaced, half=(B, W)) -> np.ndarray:
 
 
 def met(corners: np.ndarray, towards: np.ndarray) -> tuple[float, np.ndarray, float, float]:
-    """Edge of an outline with these corners that a ray from the middle along a direction (2,) meets: length of the ray [m], normal and distance [m] of the edge, and by
-    which factor the ray may be longer until its way along the edge comes to a corner."""
+    """Edge of an outline with these corners that a ray from the middle along a direction (2,)
+    meets: length of the ray [m], normal and distance [m] of the edge, and by which factor the ray
+    may be longer until its way along the edge comes to a corner.
+    """
     edges = np.roll(corners, -1, axis=0) - corners
     edges /= np.linalg.norm(edges, axis=1)[:, None]
     normals = np.column_stack([edges[:, 1], -edges[:, 0]])
     apart, along = (normals * corners).sum(axis=1), normals @ towards
     ways = np.where(along > 0, apart / np.where(along > 0, along, 1.0), np.inf)
     k = int(ways.argmin())
-    met, end = ways[k] * towards @ edges[k], corners[k if towards @ edges[k] < 0 else (k + 1) % len(corners)] @ edges[k]
-    return float(ways[k]), normals[k], float(apart[k]), float(end / met) if abs(met) > 1e-9 else np.inf
+    met, end = (
+        ways[k] * towards @ edges[k],
+        corners[k if towards @ edges[k] < 0 else (k + 1) % len(corners)] @ edges[k],
+    )
+    return (
+        float(ways[k]),
+        normals[k],
+        float(apart[k]),
+        float(end / met) if abs(met) > 1e-9 else np.inf,
+    )
 
 
-def tips(half: float, over: float, speed: float, friction: float, tilt: float) -> tuple[float, float, float]:
-    """Closed form of a block of half height H that slides flat over an edge and tips about it, sliding on the same way.
+def tips(
+    half: float, over: float, speed: float, friction: float, tilt: float
+) -> tuple[float, float, float]:
+    """Closed form of a block of half height H that slides flat over an edge and tips about it,
+    sliding on the same way.
 
-    Args:
-        half: length of the block [m]. over: way [m] from its middle to the edge at the start; speed [m/s]. tilt: at which it is read [rad].
+    Parameters
+    ----------
+    half
+        length of the block [m].
+    over
+        way [m] from its middle to the edge at the start; speed [m/s].
+    tilt
+        at which it is read [rad].
+
     Returns: time [s] of that tilt, rate then [rad/s] and how far it has slid [m].
     """
     # friction at the foot shifts the pressure forward: it tips before its middle is over the edge
@@ -187,10 +267,15 @@ def tips(half: float, over: float, speed: float, friction: float, tilt: float) -
 
     def moves(_, state):
         x, z, theta, u, w, rate = state
-        normal, along = np.array([np.sin(theta), np.cos(theta)]), np.array([np.cos(theta), -np.sin(theta)])
+        normal, along = (
+            np.array([np.sin(theta), np.cos(theta)]),
+            np.array([np.cos(theta), -np.sin(theta)]),
+        )
         arm, slides = np.array([over - x, -z]) @ along, np.array([u, w]) @ along
         # the edge stays on the foot
-        push = (GRAVITY * np.cos(theta) - 2 * rate * slides + rate**2 * H) / (1 + arm * (arm - friction * H) / inertia)
+        push = (GRAVITY * np.cos(theta) - 2 * rate * slides + rate**2 * H) / (
+            1 + arm * (arm - friction * H) / inertia
+        )
         a = push * (normal - friction * along) - [0.0, GRAVITY]
         return [u, w, rate, *a, push * (friction * H - arm) / inertia]
 
@@ -198,6 +283,8 @@ def tips(half: float, over: float, speed: float, friction: float, tilt: float) -
         return state[2] - tilt
 
     leans.terminal = True
-    found = solve_ivp(moves, (0, 5), [way, H, 0.0, slower, 0.0, 0.0], rtol=1e-11, atol=1e-13, events=leans)
+    found = solve_ivp(
+        moves, (0, 5), [way, H, 0.0, slower, 0.0, 0.0], rtol=1e-11, atol=1e-13, events=leans
+    )
     end = found.y_events[0][0]
     return began + float(found.t_events[0][0]), float(end[5]), float(end[0])

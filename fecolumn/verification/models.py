@@ -7,13 +7,13 @@ from mpi4py import MPI
 
 from fecolumn.case import Material, case_from_tables
 from fecolumn.contact.base_plate import BasePlate
+from fecolumn.contact.footprint import Footprint
 from fecolumn.dynamics.assembly import build_system
+from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.system import System, one_column
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.damping import ModalDamping
-from fecolumn.contact.footprint import Footprint
-from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.system import System, one_column
 from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
@@ -21,7 +21,8 @@ from fecolumn.mesh.surface import nodal_areas
 from fecolumn.schema import merge
 from fecolumn.verification import REDUCED
 
-# The stout column on the coarsest mesh that keeps every part; meshes/stout.toml has the sources of the numbers.
+# The stout column on the coarsest mesh that keeps every part; meshes/stout.toml has the sources of
+# the numbers.
 COARSE = {
     "title": "Coarse specimen",
     "column": {"outer_diameter_m": 0.1016, "wall_m": 0.005, "height_m": 1.0, "fine_height_m": 0.03},
@@ -33,26 +34,35 @@ COARSE = {
 
 # Modes of a block that are damped
 DAMPED = 30
-# Of `shaking`: amplitudes of x, y, z [m/s2], and sign and angular frequencies [rad/s] of its two tones
+# Of `shaking`: amplitudes of x, y, z [m/s2], and sign and angular frequencies [rad/s] of its two
+# tones
 AMPLITUDES = np.array([8.0, 6.0, 0.0])
 TONES = ((1, np.array([30.0, 31.0, 1.0])), (-1, np.array([75.0, 73.0, 1.0])))
 
 
 def column_case(engine: str, **tables):
-    """Case of the coarse specimen; `tables` are merged over it, e.g. contact={"friction_coefficient": 0.8}."""
+    """Case of the coarse specimen; `tables` are merged over it, e.g.
+    contact={"friction_coefficient": 0.8}.
+    """
     key = "engine" if engine in REDUCED else "kinematics"
-    return case_from_tables(merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification")
+    return case_from_tables(
+        merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification"
+    )
 
 
 def column_system(engine: str, **tables) -> System:
-    """The coarse specimen as a system of its own on this process; that of a reduced engine is reduced by its trial."""
+    """The coarse specimen as a system of its own on this process; that of a reduced engine is
+    reduced by its trial.
+    """
     return build_system(column_case(engine, **tables), MPI.COMM_SELF)
 
 
 def shaking(times) -> np.ndarray:
-    """Two-tone ground acceleration (n, 3) [m/s2] that slides the coarse specimen, rocks it over twice and lands it six times in 0.2 s.
+    """Two-tone ground acceleration (n, 3) [m/s2] that slides the coarse specimen, rocks it over
+    twice and lands it six times in 0.2 s.
 
-    It starts from zero and its velocity has no mean, so that the column tilts to both sides; almost in one direction, else it would roll around and not land.
+    It starts from zero and its velocity has no mean, so that the column tilts to both sides; almost
+    in one direction, else it would roll around and not land.
     """
     times = np.asarray(times, float)[:, None]
     return sum(sign * AMPLITUDES * np.cos(tone * times) for sign, tone in TONES)
@@ -63,24 +73,48 @@ def box(x, y, z) -> BrickMesh:
     return swept_grid(np.asarray(x, float), np.asarray(y, float), np.asarray(z, float), LOWER)
 
 
-def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, material: Material | None = None,
-                 base_material: Material | None = None, friction: float = 0.3, gravity=(0.0, 0.0, -9.80665), filtered: bool = True,
-                 order: int = 1, foot_height: float = 0.0, damping_ratio: float = 0.0, restitution: float = 0.0) -> System:
+def block_system(
+    engine: str,
+    mesh: BrickMesh,
+    base: BrickMesh,
+    hht: HHT,
+    *,
+    material: Material | None = None,
+    base_material: Material | None = None,
+    friction: float = 0.3,
+    gravity=(0.0, 0.0, -9.80665),
+    filtered: bool = True,
+    order: int = 1,
+    foot_height: float = 0.0,
+    damping_ratio: float = 0.0,
+    restitution: float = 0.0,
+) -> System:
     """A body of bricks over a base of bricks.
 
-    Args:
-        engine: of ELEMENTS.
-        mesh: the body; its faces with all corners between z = 0 and `foot_height` [m] and facing down are the foot.
-        base: tensor-product grid with its top at z = 0, held at its bottom.
-        material, base_material: steel unless given.
-        filtered: contact as the plastic impact law needs it; False for the literal HHT (Stepper's impact "none").
-        damping_ratio: of the DAMPED lowest elastic modes.
+    Parameters
+    ----------
+    engine
+        of ELEMENTS.
+    mesh
+        the body; its faces with all corners between z = 0 and `foot_height` [m] and facing down are
+        the foot.
+    base
+        tensor-product grid with its top at z = 0, held at its bottom.
+    material, base_material
+        steel unless given.
+    filtered
+        contact as the plastic impact law needs it; False for the literal HHT (Stepper's impact
+        "none").
+    damping_ratio
+        of the DAMPED lowest elastic modes.
     """
     comm = MPI.COMM_SELF
     steel = Material(youngs_modulus_pa=200e9, poissons_ratio=0.3, density_kg_m3=7850.0)
     body = Body(comm, mesh, material or steel, order)
     kinematics = TotalLagrangian(body) if engine == "total_lagrangian" else Corotated(body)
-    quads = boundary_faces(mesh, LOWER, foot_height / 2, foot_height / 2 + 1e-9 * np.ptp(mesh.points[:, 2]))
+    quads = boundary_faces(
+        mesh, LOWER, foot_height / 2, foot_height / 2 + 1e-9 * np.ptp(mesh.points[:, 2])
+    )
     points, position = np.unique(quads, return_inverse=True)
     areas = nodal_areas(mesh.points[quads], position.reshape(quads.shape), len(points), 1)
 
@@ -89,5 +123,16 @@ def block_system(engine: str, mesh: BrickMesh, base: BrickMesh, hht: HHT, *, mat
         return {}, np.flatnonzero(plate.all_X[:, 2] < bottom + 1e-9 * np.ptp(plate.all_X[:, 2]))
 
     plate = BasePlate(Body(comm, base, base_material or material or steel, 1, held))
-    return one_column(body, kinematics, plate, Footprint.of_all(body.find_nodes(mesh.points[points]), areas), friction, np.zeros((len(points), 3)),
-                  gravity, hht, filtered=filtered, damping=ModalDamping(body, DAMPED, damping_ratio) if damping_ratio else None, restitution=restitution)
+    return one_column(
+        body,
+        kinematics,
+        plate,
+        Footprint.of_all(body.find_nodes(mesh.points[points]), areas),
+        friction,
+        np.zeros((len(points), 3)),
+        gravity,
+        hht,
+        filtered=filtered,
+        damping=ModalDamping(body, DAMPED, damping_ratio) if damping_ratio else None,
+        restitution=restitution,
+    )

@@ -1,4 +1,6 @@
-"""An analysis in the inertial frame: absolute motion on a base that moves; `fecolumn.verification.frames` derives what it must give."""
+"""An analysis in the inertial frame: absolute motion on a base that moves;
+`fecolumn.verification.frames` derives what it must give.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +18,16 @@ from fecolumn.verification.trial import Trial
 
 
 class MovingInterface(Interface):
-    """Contact with a base that moves: the column's motion is absolute, contact sees it relative to the base.
+    """Contact with a base that moves: the column's motion is absolute, contact sees it relative to
+    the base.
 
-    Attributes:
-        position: (3,) of the base at the end of the step, first: (3,) at its start [m].
-        known_velocities: pairs of the column's velocity array and the base's velocity (3,) at the same time [m/s]; the last one is the
-            end of the step.
+    Attributes
+    ----------
+    position
+        (3,) of the base at the end of the step, first: (3,) at its start [m].
+    known_velocities
+        pairs of the column's velocity array and the base's velocity (3,) at the same time [m/s];
+        the last one is the end of the step.
     """
 
     def __init__(self, still: Interface):
@@ -39,45 +45,71 @@ class MovingInterface(Interface):
         return super().positions(x, *args) - self.position
 
     def velocities(self, v, *args):
-        base = next((base for known, base in self.known_velocities if known is v), self.known_velocities[-1][1])
+        base = next(
+            (base for known, base in self.known_velocities if known is v),
+            self.known_velocities[-1][1],
+        )
         return super().velocities(v, *args) - base
 
 
 class MovingStepper(Stepper):
-    """Stepper on a base that moves along a path; contact is judged by its work relative to the base.
+    """Stepper on a base that moves along a path; contact is judged by its work relative to the
+    base.
 
-    Attributes:
-        base: Base at the end of the last step, or of the part of one that a fast rolling rim makes by itself. work: of the base so far [J].
+    Attributes
+    ----------
+    base
+        Base at the end of the last step, or of the part of one that a fast rolling rim makes by
+        itself. work: of the base so far [J].
     """
 
     def __init__(self, system, ledger, path):
         super().__init__(system, ledger)
-        self.path, self.base, self.work, self._moved = path, Base(*np.zeros((4, 3))), 0.0, np.zeros(3)
+        self.path, self.base, self.work, self._moved = (
+            path,
+            Base(*np.zeros((4, 3))),
+            0.0,
+            np.zeros(3),
+        )
 
     def _part(self, state, ground, hht):
         interface, first = self.system.interface, self.base
         last = self.path(hht, first, ground, state.time + hht.dt)
         self._moved = last.position - first.position
-        interface.position, interface.first, interface.known_velocities = last.position, first.position, [(state.v, first.velocity), (None, last.velocity)]
+        interface.position, interface.first, interface.known_velocities = (
+            last.position,
+            first.position,
+            [(state.v, first.velocity), (None, last.velocity)],
+        )
         after = super()._part(replace(state, ground=np.zeros(3)), np.zeros(3), hht)
         if self.record.cuts:
-            raise RuntimeError(f"t = {state.time:g} s: the step was cut, and the base's place within it is not known")
+            raise RuntimeError(
+                f"t = {state.time:g} s: the step was cut, and the base's place within "
+                "it is not known"
+            )
         # contact forces work on the base's displacement, the impulses of an impact on its velocity
-        free = state.v + hht.dt * ((1 - hht.gamma) * state.a + hht.gamma * after.a + after.contact_a)
+        free = state.v + hht.dt * (
+            (1 - hht.gamma) * state.a + hht.gamma * after.a + after.contact_a
+        )
         impulse = np.einsum("cna,na->c", self.system.column.unit_loads, after.v - free)
         self.work += float(after.forces.sum(axis=0) @ self._moved + last.velocity @ impulse)
         self.base, after.ground = last, np.array(ground, float)
         return after
 
     def _book(self, start, before, after, *rest):
-        return super()._book(start, before, after, *rest) - float(after.forces.sum(axis=0) @ self._moved)
+        return super()._book(start, before, after, *rest) - float(
+            after.forces.sum(axis=0) @ self._moved
+        )
 
 
 class InertialTrial:
-    """An analysis in the inertial frame on a base that moves along a path, a function of `MovingStepper`: `by_hht` or `on_exact_path`.
+    """An analysis in the inertial frame on a base that moves along a path, a function of
+    `MovingStepper`: `by_hht` or `on_exact_path`.
 
-    Attributes:
-        trial: Trial of the absolute motion; its ledger has no base work.
+    Attributes
+    ----------
+    trial
+        Trial of the absolute motion; its ledger has no base work.
     """
 
     def __init__(self, system, start, path):
@@ -92,12 +124,21 @@ class InertialTrial:
         return self.trial.stepper.work
 
     def shake(self, accelerations) -> np.ndarray:
-        """Displacements (n, 2, 3) [m] of top and foot relative to the base, which `accelerations` (n, 3) [m/s2] shake from rest at 0."""
-        return np.array([self.trial.shake([ground])[0] - self.trial.stepper.base.position for ground in accelerations])
+        """Displacements (n, 2, 3) [m] of top and foot relative to the base, which `accelerations`
+        (n, 3) [m/s2] shake from rest at 0.
+        """
+        return np.array(
+            [
+                self.trial.shake([ground])[0] - self.trial.stepper.base.position
+                for ground in accelerations
+            ]
+        )
 
 
 class Base(NamedTuple):
-    """Position [m], velocity [m/s] and acceleration [m/s2] of the base, and `blended` [m/s2], that which HHT remembers; each (3,)."""
+    """Position [m], velocity [m/s] and acceleration [m/s2] of the base, and `blended` [m/s2], that
+    which HHT remembers; each (3,).
+    """
 
     position: np.ndarray
     velocity: np.ndarray
@@ -106,10 +147,18 @@ class Base(NamedTuple):
 
 
 def by_hht(hht, base: Base, acceleration, time: float) -> Base:
-    """The base a step of `hht` later, under `acceleration` (3,) [m/s2] then, by the formulas of HHT."""
+    """The base a step of `hht` later, under `acceleration` (3,) [m/s2] then, by the formulas of
+    HHT.
+    """
     blended = (1 + hht.alpha) * acceleration - hht.alpha * base.acceleration
-    return Base(base.position + hht.dt * base.velocity + hht.dt**2 * ((0.5 - hht.beta) * base.blended + hht.beta * blended),
-                base.velocity + hht.dt * ((1 - hht.gamma) * base.blended + hht.gamma * blended), np.array(acceleration, float), blended)
+    return Base(
+        base.position
+        + hht.dt * base.velocity
+        + hht.dt**2 * ((0.5 - hht.beta) * base.blended + hht.beta * blended),
+        base.velocity + hht.dt * ((1 - hht.gamma) * base.blended + hht.gamma * blended),
+        np.array(acceleration, float),
+        blended,
+    )
 
 
 def on_exact_path(hht, base: Base, acceleration, time: float) -> Base:
@@ -119,13 +168,23 @@ def on_exact_path(hht, base: Base, acceleration, time: float) -> Base:
 
 
 def hht_path(hht, accelerations) -> tuple[np.ndarray, np.ndarray]:
-    """Positions and velocities (n, 3) of the base under accelerations (n, 3) at whole steps, from rest, by the formulas of HHT."""
-    bases = list(accumulate(accelerations, lambda base, ground: by_hht(hht, base, ground, 0.0), initial=Base(*np.zeros((4, 3)))))[1:]
+    """Positions and velocities (n, 3) of the base under accelerations (n, 3) at whole steps, from
+    rest, by the formulas of HHT.
+    """
+    bases = list(
+        accumulate(
+            accelerations,
+            lambda base, ground: by_hht(hht, base, ground, 0.0),
+            initial=Base(*np.zeros((4, 3))),
+        )
+    )[1:]
     return np.array([base.position for base in bases]), np.array([base.velocity for base in bases])
 
 
 def exact_path(times) -> tuple[np.ndarray, np.ndarray]:
     """Positions and velocities (n, 3) of the base in `shaking`, from rest."""
     times = np.asarray(times)[:, None]
-    return (sum(sign * AMPLITUDES / tone**2 * (1 - np.cos(tone * times)) for sign, tone in TONES),
-            sum(sign * AMPLITUDES / tone * np.sin(tone * times) for sign, tone in TONES))
+    return (
+        sum(sign * AMPLITUDES / tone**2 * (1 - np.cos(tone * times)) for sign, tone in TONES),
+        sum(sign * AMPLITUDES / tone * np.sin(tone * times) for sign, tone in TONES),
+    )

@@ -1,36 +1,44 @@
 """Patch tests: uniform pressure through the contact, uniform stress through a tie.
 
-Requirement: a block that stands on a block of the same section passes a uniform pressure on, to 1e-6 where the grids match;
-where they do not, the error is known and the base's displacement converges. A tie passes rigid motions and linear
-displacements exactly, and stresses as well as its grids allow.
+Requirement: a block that stands on a block of the same section passes a uniform pressure on, to
+1e-6 where the grids match; where they do not, the error is known and the base's displacement
+converges. A tie passes rigid motions and linear displacements exactly, and stresses as well as its
+grids allow.
 
-Derivation. With Poisson's ratio 0 nothing varies across a block under its own weight: its nodes press with weight / area times
-the integral A_i of their basis functions, and so they do under vertical shaking, at any instant. A dead load on top makes the
-strain uniform besides, which distorted bricks must reproduce (Irons' patch test). The base is in uniaxial stress,
-u_z = -p (z - z_bottom) / E. The filter of the contact is exact in statics for loads in proportion to mass, as gravity and base
-motion are; the dead load is none, so that its contact is taken without filter.
+Derivation. With Poisson's ratio 0 nothing varies across a block under its own weight: its nodes
+press with weight / area times the integral A_i of their basis functions, and so they do under
+vertical shaking, at any instant. A dead load on top makes the strain uniform besides, which
+distorted bricks must reproduce (Irons' patch test). The base is in uniaxial stress, u_z = -p (z -
+z_bottom) / E. The filter of the contact is exact in statics for loads in proportion to mass, as
+gravity and base motion are; the dead load is none, so that its contact is taken without filter.
 
-Node to surface: node i of the foot gives its force to the nodes j of the base by their bilinear weights N_j(x_i). A uniform
-pressure p arrives as sum_i N_j(x_i) p A_i where p A_j is due, wrong by the imbalance
+Node to surface: node i of the foot gives its force to the nodes j of the base by their bilinear
+weights N_j(x_i). A uniform pressure p arrives as sum_i N_j(x_i) p A_i where p A_j is due, wrong by
+the imbalance
 
     e_j = sum_i N_j(x_i) A_i / A_j - 1,
 
-nil where every line of the base's grid is one of the foot's, because the foot's basis then integrates N_j exactly, and without
-regard to h otherwise: up to 0.23 where 3 bricks of the foot meet 2 of the base, 1.25 for 2 on 3. Resultants are exact. So the
-pressure at single nodes does not converge; but a facet of side h under the pressure e p sinks by 1.12 e p h / E only (centre of
-a loaded square on a half-space), so that displacements converge with order 1, and what is left at a depth z is that of the last
-bricks along the rim, line dipoles e p h^2: at most (2 / pi) (e p / E) h^2 / z (plane half-space). Hence the rule: the foot is the finer
-side, its grid nested in the base's where that can be had. Ties hand forces from slaves to masters by the same weights.
+nil where every line of the base's grid is one of the foot's, because the foot's basis then
+integrates N_j exactly, and without regard to h otherwise: up to 0.23 where 3 bricks of the foot
+meet 2 of the base, 1.25 for 2 on 3. Resultants are exact. So the pressure at single nodes does not
+converge; but a facet of side h under the pressure e p sinks by 1.12 e p h / E only (centre of a
+loaded square on a half-space), so that displacements converge with order 1, and what is left at a
+depth z is that of the last bricks along the rim, line dipoles e p h^2: at most (2 / pi) (e p / E)
+h^2 / z (plane half-space). Hence the rule: the foot is the finer side, its grid nested in the
+base's where that can be had. Ties hand forces from slaves to masters by the same weights.
 
-Source: Irons and Razzaque (1972) for the patch test; Taylor and Papadopoulos (1991) for node to surface; Love (1929) and Flamant
-(1892) for the half-spaces, both in Johnson, Contact Mechanics (1985), chapters 2 and 3.
+Source: Irons and Razzaque (1972) for the patch test; Taylor and Papadopoulos (1991) for node to
+surface; Love (1929) and Flamant (1892) for the half-spaces, both in Johnson, Contact Mechanics
+(1985), chapters 2 and 3.
 
-Tolerances. Matching and nested: the requirement's 1e-6, where the solver's residual of 1e-9 of the weight is 6e-7 of what the corner
-node of the smallest brick carries. Not matching: pressure off by e at most, for both blocks' compliance can only even it out;
-displacements by the forms above. Ties: rounding of positions over the size of a brick, 1e-12 at most; strain measures differ by
-1.5 times the strain of 1e-7. Where tubes meet as polygons of different corners, their mid-surfaces are d apart along
-an arc: bending by the moment d per force adds 12 <d^2> / t^2 to the strain of a wall t over the length pi sqrt(R t) where bending
-of a tube dies out, and the section of the last layer lies between the polygons'.
+Tolerances. Matching and nested: the requirement's 1e-6, where the solver's residual of 1e-9 of the
+weight is 6e-7 of what the corner node of the smallest brick carries. Not matching: pressure off by
+e at most, for both blocks' compliance can only even it out; displacements by the forms above. Ties:
+rounding of positions over the size of a brick, 1e-12 at most; strain measures differ by 1.5 times
+the strain of 1e-7. Where tubes meet as polygons of different corners, their mid-surfaces are d
+apart along an arc: bending by the moment d per force adds 12 <d^2> / t^2 to the strain of a wall t
+over the length pi sqrt(R t) where bending of a tube dies out, and the section of the last layer
+lies between the polygons'.
 """
 
 from __future__ import annotations
@@ -58,20 +66,39 @@ SIDE, HEIGHT = 1.0, 0.5  # [m] of each block
 SOFT = Material(youngs_modulus_pa=1e9, poissons_ratio=0.0, density_kg_m3=2000.0)
 GRADED = SIDE * np.array([0.0, 0.08, 0.2, 0.4, 0.55, 0.8, 1.0])
 SQUARE = 1.12  # displacement of a loaded square's centre, times E / (pressure side)
-COLOURS = {(3, 2): ("#0072B2", "o"), (2, 3): ("#D55E00", "s")}  # of bricks of the foot on bricks of the base
+COLOURS = {
+    (3, 2): ("#0072B2", "o"),
+    (2, 3): ("#D55E00", "s"),
+}  # of bricks of the foot on bricks of the base
 
 
 def run(engine: str, long: bool) -> Result:
     counts = (2, 4, 6, 8) if long else (2, 4, 6)
     result = Result([*matching_rows(engine), shaken(engine)], size=(7.2, 2.8))
-    pairs = {pair: [stand(engine, even(pair[0] * n), even(pair[1] * n)) for n in counts] for pair in COLOURS}
+    pairs = {
+        pair: [stand(engine, even(pair[0] * n), even(pair[1] * n)) for n in counts]
+        for pair in COLOURS
+    }
     for (foot, base), series in pairs.items():
         result.rows += unmatched_rows(f"{foot} foot bricks on {base}", series)
     sizes = SIDE / HEIGHT / (2 * np.array(counts))
     tied = [pulled_blocks(engine, 3 * n, 2 * n) for n in counts]
     allowed = SQUARE * pairs[3, 2][-1].imbalance * sizes[-1]
-    result.rows += [Row("tied blocks, nested 2 to 1: error of displacement under tension [-]", 0.0, pulled_blocks(engine, 8, 4), 1e-6),
-                    Row("tied blocks, 3 to 2: error of displacement under tension [-]", 0.0, tied[-1], allowed, order=slope(sizes, tied))]
+    result.rows += [
+        Row(
+            "tied blocks, nested 2 to 1: error of displacement under tension [-]",
+            0.0,
+            pulled_blocks(engine, 8, 4),
+            1e-6,
+        ),
+        Row(
+            "tied blocks, 3 to 2: error of displacement under tension [-]",
+            0.0,
+            tied[-1],
+            allowed,
+            order=slope(sizes, tied),
+        ),
+    ]
     result.rows += tie_rows(engine)
 
     def draw(figure):
@@ -79,22 +106,61 @@ def run(engine: str, long: bool) -> Result:
         maps, errors = left.subplots(1, 2), right.subplots()
         for axes, (foot, base) in zip(maps, pairs):
             one = pairs[foot, base][0]
-            shade = axes.pcolormesh(one.place[0, 0], one.place[1, :, 0], one.pressures, shading="nearest", vmin=0.6, vmax=1.4, cmap="RdBu_r")
+            shade = axes.pcolormesh(
+                one.place[0, 0],
+                one.place[1, :, 0],
+                one.pressures,
+                shading="nearest",
+                vmin=0.6,
+                vmax=1.4,
+                cmap="RdBu_r",
+            )
             axes.plot(*one.place.reshape(2, -1), "k.", markersize=3, clip_on=False)
             for line in even(base * counts[0]):
                 axes.axhline(line, color="k", linewidth=0.5)
                 axes.axvline(line, color="k", linewidth=0.5)
-            axes.set(aspect="equal", title=f"{foot} foot bricks (dots) on {base}", xticks=(), yticks=(), xlim=(0, SIDE), ylim=(0, SIDE))
+            axes.set(
+                aspect="equal",
+                title=f"{foot} foot bricks (dots) on {base}",
+                xticks=(),
+                yticks=(),
+                xlim=(0, SIDE),
+                ylim=(0, SIDE),
+            )
             axes.grid(False)
-        left.colorbar(shade, ax=maps, orientation="horizontal", label="pressure / (weight / area)", shrink=0.6, aspect=30, pad=0.02)
+        left.colorbar(
+            shade,
+            ax=maps,
+            orientation="horizontal",
+            label="pressure / (weight / area)",
+            shrink=0.6,
+            aspect=30,
+            pad=0.02,
+        )
         for (foot, base), series in pairs.items():
             (colour, marker), size = COLOURS[foot, base], [one.size for one in series]
             style = {"color": colour, "marker": marker, "markersize": 3.5}
-            errors.loglog(size, [one.pressure for one in series], ":", label=f"pressure, {foot} on {base}", **style)
-            errors.loglog(size, [one.sinking for one in series], "-", label=f"base's top, {foot} on {base}", **style)
+            errors.loglog(
+                size,
+                [one.pressure for one in series],
+                ":",
+                label=f"pressure, {foot} on {base}",
+                **style,
+            )
+            errors.loglog(
+                size,
+                [one.sinking for one in series],
+                "-",
+                label=f"base's top, {foot} on {base}",
+                **style,
+            )
         errors.loglog(sizes, tied, "^--", color="#009E73", markersize=3.5, label="tie, 3 to 2")
         errors.loglog(sizes, 0.6 * tied[0] * sizes / sizes[0], "k-", linewidth=0.8, label="order 1")
-        errors.set(xlabel="coarser brick / height of a block", ylabel="largest error / exact", ylim=(None, 2.5))
+        errors.set(
+            xlabel="coarser brick / height of a block",
+            ylabel="largest error / exact",
+            ylim=(None, 2.5),
+        )
         errors.set_xticks((0.1, 0.2, 0.4), ("0.1", "0.2", "0.4"))
         errors.set_xticks((), minor=True)
         errors.legend(fontsize=6.5, ncols=2, loc="upper center")
@@ -109,25 +175,39 @@ def even(n: int) -> np.ndarray:
 
 
 def block_on_block(engine: str, foot, base, distortion: float = 0.0):
-    """System of a block with grid lines `foot` [m] along x, mirrored along y, on one with lines `base`.
+    """System of a block with grid lines `foot` [m] along x, mirrored along y, on one with lines
+    `base`.
 
-    With a distortion, the points inside both are moved by up to that share of the smallest brick and the block's weight acts
-    on its top.
+    With a distortion, the points inside both are moved by up to that share of the smallest brick
+    and the block's weight acts on its top.
     """
     random = np.random.default_rng(1)
 
     def block(lines, bottom):
         z = bottom + np.linspace(0, HEIGHT, 2 * max(1, round((len(lines) - 1) / 4)) + 1)
         mesh = swept_grid(lines, lines[0] + lines[-1] - lines[::-1], z, LOWER)
-        inside = np.all((mesh.points > mesh.points.min(axis=0)) & (mesh.points < mesh.points.max(axis=0)), axis=1)
+        inside = np.all(
+            (mesh.points > mesh.points.min(axis=0)) & (mesh.points < mesh.points.max(axis=0)),
+            axis=1,
+        )
         reach = distortion * min(np.diff(lines).min(), np.diff(z).min())
-        return replace(mesh, points=mesh.points + inside[:, None] * random.uniform(-reach, reach, mesh.points.shape))
+        return replace(
+            mesh,
+            points=mesh.points + inside[:, None] * random.uniform(-reach, reach, mesh.points.shape),
+        )
 
     # wider by a hair: no point of the rim may leave the plate as the block strains
     nested = set(np.round(base, 9)) <= set(np.round(foot, 9))
     wider = SIDE / 2 + (base - SIDE / 2) * (1 + (1e-8 if nested else 1e-6))
     mesh = block(foot, 0.0)
-    system = block_system(engine, mesh, block(wider, -HEIGHT), HHT(1e-3, -0.05), material=SOFT, filtered=not distortion)
+    system = block_system(
+        engine,
+        mesh,
+        block(wider, -HEIGHT),
+        HHT(1e-3, -0.05),
+        material=SOFT,
+        filtered=not distortion,
+    )
     if distortion:
         column = system.column
         column.unit_loads = np.zeros_like(column.unit_loads)
@@ -139,8 +219,9 @@ def block_on_block(engine: str, foot, base, distortion: float = 0.0):
 class Standing:
     """A block at rest on its base; largest errors, relative to the exact.
 
-    size: base brick / height [-]. pressure: at the foot's nodes. sinking: displacement of the base's top, deep: halfway down, both
-    relative to the top's. imbalance: largest e_j. place: (2, n, n) [m] of the foot's nodes; pressures: (n, n) relative to the exact.
+    size: base brick / height [-]. pressure: at the foot's nodes. sinking: displacement of the
+    base's top, deep: halfway down, both relative to the top's. imbalance: largest e_j. place: (2,
+    n, n) [m] of the foot's nodes; pressures: (n, n) relative to the exact.
     """
 
     size: float
@@ -164,22 +245,35 @@ def stand(engine: str, foot, base, distortion: float = 0.0) -> Standing:
     wrong = np.abs(moved * SOFT.youngs_modulus_pa / exact + above) / HEIGHT
     arrived, due = np.zeros((2, len(plate.nodes)))
     np.add.at(arrived, nodes, weights * system.areas[:, None])
-    due[plate.grid.number] = np.outer(*(np.convolve(np.diff(lines), (0.5, 0.5)) for lines in (plate.grid.x, plate.grid.y)))
+    due[plate.grid.number] = np.outer(
+        *(np.convolve(np.diff(lines), (0.5, 0.5)) for lines in (plate.grid.x, plate.grid.y))
+    )
     order = np.lexsort(np.round(points[:, :2].T, 9)).reshape(len(foot), len(foot))
-    return Standing(np.diff(base).max() / HEIGHT, np.abs(pressure - 1).max(), wrong.max(),
-                    wrong[np.abs(above - HEIGHT / 2) < 1e-9].max(initial=0.0), np.abs(arrived / due - 1).max(),
-                    points[order, :2].transpose(2, 0, 1), pressure[order])
+    return Standing(
+        np.diff(base).max() / HEIGHT,
+        np.abs(pressure - 1).max(),
+        wrong.max(),
+        wrong[np.abs(above - HEIGHT / 2) < 1e-9].max(initial=0.0),
+        np.abs(arrived / due - 1).max(),
+        points[order, :2].transpose(2, 0, 1),
+        pressure[order],
+    )
 
 
 def matching_rows(engine: str) -> list[Row]:
     """Grids that pass a uniform pressure."""
     rows = []
     for label, base, foot, distortion in (
-            ("equal bricks", even(6), even(6), 0.0), ("graded bricks", GRADED, GRADED, 0.0),
-            ("distorted bricks, dead load", GRADED, GRADED, 0.2), ("graded, nested 2 on 1", GRADED[::2], GRADED, 0.0)):
+        ("equal bricks", even(6), even(6), 0.0),
+        ("graded bricks", GRADED, GRADED, 0.0),
+        ("distorted bricks, dead load", GRADED, GRADED, 0.2),
+        ("graded, nested 2 on 1", GRADED[::2], GRADED, 0.0),
+    ):
         found = stand(engine, foot, base, distortion)
-        rows += [Row(f"pressure: error, {label} [-]", 0.0, found.pressure, 1e-6),
-                 Row(f"base's displacement: error, {label} [-]", 0.0, found.sinking, 1e-6)]
+        rows += [
+            Row(f"pressure: error, {label} [-]", 0.0, found.pressure, 1e-6),
+            Row(f"base's displacement: error, {label} [-]", 0.0, found.sinking, 1e-6),
+        ]
     return rows
 
 
@@ -188,7 +282,9 @@ def shaken(engine: str) -> Row:
     trial, worst = Trial(block_on_block(engine, GRADED, GRADED)), 0.0
     trial.stepper.tolerance = 1e-9
     for step in range(1, 21):
-        forces = trial.step((0.0, 0.0, 4.9 * np.sin(2 * np.pi * 50 * step * trial.system.hht.dt))).forces[:, 2]
+        forces = trial.step(
+            (0.0, 0.0, 4.9 * np.sin(2 * np.pi * 50 * step * trial.system.hht.dt))
+        ).forces[:, 2]
         worst = max(worst, np.ptp(forces / trial.system.areas) * SIDE**2 / forces.sum())
     return Row("pressure: spread under vertical shaking, graded bricks [-]", 0.0, worst, 1e-6)
 
@@ -198,28 +294,55 @@ def unmatched_rows(label: str, series: list[Standing]) -> list[Row]:
     finest, sizes = series[-1], [one.size for one in series]
     order = slope(sizes, [one.sinking for one in series])
     deep = 2 / np.pi * finest.imbalance * finest.size**2 / 0.5
-    return [Row(f"pressure: error of the worst node, {label} [-]", 0.0, finest.pressure, finest.imbalance,
-                order=slope(sizes, [one.pressure for one in series])),
-            Row(f"base's displacement, top: error, {label} [-]", 0.0, finest.sinking, SQUARE * finest.imbalance * finest.size, order=order),
-            Row(f"base's displacement, top: order in h, {label}", 1.0, order, 0.1),
-            Row(f"base's displacement, halfway down: error, {label} [-]", 0.0, finest.deep, deep)]
+    return [
+        Row(
+            f"pressure: error of the worst node, {label} [-]",
+            0.0,
+            finest.pressure,
+            finest.imbalance,
+            order=slope(sizes, [one.pressure for one in series]),
+        ),
+        Row(
+            f"base's displacement, top: error, {label} [-]",
+            0.0,
+            finest.sinking,
+            SQUARE * finest.imbalance * finest.size,
+            order=order,
+        ),
+        Row(f"base's displacement, top: order in h, {label}", 1.0, order, 0.1),
+        Row(f"base's displacement, halfway down: error, {label} [-]", 0.0, finest.deep, deep),
+    ]
 
 
 def pulled_blocks(engine: str, lower: int, upper: int) -> float:
-    """Largest error of the displacement of tied blocks under tension, relative to the stretch of one of them."""
+    """Largest error of the displacement of tied blocks under tension, relative to the stretch of
+    one of them.
+    """
     blocks = tied_blocks(engine, even(lower), even(upper), HEIGHT)
     wrong = blocks.pulled()[0] - blocks.uniaxial()
     return float(np.abs(wrong - wrong.mean(axis=0)).max() / (STRETCH * HEIGHT))
 
 
 def tie_rows(engine: str) -> list[Row]:
-    """Rigid and linear fields through the ties of blocks and of the coarse specimen, and the bare column's elongation."""
+    """Rigid and linear fields through the ties of blocks and of the coarse specimen, and the bare
+    column's elongation.
+    """
     case, rows = column_case(engine), []
     specimen = Tied(case, share_specimen_mesh(case, MPI.COMM_SELF))
-    for label, one in (("tied blocks, 3 to 2", tied_blocks(engine, even(6), even(4), HEIGHT)), ("coarse specimen with cap", specimen)):
-        rows += [Row(f"{label}: strain of a rigid turn by 1 rad [-]", 0.0, one.turned(), 1e-12),
-                 Row(f"{label}: error of a linear displacement [-]", 0.0, one.sheared(), 1e-12),
-                 Row(f"{label}: energy / that of a uniform stretch [-]", 1.0, one.stretched(), 1.5 * STRETCH)]
+    for label, one in (
+        ("tied blocks, 3 to 2", tied_blocks(engine, even(6), even(4), HEIGHT)),
+        ("coarse specimen with cap", specimen),
+    ):
+        rows += [
+            Row(f"{label}: strain of a rigid turn by 1 rad [-]", 0.0, one.turned(), 1e-12),
+            Row(f"{label}: error of a linear displacement [-]", 0.0, one.sheared(), 1e-12),
+            Row(
+                f"{label}: energy / that of a uniform stretch [-]",
+                1.0,
+                one.stretched(),
+                1.5 * STRETCH,
+            ),
+        ]
     bare = replace(case, cap=None)
     moved, lower, upper = Tied(bare, share_specimen_mesh(bare, MPI.COMM_SELF)).pulled()
     column, fine = case.column, case.column.fine_height_m
@@ -227,10 +350,22 @@ def tie_rows(engine: str) -> list[Row]:
     found = moved[:, 2] @ (upper / upper.sum() - lower / lower.sum())
     half = np.pi / section(case, UPPER).n_around
     apart = case.mean_radius_m * (1 - np.cos(half) / np.cos(np.linspace(-half, half, 101)))
-    bent = 12 * np.mean(apart**2) / column.wall_m**2 * np.pi * np.sqrt(case.mean_radius_m * column.wall_m)
+    bent = (
+        12
+        * np.mean(apart**2)
+        / column.wall_m**2
+        * np.pi
+        * np.sqrt(case.mean_radius_m * column.wall_m)
+    )
     layer = fine / divisions(fine, case.mesh.fine_size_m) * abs(ratio - 1)
-    rows.append(Row("coarse specimen without cap: elongation under tension [m]", STRETCH * (fine + (column.height_m - fine) * ratio), found,
-                    (bent + layer) / column.height_m))
+    rows.append(
+        Row(
+            "coarse specimen without cap: elongation under tension [m]",
+            STRETCH * (fine + (column.height_m - fine) * ratio),
+            found,
+            (bent + layer) / column.height_m,
+        )
+    )
     return rows
 
 

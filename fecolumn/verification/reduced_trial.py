@@ -1,4 +1,6 @@
-"""The reduced engine behind the interface of `trial.Trial`: a system's finite elements, their modes and static flexibility."""
+"""The reduced engine behind the interface of `trial.Trial`: a system's finite elements, their modes
+and static flexibility.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +10,10 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.fem.free_body import rigid_fields
 from fecolumn.dynamics.gravity import standing
-from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.dynamics.system import State
+from fecolumn.fem.free_body import rigid_fields
+from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced import start as starts
 from fecolumn.reduced.build import column_model
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
@@ -27,15 +29,28 @@ _REDUCED = WeakKeyDictionary()
 class Reduction:
     """A system's column as the reduced engine knows it.
 
-    Attributes:
-        model: ColumnModel. shapes: (m, n_owned, 3) of its modes. rigid, momentum: (3 n_owned, 6) rigid motions and M times them.
+    Attributes
+    ----------
+    model
+        ColumnModel. shapes: (m, n_owned, 3) of its modes. rigid, momentum: (3 n_owned, 6) rigid
+        motions and M times them.
     """
 
     def __init__(self, system, n_modes: int):
-        body, free = system.column, 3 * (system.column.n_nodes - len(system.column.constraint.nodes)) - 6
+        body, free = (
+            system.column,
+            3 * (system.column.n_nodes - len(system.column.constraint.nodes)) - 6,
+        )
         height = body.all_X[:, 2]
         top = np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height))
-        self.model, self.shapes = column_model(body, system.foot_nodes, system.areas, top, np.full(len(top), 1 / len(top)), min(n_modes, free))
+        self.model, self.shapes = column_model(
+            body,
+            system.foot_nodes,
+            system.areas,
+            top,
+            np.full(len(top), 1 / len(top)),
+            min(n_modes, free),
+        )
         self.rigid, self.momentum, self.masses = rigid_fields(body)
 
     @classmethod
@@ -47,9 +62,14 @@ class Reduction:
         return known[n_modes]
 
     def projected(self, engine, state, system):
-        """The Motion that a full-order State is, seen by the rigid motions and the modes: their momenta, not their values at nodes."""
+        """The Motion that a full-order State is, seen by the rigid motions and the modes: their
+        momenta, not their values at nodes.
+        """
         body = system.column
-        motion, whole = engine.motion_at_rest(), {"time": state.time, "static": state.static, "ground": state.ground}
+        motion, whole = (
+            engine.motion_at_rest(),
+            {"time": state.time, "static": state.static, "ground": state.ground},
+        )
 
         def modal(field):
             return np.tensordot(self.shapes, body.momentum(field), axes=2)
@@ -57,12 +77,23 @@ class Reduction:
         center, rotation = body.node_mass @ state.x / body.total_mass, state.rotation
         for _ in range(3):
             elastic = (state.x - center) @ rotation - (body.X - body.center)
-            rotation = rotation @ rotation_matrix(np.linalg.solve(self.masses, self.momentum.T @ elastic.ravel())[3:])
+            rotation = rotation @ rotation_matrix(
+                np.linalg.solve(self.masses, self.momentum.T @ elastic.ravel())[3:]
+            )
         rates = np.linalg.solve(self.masses, self.momentum.T @ (state.v @ rotation).ravel())
         motion.rotation[:] = rotation
-        for name, values in (("center", center), ("velocity", rotation @ rates[:3]), ("spin", rates[3:]), ("acceleration", body.node_mass @ state.a / body.total_mass)):
+        for name, values in (
+            ("center", center),
+            ("velocity", rotation @ rates[:3]),
+            ("spin", rates[3:]),
+            ("acceleration", body.node_mass @ state.a / body.total_mass),
+        ):
             motion.frames[name] = values
-        for row, field in ((COORDINATE, (state.x - center) @ rotation - (body.X - body.center)), (RATE, state.v @ rotation), (ACCELERATION, state.a @ rotation)):
+        for row, field in (
+            (COORDINATE, (state.x - center) @ rotation - (body.X - body.center)),
+            (RATE, state.v @ rotation),
+            (ACCELERATION, state.a @ rotation),
+        ):
             motion.modal[0, row] = modal(field)
         motion.contact[:], motion.rims[:] = state.contact, state.rims
         for name, value in whole.items():
@@ -71,21 +102,48 @@ class Reduction:
 
 
 class Expanded:
-    """A Motion as a `dynamics.system.State` is read; fields all over the column by its rigid motion and modes."""
+    """A Motion as a `dynamics.system.State` is read; fields all over the column by its rigid motion
+    and modes.
+    """
 
     def __init__(self, engine, reduction: Reduction, column):
         self._motion, self._reduction, self._column = engine.motion_at_rest(), reduction, column
         copy(engine.motion, self._motion)
         motion = self._motion
-        self.time, self.static, self.ground = motion.time, float(motion.whole["static"][0]), motion.whole["ground"][0]
-        self.rotation, self.contact, self.rims, self._frame = motion.rotation[0], motion.contact, motion.rims, motion.frames[0]
-        self.forces, self.anchors, self.relative = (motion.contact[name] for name in ("force", "anchor", "relative"))
+        self.time, self.static, self.ground = (
+            motion.time,
+            float(motion.whole["static"][0]),
+            motion.whole["ground"][0],
+        )
+        self.rotation, self.contact, self.rims, self._frame = (
+            motion.rotation[0],
+            motion.contact,
+            motion.rims,
+            motion.frames[0],
+        )
+        self.forces, self.anchors, self.relative = (
+            motion.contact[name] for name in ("force", "anchor", "relative")
+        )
 
     def copy(self) -> State:
-        """A full-order State of these fields, to start another trial from; without internal forces, which a projection does not ask for."""
+        """A full-order State of these fields, to start another trial from; without internal forces,
+        which a projection does not ask for.
+        """
         still = np.zeros_like(self.x)
-        return State(self.time, self.x.copy(), self.v.copy(), self.a.copy(), still, still, 0.0, self.rotation.copy(), self.contact.copy(), self.static,
-                     self.ground.copy(), self.rims.copy())
+        return State(
+            self.time,
+            self.x.copy(),
+            self.v.copy(),
+            self.a.copy(),
+            still,
+            still,
+            0.0,
+            self.rotation.copy(),
+            self.contact.copy(),
+            self.static,
+            self.ground.copy(),
+            self.rims.copy(),
+        )
 
     def _modal(self, row: int) -> np.ndarray:
         return np.tensordot(self._motion.modal[0, row], self._reduction.shapes, axes=1)
@@ -100,7 +158,10 @@ class Expanded:
 
     @cached_property
     def v(self) -> np.ndarray:
-        return self._frame.velocity + (np.cross(self._frame.spin, self._arms) + self._modal(RATE)) @ self.rotation.T
+        return (
+            self._frame.velocity
+            + (np.cross(self._frame.spin, self._arms) + self._modal(RATE)) @ self.rotation.T
+        )
 
     @cached_property
     def a(self) -> np.ndarray:
@@ -111,10 +172,15 @@ class Expanded:
 class ReducedTrial(Trial):
     """Steps the reduced engine made from a full-order system.
 
-    Args:
-        system: what is reduced.
-        start: as of `Trial`. Gravity equilibrium is found by the reduced engine itself, any other start is made in full order and projected.
-        n_modes: elastic modes with inertia, at most those there are.
+    Parameters
+    ----------
+    system
+        what is reduced.
+    start
+        as of `Trial`. Gravity equilibrium is found by the reduced engine itself, any other start is
+        made in full order and projected.
+    n_modes
+        elastic modes with inertia, at most those there are.
     """
 
     def __init__(self, system, start=standing, n_modes: int = N_MODES):
@@ -124,11 +190,23 @@ class ReducedTrial(Trial):
         first = None if start is standing else start(system)
 
         def begin(engine):
-            return starts.standing(engine) if first is None else self.reduction.projected(engine, first, system)
+            return (
+                starts.standing(engine)
+                if first is None
+                else self.reduction.projected(engine, first, system)
+            )
 
         eye = view(self.reduction.model, system.weight, interface.laws["friction"])
-        self.engine = column_engine(self.reduction.model, system.base, eye, system.hht, begin, system.gravity,
-                             damping_ratio=system.damping.ratio if system.damping else 0.0, **interface.laws)
+        self.engine = column_engine(
+            self.reduction.model,
+            system.base,
+            eye,
+            system.hht,
+            begin,
+            system.gravity,
+            damping_ratio=system.damping.ratio if system.damping else 0.0,
+            **interface.laws,
+        )
         self.state = self.start = self._state()
 
     def _state(self) -> Expanded:

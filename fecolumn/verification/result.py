@@ -10,13 +10,20 @@ from dataclasses import dataclass, field
 class Row:
     """One quantity of a case.
 
-    Attributes:
-        quantity: what it is, with its unit in brackets.
-        exact: closed form, or the bound's ideal 0.
-        computed: by the engine.
-        tolerance: largest `error` allowed.
-        scale: what the error is relative to; |exact| unless given, 1 where exact is 0.
-        order: measured order of convergence, where the row is the finest of a series.
+    Attributes
+    ----------
+    quantity
+        what it is, with its unit in brackets.
+    exact
+        closed form, or the bound's ideal 0.
+    computed
+        by the engine.
+    tolerance
+        largest `error` allowed.
+    scale
+        what the error is relative to; |exact| unless given, 1 where exact is 0.
+    order
+        measured order of convergence, where the row is the finest of a series.
     """
 
     quantity: str
@@ -38,7 +45,9 @@ class Row:
 
 @dataclass(slots=True)
 class Result:
-    """Rows of a case, and `draw(figure)` that fills a matplotlib figure of `size` (width, height) [in]."""
+    """Rows of a case, and `draw(figure)` that fills a matplotlib figure of `size` (width, height)
+    [in].
+    """
 
     rows: list[Row] = field(default_factory=list)
     draw: Callable | None = None

@@ -1,29 +1,40 @@
-"""Sliding of a squat block and of the column: Coulomb's law between stick and slip, in one and two directions.
+"""Sliding of a squat block and of the column: Coulomb's law between stick and slip, in one and two
+directions.
 
-Requirement: what sticks does not creep, what slips obeys Coulomb's law in size and direction, and the ledger's friction is force
-times path.
+Requirement: what sticks does not creep, what slips obeys Coulomb's law in size and direction, and
+the ledger's friction is force times path.
 
-Derivation. A rigid block of mass m that does not tip, relative displacement u on a base with acceleration a_g, slope b, obeys
+Derivation. A rigid block of mass m that does not tip, relative displacement u on a base with
+acceleration a_g, slope b, obeys
 
     u'' = g sin(b) e_x - a_g - mu g cos(b) u' / |u'|    while it slides,    |g sin(b) e_x - a_g| <= mu g cos(b) while it sticks.
 
-Slope: rest for mu > tan b; else s = a t^2 / 2, a = g (sin b - mu cos b), friction takes mu m g cos(b) s.
-Ramp a_g = k t: slip starts at mu g; at a slip d since then the ground has reached mu g + (6 d k^2)^(1/3).
-One-sine pulse A sin(w t), A = 2 mu g: slip one way, at once back, past the end of the pulse (Newmark 1965); closed form.
-Two directions: a_g = A (cos w t, sin w t), A = 2 mu g, never lets the slip stop; integrated to 1e-12. Both in `coulomb_block`.
+Slope: rest for mu > tan b; else s = a t^2 / 2, a = g (sin b - mu cos b), friction takes mu m g
+cos(b) s. Ramp a_g = k t: slip starts at mu g; at a slip d since then the ground has reached mu g +
+(6 d k^2)^(1/3). One-sine pulse A sin(w t), A = 2 mu g: slip one way, at once back, past the end of
+the pulse (Newmark 1965); closed form. Two directions: a_g = A (cos w t, sin w t), A = 2 mu g, never
+lets the slip stop; integrated to 1e-12. Both in `coulomb_block`.
 
 Source: Coulomb 1785; Newmark 1965 (Geotechnique 15).
 
-Tolerances. A block in equilibrium moves by rounding alone: the requirement's 1e-9 m. When glued points let go, a slack of
-d = rho g H^2 / G = 4e-10 m is run through before all of them slip: a velocity of sqrt(2 a d) < 4e-5 m/s at most, after 0.3 s 1e-4 of
-g sin(b) t^2 / 2. The column on the ramp sways in its first mode by what the ramp's corner excites, 1.9 m/s3 over 2 pi f = 300 1/s,
-above the threshold for half a period at most: 1 %. The step sees the mean of a_g at its ends and one friction force:
-- each kink of the acceleration (slip starts) shifts the velocity by A w dt^2 / 8, the trapezoidal rule the velocity by
-  A w dt^2 / 12 in each of four quarter waves, so that a displacement after T is off by (1/8 + 1/3) A w T dt^2;
+Tolerances. A block in equilibrium moves by rounding alone: the requirement's 1e-9 m. When glued
+points let go, a slack of
+d = rho g H^2 / G = 4e-10 m is run through before all of them slip: a velocity of sqrt(2 a d) < 4e-5
+m/s at most, after 0.3 s 1e-4 of
+g sin(b) t^2 / 2. The column on the ramp sways in its first mode by what the ramp's corner excites,
+1.9 m/s3 over 2 pi f = 300 1/s,
+above the threshold for half a period at most: 1 %. The step sees the mean of a_g at its ends and
+one friction force:
+- each kink of the acceleration (slip starts) shifts the velocity by A w dt^2 / 8, the trapezoidal
+    rule the velocity by
+  A w dt^2 / 12 in each of four quarter waves, so that a displacement after T is off by (1/8 + 1/3)
+      A w T dt^2;
   each end of slip inside a step leaves mu g dt^2 / 2 besides;
-- in two directions acceleration and friction turn by w dt: (A / 12 + mu g / 24) (w dt)^2 T^2 / 2; a step's one friction force is
+- in two directions acceleration and friction turn by w dt: (A / 12 + mu g / 24) (w dt)^2 T^2 / 2; a
+    step's one friction force is
   w dt / 2 off the slip's direction at most.
-A block at rest on a level base after it slid needs no friction: that of its sway, 1e-3 mu m g, is left.
+A block at rest on a level base after it slid needs no friction: that of its sway, 1e-3 mu m g, is
+left.
 """
 
 from __future__ import annotations
@@ -46,8 +57,16 @@ FREQUENCY = 4 * np.pi  # of pulse and turning ground [rad/s]
 STEPS = (8e-3, 4e-3, 2e-3, 1e-3)
 SHIFTS = (0.0, 0.3, 0.7)  # of the pulse [dt]: where in a step its events fall must not matter
 # Drawn step sizes: every so manieth step, and how
-MARKS = {8e-3: (3, {"color": "#D55E00", "marker": "s", "linestyle": "", "markersize": 3, "fillstyle": "none"}),
-         2e-3: (8, {"color": "#0072B2", "marker": "o", "linestyle": "", "markersize": 3, "fillstyle": "none"})}
+MARKS = {
+    8e-3: (
+        3,
+        {"color": "#D55E00", "marker": "s", "linestyle": "", "markersize": 3, "fillstyle": "none"},
+    ),
+    2e-3: (
+        8,
+        {"color": "#0072B2", "marker": "o", "linestyle": "", "markersize": 3, "fillstyle": "none"},
+    ),
+}
 
 
 def run(engine: str, long: bool) -> Result:
@@ -63,11 +82,18 @@ def run(engine: str, long: bool) -> Result:
     def draw(figure):
         left, middle, right = figure.subplots(1, 3)
         fine = np.linspace(0, 0.7, 300)
-        left.plot(fine, 1e3 * NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE).displacement(fine), "k-", label="Newmark (1965)")
+        left.plot(
+            fine,
+            1e3 * NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE).displacement(fine),
+            "k-",
+            label="Newmark (1965)",
+        )
         for dt in MARKS:
             (_, time, path, _), every, marker = pulses[dt][0], *MARKS[dt]
             left.plot(time[::every], 1e3 * path[::every], **marker, label=f"dt = {1e3 * dt:g} ms")
-        left.set(xlabel="time [s]", ylabel="slip, one-sine pulse [mm]", xlim=(0, 0.7), ylim=(None, 28))
+        left.set(
+            xlabel="time [s]", ylabel="slip, one-sine pulse [mm]", xlim=(0, 0.7), ylim=(None, 28)
+        )
         left.legend(loc="upper right")
         middle.plot(*1e3 * turns[1e-3][2].T, "k-", label="rigid block")
         for dt in MARKS:
@@ -77,9 +103,18 @@ def run(engine: str, long: bool) -> Result:
         middle.set_aspect("equal", "datalim")
         middle.legend()
         steps = 1e3 * np.array(STEPS)
-        for errors, label, style in ((mean_errors(pulses), "one-sine, mean of 3", "o-"),
-                                     ([turns[dt][0] for dt in STEPS], "two directions", "s--")):
-            right.loglog(steps, errors, style, markersize=3, color="#0072B2" if "o" in style else "#D55E00", label=label)
+        for errors, label, style in (
+            (mean_errors(pulses), "one-sine, mean of 3", "o-"),
+            ([turns[dt][0] for dt in STEPS], "two directions", "s--"),
+        ):
+            right.loglog(
+                steps,
+                errors,
+                style,
+                markersize=3,
+                color="#0072B2" if "o" in style else "#D55E00",
+                label=label,
+            )
         right.loglog(steps, 1.5e-6 * steps**2, "k:", label="order 2")
         right.set_xticks(steps, [f"{step:g}" for step in steps])
         right.minorticks_off()
@@ -93,8 +128,14 @@ def run(engine: str, long: bool) -> Result:
 def block(engine: str, dt: float, friction: float = FRICTION, gravity=(0.0, 0.0, -GRAVITY)):
     """0.2 x 0.2 x 0.06 m of steel on a wide plate of steel."""
     sides, wide = np.linspace(-0.1, 0.1, 3), np.linspace(-0.6, 0.6, 3)
-    return block_system(engine, box(sides, sides, [0, 0.06]), box(wide, wide, [-0.02, 0]), HHT(dt, 0.0), friction=friction,
-                        gravity=gravity)
+    return block_system(
+        engine,
+        box(sides, sides, [0, 0.06]),
+        box(wide, wide, [-0.02, 0]),
+        HHT(dt, 0.0),
+        friction=friction,
+        gravity=gravity,
+    )
 
 
 def glued(system):
@@ -114,7 +155,16 @@ def centre(trial: Trial) -> np.ndarray:
 
 def on_slope(engine: str, share: float, start=glued) -> Trial:
     """A block on the slope with friction `share` tan(slope)."""
-    return begin(engine, block(engine, 1e-3, share * np.tan(SLOPE), GRAVITY * np.array([np.sin(SLOPE), 0.0, -np.cos(SLOPE)])), start)
+    return begin(
+        engine,
+        block(
+            engine,
+            1e-3,
+            share * np.tan(SLOPE),
+            GRAVITY * np.array([np.sin(SLOPE), 0.0, -np.cos(SLOPE)]),
+        ),
+        start,
+    )
 
 
 def creep(engine: str) -> Row:
@@ -122,7 +172,12 @@ def creep(engine: str) -> Row:
     trial = on_slope(engine, 1.01, start=standing)
     for _ in range(1000):
         trial.step()
-    return Row("creep on a slope in 1000 steps, mu = 1.01 tan b [m]", 0.0, np.abs(trial.state.x - trial.start.x).max(), 1e-9)
+    return Row(
+        "creep on a slope in 1000 steps, mu = 1.01 tan b [m]",
+        0.0,
+        np.abs(trial.state.x - trial.start.x).max(),
+        1e-9,
+    )
 
 
 def slope(engine: str, share: float) -> list[Row]:
@@ -133,37 +188,84 @@ def slope(engine: str, share: float) -> list[Row]:
         trial.step()
     slid, drive = (centre(trial) - start)[0], GRAVITY * np.sin(SLOPE) * trial.state.time**2 / 2
     taken = trial.system.weight * share * np.sin(SLOPE)  # mu m g cos b
-    return [Row(f"slid in 0.3 s, mu = {share:g} tan b; of g sin(b) t^2/2 [m]", drive * (1 - share), slid, 1e-4, scale=drive),
-            Row(f"friction energy, mu = {share:g} tan b, force x path [J]", -taken * slid, trial.energy()["friction"], 1e-4)]
+    return [
+        Row(
+            f"slid in 0.3 s, mu = {share:g} tan b; of g sin(b) t^2/2 [m]",
+            drive * (1 - share),
+            slid,
+            1e-4,
+            scale=drive,
+        ),
+        Row(
+            f"friction energy, mu = {share:g} tan b, force x path [J]",
+            -taken * slid,
+            trial.energy()["friction"],
+            1e-4,
+        ),
+    ]
 
 
 def slipped(trial: Trial, friction: float, slip: float = 1e-6) -> float:
     """Ground acceleration [m/s2] at which a trial's foot has slipped by `slip` [m], on a slow ramp."""
-    return ramp(trial, friction * GRAVITY, lambda trial: np.linalg.norm((trial.state.anchors - trial.start.anchors).mean(axis=0)) > slip)
+    return ramp(
+        trial,
+        friction * GRAVITY,
+        lambda trial: (
+            np.linalg.norm((trial.state.anchors - trial.start.anchors).mean(axis=0)) > slip
+        ),
+    )
 
 
 def threshold(engine: str) -> Row:
     """Ground acceleration of a slow ramp at which the column has slipped by 1e-6 m."""
     friction, slip = 0.05, 1e-6
-    trial = begin(engine, column_system(engine, contact={"friction_coefficient": friction}, integration={"dt_s": 4e-3}))
+    trial = begin(
+        engine,
+        column_system(
+            engine, contact={"friction_coefficient": friction}, integration={"dt_s": 4e-3}
+        ),
+    )
     found = slipped(trial, friction, slip)
-    return Row("ramp that slips the column by 1e-6 m, mu 0.05 [m/s2]", friction * GRAVITY + np.cbrt(6 * slip * 0.1**2), found, 0.01)
+    return Row(
+        "ramp that slips the column by 1e-6 m, mu 0.05 [m/s2]",
+        friction * GRAVITY + np.cbrt(6 * slip * 0.1**2),
+        found,
+        0.01,
+    )
 
 
 def one_sine(engine: str, dt: float, shift: float):
-    """(exact block, times [s], slip [m] at them, friction energy / mu m g [m]) under a pulse that starts `shift` dt late."""
+    """(exact block, times [s], slip [m] at them, friction energy / mu m g [m]) under a pulse that
+    starts `shift` dt late.
+    """
     exact, trial = NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE), begin(engine, block(engine, dt))
     start, path = centre(trial), [0.0]
     while trial.state.time < 0.7:
         time = trial.state.time + (1 - shift) * dt
-        trial.step((AMPLITUDE * np.sin(exact.frequency * time) if 0 < time < 2 * np.pi / exact.frequency else 0.0, 0.0, 0.0))
+        trial.step(
+            (
+                AMPLITUDE * np.sin(exact.frequency * time)
+                if 0 < time < 2 * np.pi / exact.frequency
+                else 0.0,
+                0.0,
+                0.0,
+            )
+        )
         path.append((centre(trial) - start)[0])
-    return exact, dt * (np.arange(len(path)) - shift), np.array(path), trial.energy()["friction"] / (FRICTION * trial.system.weight)
+    return (
+        exact,
+        dt * (np.arange(len(path)) - shift),
+        np.array(path),
+        trial.energy()["friction"] / (FRICTION * trial.system.weight),
+    )
 
 
 def mean_errors(pulses) -> list[float]:
     """Error of the distance [m] by step size, mean over the shifts."""
-    return [float(np.mean([abs(path[-1] - exact.distance) for exact, _, path, _ in runs])) for runs in pulses.values()]
+    return [
+        float(np.mean([abs(path[-1] - exact.distance) for exact, _, path, _ in runs]))
+        for runs in pulses.values()
+    ]
 
 
 def pulse_rows(pulses) -> list[Row]:
@@ -172,14 +274,31 @@ def pulse_rows(pulses) -> list[Row]:
     for dt, runs in pulses.items():
         exact, _, path, taken = max(runs, key=lambda one: abs(one[2][-1] - one[0].distance))
         allowed = (11 / 24 * AMPLITUDE * exact.frequency * exact.stop + 2 * RESISTANCE / 2) * dt**2
-        rows.append(Row(f"slip after one sine, A = 2 mu g, dt {dt:g} s, worst of 3; of the path [m]", exact.distance, path[-1],
-                        allowed / exact.path, scale=exact.path, order=order))
-    rows.append(Row(f"friction energy of it / mu m g, dt {dt:g} s: the path [m]", -exact.path, taken, 2 * allowed / exact.path))
+        rows.append(
+            Row(
+                f"slip after one sine, A = 2 mu g, dt {dt:g} s, worst of 3; of the path [m]",
+                exact.distance,
+                path[-1],
+                allowed / exact.path,
+                scale=exact.path,
+                order=order,
+            )
+        )
+    rows.append(
+        Row(
+            f"friction energy of it / mu m g, dt {dt:g} s: the path [m]",
+            -exact.path,
+            taken,
+            2 * allowed / exact.path,
+        )
+    )
     return rows
 
 
 def two_directions(engine: str, dt: float, seconds: float = 0.6):
-    """(error of the slip [m], path (n, 2) [m], exact path, largest angle between friction and -velocity [rad])."""
+    """(error of the slip [m], path (n, 2) [m], exact path, largest angle between friction and
+    -velocity [rad]).
+    """
     exact = TurningBlock(AMPLITUDE, FREQUENCY, RESISTANCE, seconds)
 
     def moving(system):
@@ -193,8 +312,13 @@ def two_directions(engine: str, dt: float, seconds: float = 0.6):
     for _ in range(round(seconds / dt)):
         trial.step((*exact.ground(trial.state.time + dt), 0.0))
         path.append((centre(trial) - start)[:2])
-        force, velocity = trial.state.forces[:, :2].sum(axis=0), exact.velocity(trial.state.time - dt / 2)
-        angles.append(abs(np.arctan2(force[1] * velocity[0] - force[0] * velocity[1], -force @ velocity)))
+        force, velocity = (
+            trial.state.forces[:, :2].sum(axis=0),
+            exact.velocity(trial.state.time - dt / 2),
+        )
+        angles.append(
+            abs(np.arctan2(force[1] * velocity[0] - force[0] * velocity[1], -force @ velocity))
+        )
     ode = np.array([exact.displacement(dt * k) for k in range(len(path))])
     return np.linalg.norm(path[-1] - ode[-1]), np.array(path), ode, max(angles)
 
@@ -202,17 +326,38 @@ def two_directions(engine: str, dt: float, seconds: float = 0.6):
 def turn_rows(turns) -> list[Row]:
     """Slip after the ground has turned, and the direction of friction, with their orders in dt."""
     w, T, rows = FREQUENCY, 0.6, []
-    order, direction = (np.polyfit(np.log(STEPS), np.log([turn[k] for turn in turns.values()]), 1)[0] for k in (0, 3))
+    order, direction = (
+        np.polyfit(np.log(STEPS), np.log([turn[k] for turn in turns.values()]), 1)[0]
+        for k in (0, 3)
+    )
     for dt, (error, _, ode, angle) in turns.items():
         size = np.linalg.norm(ode[-1])
-        rows.append(Row(f"slip under turning ground, dt {dt:g} s, distance to exact [m]", 0.0, error,
-                        (AMPLITUDE / 12 + RESISTANCE / 24) * (w * dt) ** 2 * T**2 / 2 / size, scale=size, order=order))
-    rows.append(Row(f"angle of friction to -velocity, dt {dt:g} s, largest [rad]", 0.0, angle, w * dt / 2, order=direction))
+        rows.append(
+            Row(
+                f"slip under turning ground, dt {dt:g} s, distance to exact [m]",
+                0.0,
+                error,
+                (AMPLITUDE / 12 + RESISTANCE / 24) * (w * dt) ** 2 * T**2 / 2 / size,
+                scale=size,
+                order=order,
+            )
+        )
+    rows.append(
+        Row(
+            f"angle of friction to -velocity, dt {dt:g} s, largest [rad]",
+            0.0,
+            angle,
+            w * dt / 2,
+            order=direction,
+        )
+    )
     return rows
 
 
 def rest(engine: str) -> Row:
-    """Friction on a block at rest on a level base 50 steps after its slide ended in the middle of a step."""
+    """Friction on a block at rest on a level base 50 steps after its slide ended in the middle of a
+    step.
+    """
     dt = 1e-3
 
     def pushed(system):
@@ -223,5 +368,9 @@ def rest(engine: str) -> Row:
     trial = begin(engine, block(engine, dt), pushed)
     for _ in range(67):
         trial.step()
-    return Row("friction at rest after a slide that ended inside a step / mu m g [-]", 0.0,
-               np.linalg.norm(trial.state.forces[:, :2].sum(axis=0)) / (FRICTION * trial.system.weight), 1e-3)
+    return Row(
+        "friction at rest after a slide that ended inside a step / mu m g [-]",
+        0.0,
+        np.linalg.norm(trial.state.forces[:, :2].sum(axis=0)) / (FRICTION * trial.system.weight),
+        1e-3,
+    )

@@ -1,14 +1,18 @@
-"""Structures of many bodies beside the rocking models of their papers: the restrained wobbling frame and the rocking podium.
+"""Structures of many bodies beside the rocking models of their papers: the restrained wobbling
+frame and the rocking podium.
 
-Requirement: a slab on four round columns with tendons is held by the force of virtual work, an impact in a plane takes what angular momentum
-says, and a frame that is set rolling goes the way of the wobbling model. The podium's impact is that of `podium_bodies`.
+Requirement: a slab on four round columns with tendons is held by the force of virtual work, an
+impact in a plane takes what angular momentum says, and a frame that is set rolling goes the way of
+the wobbling model. The podium's impact is that of `podium_bodies`.
 
-Sources: [W] the statistical validation of a wobbling model by tests on a restrained frame; [P] the paper on impact modelling of multi-storey
-podium structures. Bodies are rigid but for points that give 3,000 to 10,000 times less than concrete, for both papers speak of rigid columns.
+Sources: [W] the statistical validation of a wobbling model by tests on a restrained frame; [P] the
+paper on impact modelling of multi-storey podium structures. Bodies are rigid but for points that
+give 3,000 to 10,000 times less than concrete, for both papers speak of rigid columns.
 
-Tolerances. Force: that of virtual work within 0.5 %, by which the points give in the first 60 ms; the numbers printed for slender columns
-leave out alpha^2 / 3 = 0.6 % at uplift and 2 % of the slope. Impact: the step in which it falls, g dt^2 / 2 of fall and a share of dt in its time. Path: one
-step's turn at the release.
+Tolerances. Force: that of virtual work within 0.5 %, by which the points give in the first 60 ms;
+the numbers printed for slender columns leave out alpha^2 / 3 = 0.6 % at uplift and 2 % of the
+slope. Impact: the step in which it falls, g dt^2 / 2 of fall and a share of dt in its time. Path:
+one step's turn at the release.
 """
 
 from __future__ import annotations
@@ -32,7 +36,10 @@ from fecolumn.verification.wobbling_models import SPECIMEN
 HALF_DIAGONAL, ALPHA, GAMMA = 1.5, math.atan(0.15), 10.0
 _STIFF = 1e14  # Young's modulus [Pa] by which points give
 _TILTS = (0.01, 0.03, 0.06)  # [rad]
-_SETTLED = (5e-3, 0.06)  # between these times [s] after the release the slab's acceleration is taken
+_SETTLED = (
+    5e-3,
+    0.06,
+)  # between these times [s] after the release the slab's acceleration is taken
 
 
 def run(engine: str, long: bool = False) -> Result:
@@ -55,39 +62,102 @@ def frame_model(**keys) -> WobblingFrame:
 
 
 def rolling(frame: WobblingFrame, tilt: float, turn: float = 0.0) -> dict:
-    """[initial] of a case: columns that lean by `tilt` [rad] towards x and roll on with `turn` [rad/s] of the azimuth, their slab along with them."""
+    """[initial] of a case: columns that lean by `tilt` [rad] towards x and roll on with `turn`
+    [rad/s] of the azimuth, their slab along with them.
+    """
     spin = [-turn * math.sin(tilt), 0.0, turn * (1 - math.cos(tilt))]
-    return dict(column=dict(tilt_rad=tilt, spin_rad_s=spin), slab=dict(velocity_m_s=[0.0, turn * float(frame.moved(tilt)[0]), 0.0]))
+    return dict(
+        column=dict(tilt_rad=tilt, spin_rad_s=spin),
+        slab=dict(velocity_m_s=[0.0, turn * float(frame.moved(tilt)[0]), 0.0]),
+    )
 
 
 def frame_case(frame: WobblingFrame, initial: dict, dt: float):
     """The same frame of bodies that are rigid but for their contact points."""
     radius, _, height, mass, slab, *_, stiffness, _, _ = frame.body
     body = dict(rigid=True, youngs_modulus_pa=_STIFF, poissons_ratio=0.2)
-    tendon = dict(kind="tendon", body="column", to="slab", to_point_m=[0.0, 0.0, height], stiffness_n_m=stiffness)
-    return case_from_tables(dict(
-        bodies=dict(column=dict(kind="cylinder", outer_diameter_m=2 * radius, height_m=height, mass_kg=mass, element_size_m=radius / 2,
-                                copies_m=[[1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0], [1.0, -1.0, 0.0]]) | body,
-                    slab=dict(kind="slab", length_m=3.0, width_m=3.0, thickness_m=0.43, mass_kg=frame.columns * slab, at_m=[0.0, 0.0, height]) | body),
-        interfaces=dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")), links=dict(tendon=tendon) if stiffness else {},
-        contact=dict(friction_coefficient=0.7, interior_points=0), initial=initial, integration=dict(dt_s=dt, duration_s=60.0)), "frame")
+    tendon = dict(
+        kind="tendon",
+        body="column",
+        to="slab",
+        to_point_m=[0.0, 0.0, height],
+        stiffness_n_m=stiffness,
+    )
+    return case_from_tables(
+        dict(
+            bodies=dict(
+                column=dict(
+                    kind="cylinder",
+                    outer_diameter_m=2 * radius,
+                    height_m=height,
+                    mass_kg=mass,
+                    element_size_m=radius / 2,
+                    copies_m=[
+                        [1.0, 1.0, 0.0],
+                        [-1.0, 1.0, 0.0],
+                        [-1.0, -1.0, 0.0],
+                        [1.0, -1.0, 0.0],
+                    ],
+                )
+                | body,
+                slab=dict(
+                    kind="slab",
+                    length_m=3.0,
+                    width_m=3.0,
+                    thickness_m=0.43,
+                    mass_kg=frame.columns * slab,
+                    at_m=[0.0, 0.0, height],
+                )
+                | body,
+            ),
+            interfaces=dict(
+                feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")
+            ),
+            links=dict(tendon=tendon) if stiffness else {},
+            contact=dict(friction_coefficient=0.7, interior_points=0),
+            initial=initial,
+            integration=dict(dt_s=dt, duration_s=60.0),
+        ),
+        "frame",
+    )
 
 
 def restoring_force(frame: WobblingFrame, rows: dict, tilt: float, settled=_SETTLED) -> float:
-    """Horizontal force [N] that rights a frame let go at a tilt: inertia of the mechanism times the slab's first acceleration."""
+    """Horizontal force [N] that rights a frame let go at a tilt: inertia of the mechanism times the
+    slab's first acceleration.
+    """
     time, moved = rows["time"], rows["body/slab/displacement"][:, 0]
     within = (time > settled[0]) & (time <= settled[1])
     acceleration = 2 * np.polyfit(time[within], moved[within], 2)[0]
     reach = (frame.moved(tilt + 1e-6)[0] - frame.moved(tilt - 1e-6)[0]) / 2e-6
-    return float(-acceleration * frame.columns * interpreted(equations.inertia)(frame.body, tilt)[0] / reach**2)
+    return float(
+        -acceleration
+        * frame.columns
+        * interpreted(equations.inertia)(frame.body, tilt)[0]
+        / reach**2
+    )
 
 
 def _forces():
     frame, found = frame_model(), []
     for tilt in _TILTS:
         displacement, exact = frame.pushover(tilt)
-        found.append((displacement, restoring_force(frame, advanced(frame_case(frame, rolling(frame, tilt), 1e-3), _SETTLED[1]), tilt)))
-        yield Row(f"restrained frame let go at {tilt:g} rad: restoring force [N]", exact, found[-1][1], 5e-3)
+        found.append(
+            (
+                displacement,
+                restoring_force(
+                    frame,
+                    advanced(frame_case(frame, rolling(frame, tilt), 1e-3), _SETTLED[1]),
+                    tilt,
+                ),
+            )
+        )
+        yield Row(
+            f"restrained frame let go at {tilt:g} rad: restoring force [N]",
+            exact,
+            found[-1][1],
+            5e-3,
+        )
     slope, force = np.polyfit(*np.array(found).T, 1)
     yield Row("the same: force at uplift [kN] (D of W)", 13.15, force / 1e3, 0.01)
     yield Row("the same: slope after uplift [kN/m] (D of W)", -34.8, slope / 1e3, 0.03)
@@ -100,9 +170,13 @@ def energy_at(frame: WobblingFrame, tilt: float) -> float:
 
 
 def planar_restitution(frame: WobblingFrame) -> float:
-    """Rate of the tilt after over before an impact in a plane: angular momentum about the new rims, the slab translating (eta = 0 of the podium's)."""
+    """Rate of the tilt after over before an impact in a plane: angular momentum about the new rims,
+    the slab translating (eta = 0 of the podium's).
+    """
     radius, centre, _, mass, _, across, *_ = frame.body
-    return podium_restitution(CRV, frame.slenderness, frame.mass_ratio, 0.0, 1 + across / (mass * (radius**2 + centre**2)))
+    return podium_restitution(
+        CRV, frame.slenderness, frame.mass_ratio, 0.0, 1 + across / (mass * (radius**2 + centre**2))
+    )
 
 
 def _impact():
@@ -111,10 +185,19 @@ def _impact():
     rows = advanced(frame_case(frame, rolling(frame, tilt), 5e-4), 0.75)
     moved = rows["body/slab/displacement"][:, 0]
     passed = int(np.argmax(moved < 0))
-    kept = energy_at(frame, rows["body/column 1/tilt"][passed + 20:].max()) / energy_at(frame, tilt)
+    kept = energy_at(frame, rows["body/column 1/tilt"][passed + 20 :].max()) / energy_at(
+        frame, tilt
+    )
     quiet = frame.respond(_still(1.0), tilt=tilt)
-    yield Row("frame without tendons: time of the first impact [s]", float(quiet.impact_times[0]), float(rows["time"][passed]), 5e-3)
-    yield Row("the same: share of the energy after the impact", planar_restitution(frame) ** 2, kept, 0.01)
+    yield Row(
+        "frame without tendons: time of the first impact [s]",
+        float(quiet.impact_times[0]),
+        float(rows["time"][passed]),
+        5e-3,
+    )
+    yield Row(
+        "the same: share of the energy after the impact", planar_restitution(frame) ** 2, kept, 0.01
+    )
 
 
 def _still(seconds: float, dt: float = 2e-3):
@@ -138,35 +221,104 @@ def _path(seconds: float):
     rows = advanced(frame_case(frame, rolling(frame, tilt, turn), 1e-3), seconds)
     exact = way(frame, tilt, turn, rows["time"])
     off = np.linalg.norm(rows["body/slab/displacement"][:, :2] - exact, axis=1).max()
-    yield Row(f"restrained frame that rolls round: slab off the model's way in {seconds:g} s over its reach", 0.0, off / np.abs(exact).max(), 0.02)
+    yield Row(
+        f"restrained frame that rolls round: slab off the model's way in {seconds:g} s "
+        "over its reach",
+        0.0,
+        off / np.abs(exact).max(),
+        0.02,
+    )
 
 
-def podium_case(floors: int, period: float, tilt: float, dt: float, column: dict | None = None, building: dict | None = None):
-    """The podium of [P] in bodies, let go at a tilt [rad]; period: of the building on a fixed slab [s].
+def podium_case(
+    floors: int,
+    period: float,
+    tilt: float,
+    dt: float,
+    column: dict | None = None,
+    building: dict | None = None,
+):
+    """The podium of [P] in bodies, let go at a tilt [rad]; period: of the building on a fixed slab
+    [s].
 
     column, building: keys of the bodies in place of those of rigid ones that touch at stiff points.
     """
-    width, height, mass = 2 * HALF_DIAGONAL * math.sin(ALPHA), 2 * HALF_DIAGONAL * math.cos(ALPHA), 1500.0
+    width, height, mass = (
+        2 * HALF_DIAGONAL * math.sin(ALPHA),
+        2 * HALF_DIAGONAL * math.cos(ALPHA),
+        1500.0,
+    )
     stuff, slab = dict(youngs_modulus_pa=3 * _STIFF, poissons_ratio=0.2), 4 * GAMMA * mass
-    return case_from_tables(dict(
-        bodies=dict(column=dict(kind="block", length_m=width, width_m=width, height_m=height, mass_kg=mass, rigid=True, element_size_m=width,
-                                copies_m=[[2.5, 2.5, 0.0], [-2.5, 2.5, 0.0], [-2.5, -2.5, 0.0], [2.5, -2.5, 0.0]]) | stuff | (column or {}),
-                    building=dict(kind="storeys", length_m=6.0, width_m=6.0, thickness_m=0.5, mass_kg=slab, floors=floors, floor_masses_kg=[slab], storey_heights_m=[3.0],
-                                  profile="triangular", damping="rayleigh", damping_ratio=0.05, period_s=period, modes=2 * floors, at_m=[0.0, 0.0, height]) | stuff | (building or {})),
-        interfaces=dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="building")),
-        contact=dict(friction_coefficient=0.7, interior_points=0), initial=dict(column=dict(tilt_rad=tilt)), integration=dict(dt_s=dt, duration_s=60.0)), "podium")
+    return case_from_tables(
+        dict(
+            bodies=dict(
+                column=dict(
+                    kind="block",
+                    length_m=width,
+                    width_m=width,
+                    height_m=height,
+                    mass_kg=mass,
+                    rigid=True,
+                    element_size_m=width,
+                    copies_m=[
+                        [2.5, 2.5, 0.0],
+                        [-2.5, 2.5, 0.0],
+                        [-2.5, -2.5, 0.0],
+                        [2.5, -2.5, 0.0],
+                    ],
+                )
+                | stuff
+                | (column or {}),
+                building=dict(
+                    kind="storeys",
+                    length_m=6.0,
+                    width_m=6.0,
+                    thickness_m=0.5,
+                    mass_kg=slab,
+                    floors=floors,
+                    floor_masses_kg=[slab],
+                    storey_heights_m=[3.0],
+                    profile="triangular",
+                    damping="rayleigh",
+                    damping_ratio=0.05,
+                    period_s=period,
+                    modes=2 * floors,
+                    at_m=[0.0, 0.0, height],
+                )
+                | stuff
+                | (building or {}),
+            ),
+            interfaces=dict(
+                feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="building")
+            ),
+            contact=dict(friction_coefficient=0.7, interior_points=0),
+            initial=dict(column=dict(tilt_rad=tilt)),
+            integration=dict(dt_s=dt, duration_s=60.0),
+        ),
+        "podium",
+    )
 
 
 def tilt_of(rows: dict) -> np.ndarray:
     """Tilt (n,) [rad] of the podium's columns along x, with its sign."""
     moved = rows["body/column 1/displacement"][:, 0]
-    return np.sign(moved) * (ALPHA - np.arcsin(np.clip(math.sin(ALPHA) - np.abs(moved) / HALF_DIAGONAL, -1, 1)))
+    return np.sign(moved) * (
+        ALPHA - np.arcsin(np.clip(math.sin(ALPHA) - np.abs(moved) / HALF_DIAGONAL, -1, 1))
+    )
 
 
 def kept_rate(rows: dict, skip: float = 2e-3, width: float = 8e-3) -> float:
-    """Rate of the tilt after over before the first impact: by straight and curved fits over `width` [s], `skip` [s] from it."""
+    """Rate of the tilt after over before the first impact: by straight and curved fits over `width`
+    [s], `skip` [s] from it.
+    """
     time, tilt = rows["time"], tilt_of(rows)
     passed = int(np.argmax(tilt < 0))
-    at = float(np.interp(0.0, -tilt[passed - 1:passed + 1], time[passed - 1:passed + 1]))
-    before, after = ((time > at - skip - width) & (time < at - skip)), ((time > at + skip) & (time < at + skip + width))
-    return float(np.polyfit(time[after] - at, tilt[after], 2)[1] / np.polyfit(time[before] - at, tilt[before], 2)[1])
+    at = float(np.interp(0.0, -tilt[passed - 1 : passed + 1], time[passed - 1 : passed + 1]))
+    before, after = (
+        ((time > at - skip - width) & (time < at - skip)),
+        ((time > at + skip) & (time < at + skip + width)),
+    )
+    return float(
+        np.polyfit(time[after] - at, tilt[after], 2)[1]
+        / np.polyfit(time[before] - at, tilt[before], 2)[1]
+    )

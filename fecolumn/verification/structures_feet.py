@@ -1,15 +1,22 @@
-"""Feet that are not flat, and edges below a face: bodies that roll on a dome or on a rounded edge, and one that rocks on what is narrower than its foot.
+"""Feet that are not flat, and edges below a face: bodies that roll on a dome or on a rounded edge,
+and one that rocks on what is narrower than its foot.
 
-Requirement: a body on a spherical foot swings, rests and overturns as a rigid body that rolls without slip, and loses nothing; beyond the edge of the dome it goes on over that; pushed, it
-slides by Coulomb's law. A foot with a rounded edge rolls on it. A block on a narrower one rocks about the edge of that.
+Requirement: a body on a spherical foot swings, rests and overturns as a rigid body that rolls
+without slip, and loses nothing; beyond the edge of the dome it goes on over that; pushed, it slides
+by Coulomb's law. A foot with a rounded edge rolls on it. A block on a narrower one rocks about the
+edge of that.
 
-With e = rho - h the depth of the centre of mass below the centre of the sphere, a body that has rolled to the tilt q has the kinetic energy (I + m (rho^2 + e^2 - 2 rho e cos q)) q'^2 / 2
-and the potential m g (rho - e cos q): small swings have w^2 = m g (rho - h) / (I + m h^2), and for h > rho it falls. On a foot of half width b the edge of radius r turns about the
-centre of the edge: height r + (h - r) cos q + (b - r) sin q. Times are integrals of 1 / q'.
+With e = rho - h the depth of the centre of mass below the centre of the sphere, a body that has
+rolled to the tilt q has the kinetic energy (I + m (rho^2 + e^2 - 2 rho e cos q)) q'^2 / 2 and the
+potential m g (rho - e cos q): small swings have w^2 = m g (rho - h) / (I + m h^2), and for h > rho
+it falls. On a foot of half width b the edge of radius r turns about the centre of the edge: height
+r + (h - r) cos q + (b - r) sin q. Times are integrals of 1 / q'.
 
-Tolerances. Times and tilts on a dome: 1e-4, ten times what the give of the contact changes in the swing. Energy between two passages: 1e-5 of that of the swing; what the give of
-the foot stores more away from its middle is given back. What is let go falls by what it is pressed together at rest before it turns: 2e-3. Sliding: the first steps of the contact's
-spring, 1e-3. Loss at the narrow block: as in `several_bodies`.
+Tolerances. Times and tilts on a dome: 1e-4, ten times what the give of the contact changes in the
+swing. Energy between two passages: 1e-5 of that of the swing; what the give of the foot stores more
+away from its middle is given back. What is let go falls by what it is pressed together at rest
+before it turns: 2e-3. Sliding: the first steps of the contact's spring, 1e-3. Loss at the narrow
+block: as in `several_bodies`.
 """
 
 from __future__ import annotations
@@ -30,46 +37,79 @@ MARBLE = dict(youngs_modulus_pa=50e9, poissons_ratio=0.2, density_kg_m3=2700.0)
 GLASS = dict(youngs_modulus_pa=70e9, poissons_ratio=0.22, density_kg_m3=2500.0)
 BLOCK = dict(kind="block", length_m=0.4, width_m=0.4, height_m=1.2, element_size_m=0.1) | MARBLE
 DRUM = dict(kind="cylinder", outer_diameter_m=0.5, height_m=1.6, element_size_m=0.125) | MARBLE
-TUBE = dict(kind="tube", outer_diameter_m=0.02, wall_m=0.0015, height_m=0.15, element_size_m=0.005) | GLASS
+TUBE = (
+    dict(kind="tube", outer_diameter_m=0.02, wall_m=0.0015, height_m=0.15, element_size_m=0.005)
+    | GLASS
+)
 #: Closure of the energy balance over the energy moved
 CLOSED = 1e-10
 
 
 def run(engine: str, long: bool = False) -> Result:
     """The rows; engine: reduced or rigid."""
-    rows = [*_swings("marble block", BLOCK | dict(foot_radius_m=0.9), engine), *_overturns(engine), *_over_the_edge(engine), *_slides(engine), *_rounded(engine),
-            *_narrower(engine)]
+    rows = [
+        *_swings("marble block", BLOCK | dict(foot_radius_m=0.9), engine),
+        *_overturns(engine),
+        *_over_the_edge(engine),
+        *_slides(engine),
+        *_rounded(engine),
+        *_narrower(engine),
+    ]
     if long:
-        rows += [*_swings("marble drum", DRUM | dict(foot_radius_m=1.2), engine), *_swings("glass tube", TUBE | dict(foot_radius_m=0.1), engine, 1e-4)]
+        rows += [
+            *_swings("marble drum", DRUM | dict(foot_radius_m=1.2), engine),
+            *_swings("glass tube", TUBE | dict(foot_radius_m=0.1), engine, 1e-4),
+        ]
     return Result([*rows, *_rests(engine)])
 
 
 class Rolling:
-    """A rigid body on a dome, rolling in a plane without slip; its energy without motion is 0 upright.
+    """A rigid body on a dome, rolling in a plane without slip; its energy without motion is 0
+    upright.
 
-    Args:
-        model: BodyModel. radius: of the sphere, half: radius of the dome's edge [m].
+    Parameters
+    ----------
+    model
+        BodyModel.
+    radius
+        of the sphere, half: radius of the dome's edge [m].
     """
 
     def __init__(self, model, radius: float, half: float = math.inf):
-        self.mass, self.inertia, self.height, self.radius, self.half = model.mass, float(model.inertia[1, 1]), float(model.center[2]), radius, half
+        self.mass, self.inertia, self.height, self.radius, self.half = (
+            model.mass,
+            float(model.inertia[1, 1]),
+            float(model.center[2]),
+            radius,
+            half,
+        )
         self.depth = radius - self.height
 
     @property
     def rate(self) -> float:
-        """Circular frequency of small swings [rad/s]; of growth where the centre of mass is above that of the sphere."""
-        return math.sqrt(self.mass * GRAVITY * abs(self.depth) / (self.inertia + self.mass * self.height**2))
+        """Circular frequency of small swings [rad/s]; of growth where the centre of mass is above
+        that of the sphere.
+        """
+        return math.sqrt(
+            self.mass * GRAVITY * abs(self.depth) / (self.inertia + self.mass * self.height**2)
+        )
 
     def moving(self, tilt: float) -> float:
         """Inertia [kg m2] about the place of contact on the dome."""
-        return self.inertia + self.mass * (self.radius**2 + self.depth**2 - 2 * self.radius * self.depth * math.cos(tilt))
+        return self.inertia + self.mass * (
+            self.radius**2 + self.depth**2 - 2 * self.radius * self.depth * math.cos(tilt)
+        )
 
     def potential(self, tilt: float) -> float:
         """Energy of the weight [J], beyond the edge of the dome on that."""
         if math.sin(tilt) * self.radius <= self.half:
             return self.mass * GRAVITY * self.depth * (1 - math.cos(tilt))
         rise = self.radius - math.sqrt(self.radius**2 - self.half**2)
-        return self.mass * GRAVITY * (self.half * math.sin(tilt) + (self.height - rise) * math.cos(tilt) - self.height)
+        return (
+            self.mass
+            * GRAVITY
+            * (self.half * math.sin(tilt) + (self.height - rise) * math.cos(tilt) - self.height)
+        )
 
     def spin(self, energy: float) -> float:
         """Rate of the tilt [rad/s] upright at an energy [J]."""
@@ -89,19 +129,41 @@ class Rolling:
     def reaches(self, tilt: float, spin: float) -> float:
         """Time [s] to a tilt from upright with a spin [rad/s]."""
         energy = self.moving(0.0) * spin**2 / 2
-        return quad(lambda angle: 1 / math.sqrt(2 * (energy - self.potential(angle)) / self.moving(angle)), 0.0, tilt, epsrel=1e-10)[0]
+        return quad(
+            lambda angle: 1 / math.sqrt(2 * (energy - self.potential(angle)) / self.moving(angle)),
+            0.0,
+            tilt,
+            epsrel=1e-10,
+        )[0]
 
 
-def case_of(bodies: dict, interfaces: dict, engine: str, dt: float, initial=None, friction: float = 0.7):
+def case_of(
+    bodies: dict, interfaces: dict, engine: str, dt: float, initial=None, friction: float = 0.7
+):
     """Case of a structure that nothing shakes."""
-    return case_from_tables(dict(
-        bodies=bodies, interfaces=interfaces, initial=initial or {}, contact=dict(friction_coefficient=friction, interior_points=4),
-        integration=dict(dt_s=dt, duration_s=100.0, engine=engine) | (dict(n_modes=6) if engine == "reduced" else {})), "feet")
+    return case_from_tables(
+        dict(
+            bodies=bodies,
+            interfaces=interfaces,
+            initial=initial or {},
+            contact=dict(friction_coefficient=friction, interior_points=4),
+            integration=dict(dt_s=dt, duration_s=100.0, engine=engine)
+            | (dict(n_modes=6) if engine == "reduced" else {}),
+        ),
+        "feet",
+    )
 
 
 def alone(body: dict, engine: str, dt: float, friction: float = 0.7, **initial):
     """Case of a body by itself on the ground."""
-    return case_of(dict(body=body), dict(foot=dict(slave="body", on="ground")), engine, dt, dict(body=initial) if initial else None, friction)
+    return case_of(
+        dict(body=body),
+        dict(foot=dict(slave="body", on="ground")),
+        engine,
+        dt,
+        dict(body=initial) if initial else None,
+        friction,
+    )
 
 
 def advanced(case, seconds: float, ground=None) -> tuple[dict[str, np.ndarray], np.ndarray]:
@@ -121,24 +183,41 @@ def passages(rows: dict, body: str = "body") -> np.ndarray:
     """Times [s] at which a body that swings along x passes upright."""
     moved, time = rows[f"body/{body}/displacement"][:, 0], rows["time"]
     before = np.flatnonzero(moved[:-1] * moved[1:] < 0)
-    return time[before] - moved[before] * (time[before + 1] - time[before]) / (moved[before + 1] - moved[before])
+    return time[before] - moved[before] * (time[before + 1] - time[before]) / (
+        moved[before + 1] - moved[before]
+    )
 
 
 def kept(rows: dict, columns: np.ndarray, dt: float) -> float:
     """Share of the mechanical energy of the first passage upright that is left at the last."""
-    energy = columns[:, ENERGY:ENERGY + 3].sum(axis=1) - columns[:, ENERGY + 1:ENERGY + 3].sum(axis=1).min()
+    energy = (
+        columns[:, ENERGY : ENERGY + 3].sum(axis=1)
+        - columns[:, ENERGY + 1 : ENERGY + 3].sum(axis=1).min()
+    )
     first, last = (int(round(time / dt)) for time in passages(rows)[[0, -1]])
     return float(energy[last] / energy[first])
 
 
 def _swings(name: str, body: dict, engine: str, dt: float = 1e-3, amplitude: float = 0.05):
-    rolling = Rolling(structure_model(alone(body, engine, dt)).parts[0].model, body["foot_radius_m"])
+    rolling = Rolling(
+        structure_model(alone(body, engine, dt)).parts[0].model, body["foot_radius_m"]
+    )
     period = 2 * math.pi / rolling.rate
-    rows, columns = advanced(alone(body, engine, dt, spin_rad_s=[0.0, rolling.spin(rolling.potential(amplitude)), 0.0]), 5.6 * period)
+    rows, columns = advanced(
+        alone(body, engine, dt, spin_rad_s=[0.0, rolling.spin(rolling.potential(amplitude)), 0.0]),
+        5.6 * period,
+    )
     found = passages(rows)
-    yield Row(f"{name} on a dome: period of a swing of {amplitude:g} rad [s]", 4 * rolling.quarter(amplitude), float((found[9] - found[1]) / 4), 1e-4)
+    yield Row(
+        f"{name} on a dome: period of a swing of {amplitude:g} rad [s]",
+        4 * rolling.quarter(amplitude),
+        float((found[9] - found[1]) / 4),
+        1e-4,
+    )
     yield Row("the same: largest tilt [rad]", amplitude, float(rows["body/body/tilt"].max()), 1e-4)
-    yield Row("the same: share of the energy left after 5 periods", 1.0, kept(rows, columns, dt), 1e-5)
+    yield Row(
+        "the same: share of the energy left after 5 periods", 1.0, kept(rows, columns, dt), 1e-5
+    )
     yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)
 
 
@@ -150,7 +229,12 @@ def _overturns(engine: str, dt: float = 1e-4):
     leaned = rows["body/body/tilt"]
     passed = int(np.argmax(leaned > tilt)) + 1
     found = float(np.interp(tilt, leaned[:passed], rows["time"][:passed]))
-    yield Row(f"glass tube on a half sphere: overturns, time to {tilt:g} rad [s]", rolling.reaches(tilt, spin), found, 1e-4)
+    yield Row(
+        f"glass tube on a half sphere: overturns, time to {tilt:g} rad [s]",
+        rolling.reaches(tilt, spin),
+        found,
+        1e-4,
+    )
     yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)
 
 
@@ -159,17 +243,37 @@ def _over_the_edge(engine: str, dt: float = 1e-3):
     body = DRUM | dict(foot_radius_m=1.2)
     rolling = Rolling(structure_model(alone(body, engine, dt)).parts[0].model, 1.2, 0.25)
     tilt = math.asin(0.25 / 1.2) + 0.04
-    rows, columns = advanced(alone(body, engine, dt, spin_rad_s=[0.0, rolling.spin(rolling.potential(tilt)), 0.0]), 5.0)
-    yield Row("marble drum thrown over the edge of its dome: largest tilt [rad]", tilt, float(rows["body/body/tilt"].max()), 1e-4)
-    yield Row("the same: share of the energy left after the edges of both sides", 1.0, kept(rows, columns, dt), 1e-5)
+    rows, columns = advanced(
+        alone(body, engine, dt, spin_rad_s=[0.0, rolling.spin(rolling.potential(tilt)), 0.0]), 5.0
+    )
+    yield Row(
+        "marble drum thrown over the edge of its dome: largest tilt [rad]",
+        tilt,
+        float(rows["body/body/tilt"].max()),
+        1e-4,
+    )
+    yield Row(
+        "the same: share of the energy left after the edges of both sides",
+        1.0,
+        kept(rows, columns, dt),
+        1e-5,
+    )
     yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)
 
 
 def _slides(engine: str, dt: float = 1e-4):
     friction, speed = 0.1, 1.0
-    rows, columns = advanced(alone(DRUM | dict(foot_radius_m=1.2), engine, dt, friction, velocity_m_s=[speed, 0.0, 0.0]), 0.02)
+    rows, columns = advanced(
+        alone(DRUM | dict(foot_radius_m=1.2), engine, dt, friction, velocity_m_s=[speed, 0.0, 0.0]),
+        0.02,
+    )
     braked = speed * rows["time"][-1] - rows["body/body/displacement"][-1, 0]
-    yield Row("marble drum pushed on its dome: way lost to friction in 0.02 s [m]", friction * GRAVITY * rows["time"][-1] ** 2 / 2, float(braked), 1e-3)
+    yield Row(
+        "marble drum pushed on its dome: way lost to friction in 0.02 s [m]",
+        friction * GRAVITY * rows["time"][-1] ** 2 / 2,
+        float(braked),
+        1e-3,
+    )
 
 
 def _rests(engine: str, dt: float = 4e-3, share: float = 0.02):
@@ -179,7 +283,11 @@ def _rests(engine: str, dt: float = 4e-3, share: float = 0.02):
     period, acceleration = 2 * math.pi / rolling.rate, share * GRAVITY
     ramp, hold = round(12 * period / dt), round(2 * period / dt)
     ground = np.zeros((ramp + hold, 3))
-    ground[:, 0] = acceleration * (1 - np.cos(math.pi * np.minimum(np.arange(1, ramp + hold + 1) / ramp, 1.0))) / 2
+    ground[:, 0] = (
+        acceleration
+        * (1 - np.cos(math.pi * np.minimum(np.arange(1, ramp + hold + 1) / ramp, 1.0)))
+        / 2
+    )
     rows, _ = advanced(alone(body, engine, dt), 0.0, ground)
     tilt = float(rows["body/body/tilt"][-hold:].mean())
     e, exact = rolling.depth, 0.0
@@ -194,12 +302,19 @@ def _rounded(engine: str, dt: float = 5e-4, radius: float = 0.05, tilt: float = 
     rows, columns = advanced(alone(body, engine, dt, tilt_rad=tilt), 0.45)
     model = structure_model(alone(body, engine, dt)).parts[0].model
     exact = falls(model, 0.2 - radius, radius, tilt)
-    yield Row(f"marble block let go on an edge of radius {radius:g} m: time to upright [s]", exact, float(passages(rows)[0]), 2e-3)
+    yield Row(
+        f"marble block let go on an edge of radius {radius:g} m: time to upright [s]",
+        exact,
+        float(passages(rows)[0]),
+        2e-3,
+    )
     yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)
 
 
 def falls(model, half: float, radius: float, tilt: float) -> float:
-    """Time [s] from rest at a tilt [rad] to upright of a body that rolls on an edge of a radius, whose centre is `half` from the middle, both [m]."""
+    """Time [s] from rest at a tilt [rad] to upright of a body that rolls on an edge of a radius,
+    whose centre is `half` from the middle, both [m].
+    """
     up, inertia = float(model.center[2]) - radius, float(model.inertia[1, 1])
 
     def level(angle):
@@ -208,31 +323,67 @@ def falls(model, half: float, radius: float, tilt: float) -> float:
     def slowness(s):  # angle = tilt (1 - s^2): without the singular beginning
         angle = tilt * (1 - s * s)
         across = half * math.cos(angle) - up * math.sin(angle)
-        square = 2 * model.mass * GRAVITY * (level(tilt) - level(angle)) / (inertia + model.mass * (across**2 + level(angle) ** 2))
+        square = (
+            2
+            * model.mass
+            * GRAVITY
+            * (level(tilt) - level(angle))
+            / (inertia + model.mass * (across**2 + level(angle) ** 2))
+        )
         return 2 * tilt * s / math.sqrt(square)
 
     return quad(slowness, 1e-6, 1.0, epsrel=1e-9)[0]
 
 
 def narrower_case(engine: str, dt: float, tilt: float):
-    """A light block 0.9 m wide, no node of which is over the edges of a heavy one of 0.4 m on which it stands."""
+    """A light block 0.9 m wide, no node of which is over the edges of a heavy one of 0.4 m on which
+    it stands.
+    """
     stiff = dict(youngs_modulus_pa=1e13, poissons_ratio=0.2, rigid=True, element_size_m=0.2)
-    return case_of(dict(narrow=dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.3, density_kg_m3=5e4) | stiff,
-                        wide=dict(kind="block", length_m=0.9, width_m=0.4, height_m=1.2, density_kg_m3=50.0, at_m=[0.0, 0.0, 0.3]) | stiff),
-                   dict(foot=dict(slave="narrow", on="ground"), joint=dict(slave="wide", on="narrow")), engine, dt, dict(wide=dict(tilt_rad=tilt)))
+    return case_of(
+        dict(
+            narrow=dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.3, density_kg_m3=5e4)
+            | stiff,
+            wide=dict(
+                kind="block",
+                length_m=0.9,
+                width_m=0.4,
+                height_m=1.2,
+                density_kg_m3=50.0,
+                at_m=[0.0, 0.0, 0.3],
+            )
+            | stiff,
+        ),
+        dict(foot=dict(slave="narrow", on="ground"), joint=dict(slave="wide", on="narrow")),
+        engine,
+        dt,
+        dict(wide=dict(tilt_rad=tilt)),
+    )
 
 
 def _narrower(engine: str, dt: float = 5e-4, tilt: float = 0.05):
-    """Housner's block with the half width of the narrow one: (I + m (h^2 - b^2)) / (I + m (h^2 + b^2)) of the rate is left at an impact."""
+    """Housner's block with the half width of the narrow one: (I + m (h^2 - b^2)) / (I + m (h^2 +
+    b^2)) of the rate is left at an impact.
+    """
     case = narrower_case(engine, dt, tilt)
     model, half = structure_model(case).parts[1].model, 0.2
     rows, columns = advanced(case, 0.45)
     height, inertia = float(model.center[2]), float(model.inertia[1, 1])
     exact = falls(model, half, 0.0, tilt)
     upright = passages(rows, "wide")[0]
-    yield Row("block on a narrower one: time to upright over the edge of that [s]", exact, float(upright), 2e-3)
-    ratio = (inertia + model.mass * (height**2 - half**2)) / (inertia + model.mass * (height**2 + half**2))
-    again, slope = float(rows["body/wide/tilt"][round(upright / dt) + 5:].max()), math.atan(half / height)
+    yield Row(
+        "block on a narrower one: time to upright over the edge of that [s]",
+        exact,
+        float(upright),
+        2e-3,
+    )
+    ratio = (inertia + model.mass * (height**2 - half**2)) / (
+        inertia + model.mass * (height**2 + half**2)
+    )
+    again, slope = (
+        float(rows["body/wide/tilt"][round(upright / dt) + 5 :].max()),
+        math.atan(half / height),
+    )
     left = (math.cos(slope - again) - math.cos(slope)) / (math.cos(slope - tilt) - math.cos(slope))
     yield Row("the same: share of the energy after an impact", ratio**2, left, 2e-3)
     yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)

@@ -36,7 +36,13 @@ class Finding:
 
 def tasks(name: str = "", engines=ALL_ENGINES) -> list[tuple[str, str]]:
     """(case, engine) pairs of the suite whose case's name contains `name`."""
-    return [(case, engine) for case, able in CASES.items() if name in case for engine in able if engine in engines]
+    return [
+        (case, engine)
+        for case, able in CASES.items()
+        if name in case
+        for engine in able
+        if engine in engines
+    ]
 
 
 def run_case(case: str, engine: str, folder: Path | None = None, long: bool = False) -> Finding:
@@ -50,7 +56,9 @@ def run_case(case: str, engine: str, folder: Path | None = None, long: bool = Fa
         import traceback
 
         traceback.print_exc()
-        return Finding(case, engine, (), time.perf_counter() - began, f"{type(error).__name__}: {error}")
+        return Finding(
+            case, engine, (), time.perf_counter() - began, f"{type(error).__name__}: {error}"
+        )
     return Finding(case, engine, tuple(result.rows), time.perf_counter() - began)
 
 
@@ -64,7 +72,9 @@ def _draw(result, path: Path) -> None:
 
 
 def verify(pairs, folder: Path, long: bool = False, workers: int = 1, show=print) -> list[Finding]:
-    """Run (case, engine) pairs in worker processes, show each as it ends, write table.csv and figures into `folder`."""
+    """Run (case, engine) pairs in worker processes, show each as it ends, write table.csv and
+    figures into `folder`.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     show(header())
@@ -81,7 +91,10 @@ def verify(pairs, folder: Path, long: bool = False, workers: int = 1, show=print
 
 
 def header() -> str:
-    return f"{'case, quantity':<{_WIDTH}}{'exact':>12}{'computed':>12}{'error':>10}{'allowed':>10}{'order':>7}  ok"
+    return (
+        f"{'case, quantity':<{_WIDTH}}{'exact':>12}{'computed':>12}{'error':>10}{'allowed':>10}{'order':>7} "
+        " ok"
+    )
 
 
 def lines(finding: Finding) -> str:
@@ -89,34 +102,69 @@ def lines(finding: Finding) -> str:
     text = [f"{finding.case}, {finding.engine} ({finding.wall_s:.0f} s)"]
     for row in finding.rows:
         order = f"{row.order:.2f}" if row.order is not None else ""
-        text.append(f"  {row.quantity:<{_WIDTH - 2}}{row.exact:>12.5g}{row.computed:>12.5g}{row.error:>10.1e}{row.tolerance:>10.1e}{order:>7}"
-                    f"  {'yes' if row.ok else 'NO'}")
+        text.append(
+            "  "
+            f"{row.quantity:<{_WIDTH - 2}}{row.exact:>12.5g}{row.computed:>12.5g}{row.error:>10.1e}{row.tolerance:>10.1e}{order:>7}"
+            f"  {'yes' if row.ok else 'NO'}"
+        )
     if finding.failure:
         text.append(f"  FAILED: {finding.failure}")
     return "\n".join(text)
 
 
 def count(findings) -> str:
-    """How many rows hold and how many cases do not, after the names of what does not hold, one a line."""
-    wrong, rows = [finding for finding in findings if not finding.ok], [row for finding in findings for row in finding.rows]
-    names = [f"{finding.case}, {finding.engine}: {what}" for finding in wrong for what in _wrong(finding)]
+    """How many rows hold and how many cases do not, after the names of what does not hold, one a
+    line.
+    """
+    wrong, rows = (
+        [finding for finding in findings if not finding.ok],
+        [row for finding in findings for row in finding.rows],
+    )
+    names = [
+        f"{finding.case}, {finding.engine}: {what}" for finding in wrong for what in _wrong(finding)
+    ]
     told = ["does not hold:", *(f"  {name}" for name in names)] if wrong else []
-    return "\n".join([*told, f"{sum(row.ok for row in rows)} of {len(rows)} rows hold, {len(wrong)} of {len(findings)} cases do not"])
+    return "\n".join(
+        [
+            *told,
+            f"{sum(row.ok for row in rows)} of {len(rows)} rows hold, {len(wrong)} of "
+            f"{len(findings)} cases do not",
+        ]
+    )
 
 
 def _wrong(finding: Finding) -> list[str]:
     """The quantities of a finding that do not hold, or how it failed."""
-    return [finding.failure.splitlines()[0]] if finding.failure else [row.quantity for row in finding.rows if not row.ok]
+    return (
+        [finding.failure.splitlines()[0]]
+        if finding.failure
+        else [row.quantity for row in finding.rows if not row.ok]
+    )
 
 
 def _csv(findings) -> str:
     text = io.StringIO()
     writer = csv.writer(text)
-    writer.writerow(["case", "engine", "quantity", "exact", "computed", "error", "tolerance", "order", "ok"])
+    writer.writerow(
+        ["case", "engine", "quantity", "exact", "computed", "error", "tolerance", "order", "ok"]
+    )
     for finding in findings:
         for row in finding.rows:
-            writer.writerow([finding.case, finding.engine, row.quantity, row.exact, row.computed, row.error, row.tolerance,
-                             "" if row.order is None else row.order, row.ok])
+            writer.writerow(
+                [
+                    finding.case,
+                    finding.engine,
+                    row.quantity,
+                    row.exact,
+                    row.computed,
+                    row.error,
+                    row.tolerance,
+                    "" if row.order is None else row.order,
+                    row.ok,
+                ]
+            )
         if finding.failure:
-            writer.writerow([finding.case, finding.engine, finding.failure, "", "", "", "", "", False])
+            writer.writerow(
+                [finding.case, finding.engine, finding.failure, "", "", "", "", "", False]
+            )
     return text.getvalue()

@@ -17,16 +17,23 @@ from fecolumn.mesh.surface import nodal_areas
 from fecolumn.mesh.tie import adjust, tie
 from fecolumn.verification.models import column_case
 
-# Strain of the tests: square terms of the strain measures are 1e-7 of it, rounding of positions 1e-8 a brick
+# Strain of the tests: square terms of the strain measures are 1e-7 of it, rounding of positions
+# 1e-8 a brick
 STRETCH = 1e-7
-# Inertia factor that holds the free body [1/s2]: far below its lowest axial frequency squared, far above rounding
+# Inertia factor that holds the free body [1/s2]: far below its lowest axial frequency squared, far
+# above rounding
 _INERTIA = 1e4
 
 
 def tied_blocks(engine: str, lower, upper, height: float) -> Tied:
-    """Two blocks of steel, each `height` [m] high, the lower with grid lines `lower` [m] along x and y tied to the upper."""
+    """Two blocks of steel, each `height` [m] high, the lower with grid lines `lower` [m] along x
+    and y tied to the upper.
+    """
+
     def block(lines, bottom, part):
-        return swept_grid(lines, lines, bottom + np.linspace(0, height, 1 + round((len(lines) - 1) / 2)), part)
+        return swept_grid(
+            lines, lines, bottom + np.linspace(0, height, 1 + round((len(lines) - 1) / 2)), part
+        )
 
     mesh = merge([block(lower, 0.0, LOWER), block(upper, height, UPPER)])
     ties = (tie(mesh, LOWER, UPPER, height, 1e-9, 1e-9, "none"),)
@@ -37,22 +44,34 @@ def end_areas(body, mesh, z: float) -> np.ndarray:
     """Tributary areas (n_owned,) [m2] of a body's nodes in its end at height z [m], nil elsewhere."""
     at_end = np.any(mesh.points[mesh.cells, 2] == z, axis=1)
     quads = boundary_faces(mesh, mesh.part[at_end][0], z, 1e-9)
-    return nodal_areas(mesh.points[quads], body.find_nodes(mesh.points[quads].reshape(-1, 3)).reshape(quads.shape), body.n_owned, 1)
+    return nodal_areas(
+        mesh.points[quads],
+        body.find_nodes(mesh.points[quads].reshape(-1, 3)).reshape(quads.shape),
+        body.n_owned,
+        1,
+    )
 
 
 class Tied:
     """Column, cap and ties as a case and its mesh make them.
 
-    Args:
-        case: Case, for kinematics and material.
-        specimen: SpecimenMesh.
+    Parameters
+    ----------
+    case
+        Case, for kinematics and material.
+    specimen
+        SpecimenMesh.
     """
 
     def __init__(self, case, specimen):
         self.body, self.mesh = column_body(case, specimen, MPI.COMM_SELF), specimen.body
-        self.kinematics = (TotalLagrangian if case.integration.kinematics == "total_lagrangian" else Corotated)(self.body)
+        self.kinematics = (
+            TotalLagrangian if case.integration.kinematics == "total_lagrangian" else Corotated
+        )(self.body)
         material = self.body.material
-        self._energy = material.youngs_modulus_pa * self.body.total_mass / material.density_kg_m3 / 2  # of the strain 1 [J]
+        self._energy = (
+            material.youngs_modulus_pa * self.body.total_mass / material.density_kg_m3 / 2
+        )  # of the strain 1 [J]
 
     def uniaxial(self) -> np.ndarray:
         """Displacement (n, 3) [m] of a uniform stretch along z about the centre of mass."""
@@ -71,15 +90,20 @@ class Tied:
 
     def stretched(self) -> float:
         """Energy of the uniform stretch relative to E STRETCH^2 volume / 2."""
-        return float(self.kinematics.internal(self.body.X + self.uniaxial())[2] / (self._energy * STRETCH**2))
+        return float(
+            self.kinematics.internal(self.body.X + self.uniaxial())[2] / (self._energy * STRETCH**2)
+        )
 
     def pulled(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Displacement (n, 3) [m] under opposite loads of E STRETCH times the lower end's area, uniform over each end, and the
-        tributary areas (n,) [m2] of lower and upper end."""
+        """Displacement (n, 3) [m] under opposite loads of E STRETCH times the lower end's area,
+        uniform over each end, and the tributary areas (n,) [m2] of lower and upper end.
+        """
         body = self.body
         lower, upper = (end_areas(body, self.mesh, z) for z in (0.0, self.mesh.points[:, 2].max()))
         load = np.zeros_like(body.X)
-        load[:, 2] = body.material.youngs_modulus_pa * STRETCH * (upper * lower.sum() / upper.sum() - lower)
+        load[:, 2] = (
+            body.material.youngs_modulus_pa * STRETCH * (upper * lower.sum() / upper.sum() - lower)
+        )
         factor, moved = effective_factor(body, _INERTIA, 1.0), np.zeros_like(body.X)
         for _ in range(8):
             moved = moved + factor.solve(load - self.kinematics.internal(body.X + moved)[1])

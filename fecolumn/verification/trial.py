@@ -18,7 +18,8 @@ N_MODES = Integration().n_modes
 
 
 def afloat(system, displacement, velocity, acceleration, height: float) -> State:
-    """A body `height` [m] above its reference place, touching nothing, with fields (n_owned, 3) in SI units at t = 0.
+    """A body `height` [m] above its reference place, touching nothing, with fields (n_owned, 3) in
+    SI units at t = 0.
 
     The acceleration must be that of gravity and internal forces: HHT remembers it.
     """
@@ -29,13 +30,19 @@ def afloat(system, displacement, velocity, acceleration, height: float) -> State
 class Trial:
     """Steps a system from a start.
 
-    Args:
-        system: what to step.
-        start: function of the system that returns the first state; gravity equilibrium unless given.
-        impact: "plastic" or, for a system built with filtered=False, "none".
+    Parameters
+    ----------
+    system
+        what to step.
+    start
+        function of the system that returns the first state; gravity equilibrium unless given.
+    impact
+        "plastic" or, for a system built with filtered=False, "none".
 
-    Attributes:
-        state: the present state. penetration: deepest so far [m].
+    Attributes
+    ----------
+    state
+        the present state. penetration: deepest so far [m].
     """
 
     def __init__(self, system, start=standing, impact: str = "plastic"):
@@ -47,15 +54,22 @@ class Trial:
         self.penetration = 0.0
 
     def step(self, ground=(0.0, 0.0, 0.0)):
-        """Advance by the system's dt under a ground acceleration [m/s2] at the new time; returns the state."""
+        """Advance by the system's dt under a ground acceleration [m/s2] at the new time; returns
+        the state.
+        """
         self.state = self.stepper.step(self.state, np.asarray(ground, float))
         self.penetration = max(self.penetration, -float(self.state.relative[:, 2].min()))
         return self.state
 
     def shake(self, accelerations) -> np.ndarray:
-        """Displacements (n, 2, 3) [m] of the middles of top and foot after each step under ground accelerations (n, 3) [m/s2]."""
+        """Displacements (n, 2, 3) [m] of the middles of top and foot after each step under ground
+        accelerations (n, 3) [m/s2].
+        """
         height = self.system.column.X[:, 2]
-        ends = [np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height)), self.system.foot_nodes]
+        ends = [
+            np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height)),
+            self.system.foot_nodes,
+        ]
         path = []
         for ground in accelerations:
             moved = self.step(ground).x - self.system.column.X
@@ -71,13 +85,19 @@ class Trial:
         return float(sum(self.ledger.state_terms(self.state).values()))
 
     def top(self) -> np.ndarray:
-        """Displacement (3,) [m] of the highest node: any one serves to compare analyses of one mesh."""
+        """Displacement (3,) [m] of the highest node: any one serves to compare analyses of one
+        mesh.
+        """
         node = np.lexsort(self.system.column.all_X.T)[-1]
         return self.state.x[node] - self.system.column.X[node]
 
 
-def begin(engine: str, system, start=standing, impact: str = "plastic", n_modes: int = N_MODES) -> Trial:
-    """A trial of a system in an engine of `verification.ELEMENTS`; arguments as of `Trial`, n_modes of `ReducedTrial`."""
+def begin(
+    engine: str, system, start=standing, impact: str = "plastic", n_modes: int = N_MODES
+) -> Trial:
+    """A trial of a system in an engine of `verification.ELEMENTS`; arguments as of `Trial`, n_modes
+    of `ReducedTrial`.
+    """
     if engine in FULL:
         return Trial(system, start, impact)
     from fecolumn.verification.reduced_trial import ReducedTrial
@@ -86,10 +106,12 @@ def begin(engine: str, system, start=standing, impact: str = "plastic", n_modes:
 
 
 def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:
-    """Velocity (n,) [m/s] by which the solver may let an analysis that began at 0 drift until `times` (n,) [s].
+    """Velocity (n,) [m/s] by which the solver may let an analysis that began at 0 drift until
+    `times` (n,) [s].
 
-    A step ends with an unbalanced force of at most eps times the weight. Left in every step it accelerates the column by eps g, and the
-    rocking column, unstable about its rim, lets that grow at most by cosh(p t). Displacements differ by half of this times t.
+    A step ends with an unbalanced force of at most eps times the weight. Left in every step it
+    accelerates the column by eps g, and the rocking column, unstable about its rim, lets that grow
+    at most by cosh(p t). Displacements differ by half of this times t.
     """
     eps = max(tolerance, system.rounding(system.hht.mass_factor) / system.weight)
     times = np.asarray(times, float)
@@ -97,22 +119,39 @@ def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:
 
 
 class RigidRocking:
-    """Planar rocking about the rim of a system's mesh, taken as rigid (Housner 1963), from the mesh's own masses.
+    """Planar rocking about the rim of a system's mesh, taken as rigid (Housner 1963), from the
+    mesh's own masses.
 
-    Attributes:
-        slenderness: critical tilt alpha [rad]. diagonal: R from rim to centre of mass [m]. inertia: I_O about the rim
-        [kg m2]. p: sqrt(m g R / I_O) [rad/s]. restitution: 1 - 2 m R^2 sin^2(alpha) / I_O [-].
+    Attributes
+    ----------
+    slenderness
+        critical tilt alpha [rad]. diagonal: R from rim to centre of mass [m]. inertia: I_O about
+        the rim
+    [kg m2]. p: sqrt(m g R / I_O) [rad/s]. restitution: 1 - 2 m R^2 sin^2(alpha) / I_O [-].
     """
 
     def __init__(self, system):
-        column, radius = system.column, np.linalg.norm(system.interface.reference[:, :2], axis=1).max()
+        column, radius = (
+            system.column,
+            np.linalg.norm(system.interface.reference[:, :2], axis=1).max(),
+        )
         height = column.center[2]
-        self.slenderness, self.diagonal = float(np.arctan2(radius, height)), float(np.hypot(radius, height))
+        self.slenderness, self.diagonal = (
+            float(np.arctan2(radius, height)),
+            float(np.hypot(radius, height)),
+        )
         turn = np.cross([0.0, 1.0, 0.0], column.X - column.center)
         about_center = column.dot(turn, column.momentum(turn))
         self.inertia = float(about_center + column.total_mass * self.diagonal**2)
         self.p = float(np.sqrt(system.weight * self.diagonal / self.inertia))
-        self.restitution = 1 - 2 * column.total_mass * self.diagonal**2 * np.sin(self.slenderness) ** 2 / self.inertia
+        self.restitution = (
+            1
+            - 2
+            * column.total_mass
+            * self.diagonal**2
+            * np.sin(self.slenderness) ** 2
+            / self.inertia
+        )
         self.moment = float(system.weight * self.diagonal)
 
     def energy(self, tilt: float) -> float:

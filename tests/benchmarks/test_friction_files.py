@@ -15,7 +15,11 @@ NORMAL_FIRST = [2, 0, 1, 5, 3, 4]
 def given():
     """W, q with the normal first, as files have it; and H, M, f of bodies that give them."""
     random = np.random.default_rng(0)
-    H, M, f = random.standard_normal((7, 6)), np.diag(random.uniform(1, 2, 7)), random.standard_normal(7)
+    H, M, f = (
+        random.standard_normal((7, 6)),
+        np.diag(random.uniform(1, 2, 7)),
+        random.standard_normal(7),
+    )
     return H.T @ np.linalg.solve(M, H), H.T @ np.linalg.solve(M, f), H, M, f
 
 
@@ -61,7 +65,7 @@ def test_text_of_siconos_own_tests_is_read(tmp_path, given, form):
     if form == "dense":
         matrix = f"0\n6\n6\n6\t6\n{lines(W.T)}"
     else:
-        blocks = [W[3 * i:3 * i + 3, 3 * j:3 * j + 3] for i in range(2) for j in range(2)]
+        blocks = [W[3 * i : 3 * i + 3, 3 * j : 3 * j + 3] for i in range(2) for j in range(2)]
         numbered = "\n".join(f"{k}\n{lines(block.T)}" for k, block in enumerate(blocks))
         matrix = f"1\n6\n6\n4\n2\n2\n3\t6\n3\t6\n3\n4\n0\t2\t4\n0\t1\t0\t1\n{numbered}"
     path = tmp_path / "Case.dat"
@@ -69,10 +73,19 @@ def test_text_of_siconos_own_tests_is_read(tmp_path, given, form):
     check(read_problem(path), W, q, 0.5)
 
 
-@pytest.mark.parametrize("text, why", [("2\n1\n0\n2\n2\n1\n0\n0\n1\n0\n0\n0.3\n", "dimension 2"), ("3\n1\n0\n3\n3\n1\n0\n", "ends too early"),
-                                       ("nothing\n", "invalid literal"), ("3\n1\n0\n9\n9\n1\n", "9 x 9 for 1 points")])
+@pytest.mark.parametrize(
+    "text, why",
+    [
+        ("2\n1\n0\n2\n2\n1\n0\n0\n1\n0\n0\n0.3\n", "dimension 2"),
+        ("3\n1\n0\n3\n3\n1\n0\n", "ends too early"),
+        ("nothing\n", "invalid literal"),
+        ("3\n1\n0\n9\n9\n1\n", "9 x 9 for 1 points"),
+    ],
+)
 def test_file_that_is_no_such_problem_is_named_with_the_reason(tmp_path, text, why):
     path = tmp_path / "Case.dat"
     path.write_text(text)
-    with pytest.raises(ValueError, match=f"Case.dat: no friction problem in three dimensions: .*{why}"):
+    with pytest.raises(
+        ValueError, match=f"Case.dat: no friction problem in three dimensions: .*{why}"
+    ):
         read_problem(path)

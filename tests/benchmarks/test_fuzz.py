@@ -1,4 +1,6 @@
-"""A hundred damaged files of every kind, each used or refused in one line; two thousand are `python -m benchmarks.fuzz`."""
+"""A hundred damaged files of every kind, each used or refused in one line; two thousand are `python
+-m benchmarks.fuzz`.
+"""
 
 import collections
 
@@ -14,7 +16,9 @@ def test_damaged_files_are_used_or_refused_in_one_line(subject):
     assert collections.Counter(end.verdict for end in ends)["refused"] >= 3
 
 
-@pytest.mark.parametrize("code, verdict", [("import os; os.abort()", "death"), ("import time; time.sleep(100)", "hang")])
+@pytest.mark.parametrize(
+    "code, verdict", [("import os; os.abort()", "death"), ("import time; time.sleep(100)", "hang")]
+)
 def test_deaths_and_hangs_are_seen_and_the_rest_is_done(monkeypatch, code, verdict):
     real, calls = watch.subprocess.Popen, []
 

@@ -14,8 +14,11 @@ PLACES = {place for place, _ in FIGURES.values()}
 
 def _shown() -> dict[str, str]:
     """Pictures that README and manual show, each with the page."""
-    return {str((page.parent / name).resolve().relative_to(ROOT)): page.name for page in PAGES
-            for name in re.findall(r"!\[[^]]*\]\(([^)\s]+)\)", page.read_text(encoding="utf-8"))}
+    return {
+        str((page.parent / name).resolve().relative_to(ROOT)): page.name
+        for page in PAGES
+        for name in re.findall(r"!\[[^]]*\]\(([^)\s]+)\)", page.read_text(encoding="utf-8"))
+    }
 
 
 def test_every_picture_shown_is_made_and_every_picture_made_is_shown():
@@ -34,7 +37,9 @@ def test_picture_is_there_and_no_blank(place):
 @pytest.mark.parametrize("name", ["impact", "rolling"])
 def test_figure_of_a_table_is_made_in_its_place(name, tmp_path):
     told = make(name, Work(tmp_path), tmp_path)
-    assert (tmp_path / FIGURES[name][0]).stat().st_size > 10_000 and told.startswith(FIGURES[name][0])
+    assert (tmp_path / FIGURES[name][0]).stat().st_size > 10_000 and told.startswith(
+        FIGURES[name][0]
+    )
 
 
 def test_cdf_is_drawn_from_the_study_given_and_says_so(tmp_path):
@@ -54,11 +59,20 @@ def test_cdf_is_drawn_from_the_study_given_and_says_so(tmp_path):
     finally:
         sys.path.remove(str(ROOT / "tests" / "study"))
     told = make("cdf", Work(tmp_path / "none", study=tmp_path / "out"), tmp_path)
-    assert "24 of 24 analyses done (2 of integration.dt_s" in told and f"from --study {tmp_path / 'out'}" in told
+    assert (
+        "24 of 24 analyses done (2 of integration.dt_s" in told
+        and f"from --study {tmp_path / 'out'}" in told
+    )
     assert (tmp_path / "benchmarks" / "cdf.png").is_file() and not (tmp_path / "none").exists()
 
 
-@pytest.mark.parametrize("arguments, told", [(["sunset"], "sunset: must be of rocking, cdf, impact, rolling"), (["cdf", "--study", "nowhere"], "nowhere: holds no study")])
+@pytest.mark.parametrize(
+    "arguments, told",
+    [
+        (["sunset"], "sunset: must be of rocking, cdf, impact, rolling"),
+        (["cdf", "--study", "nowhere"], "nowhere: holds no study"),
+    ],
+)
 def test_unknown_figures_and_folders_are_refused(arguments, told, capsys):
     with pytest.raises(SystemExit):
         main(arguments)

@@ -13,12 +13,16 @@ from benchmarks.peers.track import read_track, write_rows
 
 
 def test_impacts_of_the_published_pipe_are_housner_s():
-    """Published with the case: 0.2225, 0.6588, 1.0864, 1.5057 s; the restitution of bricks and tube differ by 1e-5."""
+    """Published with the case: 0.2225, 0.6588, 1.0864, 1.5057 s; the restitution of bricks and tube
+    differ by 1e-5.
+    """
     assert release("pipe").impacts[:4] == pytest.approx([0.2225, 0.6588, 1.0864, 1.5057], abs=3e-4)
 
 
 def test_impact_times_are_those_of_the_integrated_equation_of_motion():
-    """th'' = -p^2 sin(alpha - th) until th = 0, then the velocity times r and the same on the other side; a tilt that is not small."""
+    """th'' = -p^2 sin(alpha - th) until th = 0, then the velocity times r and the same on the other
+    side; a tilt that is not small.
+    """
     rigid = Housner(slenderness=0.3, moment=40.0, inertia=5.0, restitution=0.9)
     tilt, time, state = 0.2, 0.0, [0.2, 0.0]
 
@@ -39,7 +43,9 @@ def test_impact_times_are_those_of_the_integrated_equation_of_motion():
 
 
 def rocking_rows(rigid, tilt, dt, slip=0.0):
-    """Rows of a track of a slender rigid block until 20 ms after its first impact; its toe creeps by `slip` [m/s]."""
+    """Rows of a track of a slender rigid block until 20 ms after its first impact; its toe creeps
+    by `slip` [m/s].
+    """
     quarter, p = rigid.quarter_period(tilt), np.sqrt(rigid.moment / rigid.inertia)
     for step in range(int((quarter + 0.02) / dt)):
         time = step * dt
@@ -67,25 +73,72 @@ def test_line_that_was_being_written_is_left_out(tmp_path):
 
 
 def measured(label, cost, **more):
-    return dict(case="pipe", name=label.lower(), peer=label, version="5.4.2", elements=True, dofs=35328, asked_steps=240, reason="", code=0, timed_out=False, last_words="", steps=240, cpu_s_per_step=cost,
-                iterations_per_step=2.3, converged=True, impacts_s=[0.2225], theory_s=[0.2220, 0.6588], toe_creep_m=8e-4, energy_kept=0.98,
-                theory_energy_kept=0.97, reached_s=0.24) | more
+    return (
+        dict(
+            case="pipe",
+            name=label.lower(),
+            peer=label,
+            version="5.4.2",
+            elements=True,
+            dofs=35328,
+            asked_steps=240,
+            reason="",
+            code=0,
+            timed_out=False,
+            last_words="",
+            steps=240,
+            cpu_s_per_step=cost,
+            iterations_per_step=2.3,
+            converged=True,
+            impacts_s=[0.2225],
+            theory_s=[0.2220, 0.6588],
+            toe_creep_m=8e-4,
+            energy_kept=0.98,
+            theory_energy_kept=0.97,
+            reached_s=0.24,
+        )
+        | more
+    )
 
 
 def test_table_has_a_row_a_peer_and_says_how_each_ended():
-    found = [measured("GetFEM", 1.2), measured("CalculiX", 5.6, steps=53, reached_s=0.053, timed_out=True, impacts_s=[], energy_kept=None),
-             measured("fecolumn", 0.03, name="full", elements=False)]
+    found = [
+        measured("GetFEM", 1.2),
+        measured(
+            "CalculiX",
+            5.6,
+            steps=53,
+            reached_s=0.053,
+            timed_out=True,
+            impacts_s=[],
+            energy_kept=None,
+        ),
+        measured("fecolumn", 0.03, name="full", elements=False),
+    ]
     lines = table(found).splitlines()
     assert len(lines) == 2 + len(found) and len({len(line) for line in lines}) == 1
     assert all(line.count("|") == len(HEAD) + 1 for line in lines)
     cells = [cell.strip() for cell in lines[2].split("|")[1:-1]]
-    assert cells == ["GetFEM (5.4.2)", "35,328", "1.2", "2.3", "240", "1", "0.23%", "8e+02", "0.9800 / 0.9700", "converged; reached 0.240 s asked for"]
+    assert cells == [
+        "GetFEM (5.4.2)",
+        "35,328",
+        "1.2",
+        "2.3",
+        "240",
+        "1",
+        "0.23%",
+        "8e+02",
+        "0.9800 / 0.9700",
+        "converged; reached 0.240 s asked for",
+    ]
     assert "CPU limit; reached 0.053 s" in lines[3] and " - / 0.9700 " in lines[3]
     assert ratios(found) == ["fecolumn: 40 times as fast a step as GetFEM"]
 
 
 def test_peer_that_is_missing_says_so_in_its_row(tmp_path, monkeypatch):
-    """A program that does not exist, in an environment that does not exist: a row with the reason, and no folder of results."""
+    """A program that does not exist, in an environment that does not exist: a row with the reason,
+    and no folder of results.
+    """
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "nowhere"))
     mujoco = next(peer for peer in peers.PEERS if peer.name == "mujoco")
     found = peers.record(peers.run_peer(mujoco, release("specimen"), tmp_path / "out"))
@@ -102,13 +155,26 @@ def test_peer_that_spends_its_limit_is_ended(tmp_path):
 
 
 def test_increments_and_displacements_of_ccx_are_read_up_to_the_last_whole_one():
-    status = "  STEP      INC     ATT  ITRS     TOT TIME     STEP TIME      INC TIME\n" \
-             "     1          1     1     2  0.100000E-02  0.100000E-02  0.100000E-02\n" \
-             "     1          2     1     4  0.200000E-02  0.200000E-02  0.100000E-02\n"
+    status = (
+        "  STEP      INC     ATT  ITRS     TOT TIME     STEP TIME      INC TIME\n"
+        "     1          1     1     2  0.100000E-02  0.100000E-02  0.100000E-02\n"
+        "     1          2     1     4  0.200000E-02  0.200000E-02  0.100000E-02\n"
+    )
     assert increments(status) == [2, 4]
     head = " displacements (vx,vy,vz) for set WATCHED and time  {}\n\n"
-    rows = "         1  1.000000E-03  0.000000E+00  0.000000E+00\n         7  2.000000E-03  0.000000E+00 -1.000000E-05\n"
-    text = "\n" + head.format("0.1000000E-02") + rows + "\n" + head.format("0.2000000E-02") + rows.splitlines()[0] + "\n"
+    rows = (
+        "         1  1.000000E-03  0.000000E+00  0.000000E+00\n         7  2.000000E-03  "
+        "0.000000E+00 -1.000000E-05\n"
+    )
+    text = (
+        "\n"
+        + head.format("0.1000000E-02")
+        + rows
+        + "\n"
+        + head.format("0.2000000E-02")
+        + rows.splitlines()[0]
+        + "\n"
+    )
     found = displacements(text)
     assert [time for time, _ in found] == [0.001]
     assert found[0][1][6] == pytest.approx([2e-3, 0, -1e-5])

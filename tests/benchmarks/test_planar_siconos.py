@@ -40,14 +40,14 @@ def test_displaced_block_swings_and_loses_as_its_closed_form(siconos, d):
     found = peer.moved(structure, np.zeros(751), dt, place=place)
     tilt, rate = found.tilt[:, 2], -found.velocity[:, 2, 2]
     after = int(np.argmax(tilt < 0))
-    landing = np.interp(0.0, -tilt[after - 1:after + 1], found.time[after - 1:after + 1])
+    landing = np.interp(0.0, -tilt[after - 1 : after + 1], found.time[after - 1 : after + 1])
     assert landing == pytest.approx(block.quarter_period(0.05, side), abs=dt / 10)
     before = block.rate(tilt[after - 5], side, rate[after - 5])
     assert before == pytest.approx(block.rate(0.05, side), rel=2e-4)
     kept = block.rate(-tilt[after + 5], 1 - side, rate[after + 5]) / before
     assert kept == pytest.approx(block.kept[side], abs=4e-3)
     mechanical = found.energy[:, :2].sum(axis=1)
-    assert np.abs(mechanical[:after - 1] - mechanical[0]).max() < 5e-4 * np.ptp(mechanical)
+    assert np.abs(mechanical[: after - 1] - mechanical[0]).max() < 5e-4 * np.ptp(mechanical)
 
 
 def test_two_blocks_lose_energy_only_and_tend_to_the_planar_program(siconos):
@@ -76,8 +76,10 @@ def test_ground_shakes_it(siconos):
 
 
 def test_response_is_kept_and_compared(siconos, tmp_path, monkeypatch):
-    first, judge = (ensembles.response("trilith", program, 1, 1e-3, tmp_path, until=4.0)
-                    for program in (ensembles.SICONOS, ensembles.PLANAR))
+    first, judge = (
+        ensembles.response("trilith", program, 1, 1e-3, tmp_path, until=4.0)
+        for program in (ensembles.SICONOS, ensembles.PLANAR)
+    )
     assert first.tilt.shape == judge.tilt.shape and first.time[-1] == pytest.approx(4.0)
     assert compare.compared([judge], [first]).n == 1
     monkeypatch.setattr(peer, "moved", None)

@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 
 from benchmarks.shake_table.__main__ import chosen, main
-from benchmarks.shake_table.campaign import BAND_HZ, METRES, SAMPLING_HZ, channels, filtered, read_campaign, table_motion
+from benchmarks.shake_table.campaign import (
+    BAND_HZ,
+    METRES,
+    SAMPLING_HZ,
+    channels,
+    filtered,
+    read_campaign,
+    table_motion,
+)
 from benchmarks.shake_table.rock import Stone, at_rest, body_of, read_scan, solid
 from benchmarks.shake_table.scores import chance, confusion
 from fecolumn.case import GRAVITY
@@ -16,18 +24,25 @@ from fecolumn.case import GRAVITY
 LENGTH, WIDTH, HEIGHT = 0.16, 0.4, 0.8
 SLENDERNESS = LENGTH / HEIGHT  # tan(alpha) about the edges of the shaken direction
 FREQUENCY = np.sqrt(0.75 * GRAVITY / (np.hypot(LENGTH, HEIGHT) / 2))  # p of a rectangle
-# Half a sine overturns above sqrt(1 + (w/p)^2) g tan(alpha) (Housner 1963, linear): 0.5 Hz 1.2, 10 Hz 15. Below g tan(alpha) nothing uplifts.
+# Half a sine overturns above sqrt(1 + (w/p)^2) g tan(alpha) (Housner 1963, linear): 0.5 Hz 1.2, 10
+# Hz 15. Below g tan(alpha) nothing uplifts.
 PULSES = {1: (0.9, 0.5), 2: (2.5, 0.5), 3: (2.5, 10.0)}
 OVERTURNS = {1: False, 2: True, 3: False}
 MISSING = 4
 
 
 def box_file(path, turn=np.eye(3)):
-    """A closed .obj of the box, far from the origin as scans are, wound inside out as the campaign's is."""
-    corners = np.array([(x, y, z) for x in (0, LENGTH) for y in (0, WIDTH) for z in (0, HEIGHT)]) @ turn.T + [100.0, 50.0, 300.0]
+    """A closed .obj of the box, far from the origin as scans are, wound inside out as the
+    campaign's is.
+    """
+    corners = np.array(
+        [(x, y, z) for x in (0, LENGTH) for y in (0, WIDTH) for z in (0, HEIGHT)]
+    ) @ turn.T + [100.0, 50.0, 300.0]
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     triangles = [(a, b, c) for p, q, r, s in quads for a, b, c in ((p, r, q), (p, s, r))]
-    lines = ["v {:.9f} {:.9f} {:.9f}".format(*corner) for corner in corners] + ["f {} {} {}".format(*(i + 1 for i in triangle)) for triangle in triangles]
+    lines = ["v {:.9f} {:.9f} {:.9f}".format(*corner) for corner in corners] + [
+        "f {} {} {}".format(*(i + 1 for i in triangle)) for triangle in triangles
+    ]
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text("\n".join(lines) + "\n")
     return path
@@ -47,31 +62,61 @@ def workbook(path, rows):
         lines.append(f'<row r="{r}">{cells}</row>')
     space = 'xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"'
     with zipfile.ZipFile(path, "w") as book:
-        book.writestr("xl/worksheets/sheet1.xml", f"<worksheet {space}><sheetData>{''.join(lines)}</sheetData></worksheet>")
-        book.writestr("xl/sharedStrings.xml", f"<sst {space}>{''.join(f'<si><t>{text}</t></si>' for text in texts)}</sst>")
+        book.writestr(
+            "xl/worksheets/sheet1.xml",
+            f"<worksheet {space}><sheetData>{''.join(lines)}</sheetData></worksheet>",
+        )
+        book.writestr(
+            "xl/sharedStrings.xml",
+            f"<sst {space}>{''.join(f'<si><t>{text}</t></si>' for text in texts)}</sst>",
+        )
 
 
 def table_file(path, times, frequency):
-    """A file of the table: half a sine of acceleration and its opposite, so that the velocity ends at 0; the accelerometer points the other way."""
+    """A file of the table: half a sine of acceleration and its opposite, so that the velocity ends
+    at 0; the accelerometer points the other way.
+    """
     time = np.arange(0, 5, 1 / SAMPLING_HZ)
     phase = frequency * (time - 1.0)
-    acceleration = times * SLENDERNESS * np.where((phase > 0) & (phase < 1), np.sin(2 * np.pi * phase), 0.0)
+    acceleration = (
+        times * SLENDERNESS * np.where((phase > 0) & (phase < 1), np.sin(2 * np.pi * phase), 0.0)
+    )
     other = np.zeros_like(time)
     rows = np.column_stack([time, 0.015 - acceleration, time, other, time, other, time, other])
-    np.savetxt(path, rows, fmt="%.6g", delimiter="\t", header="Time [s] - Plot 0\tAmplitude - Plot 0", comments="")
+    np.savetxt(
+        path,
+        rows,
+        fmt="%.6g",
+        delimiter="\t",
+        header="Time [s] - Plot 0\tAmplitude - Plot 0",
+        comments="",
+    )
 
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory):
-    """A copy of a repository of four tests, the last without its motion; one of the measured outcomes is not what theory says."""
+    """A copy of a repository of four tests, the last without its motion; one of the measured
+    outcomes is not what theory says.
+    """
     root = tmp_path_factory.mktemp("campaign")
     motions = root / "data" / "Shake_Table_Response"
     box_file(root / "data" / "SP1_PBRmodel" / "SP1.obj")
     motions.mkdir()
-    heads = ["Test Number", "Experimental Results for response-Specimen 1", "Specimen 1-Numerical KN=1 KS=1"]
-    workbook(motions / "Results_Granite.xlsx", [heads, [1, 0, 1], [2, 1, 1], [3, 1, 0], [MISSING, 0, 0]])
-    intensities = [[n, n, PULSES.get(n, (1, 1))[0] * SLENDERNESS, 1 / (2 * np.pi * PULSES.get(n, (1, 1))[1])] for n in (1, 2, 3, MISSING)]
-    workbook(motions / "PGVA-zchen.xlsx", [["Serial Number", "Test Number", "PGA", "PGVA"], *intensities])
+    heads = [
+        "Test Number",
+        "Experimental Results for response-Specimen 1",
+        "Specimen 1-Numerical KN=1 KS=1",
+    ]
+    workbook(
+        motions / "Results_Granite.xlsx", [heads, [1, 0, 1], [2, 1, 1], [3, 1, 0], [MISSING, 0, 0]]
+    )
+    intensities = [
+        [n, n, PULSES.get(n, (1, 1))[0] * SLENDERNESS, 1 / (2 * np.pi * PULSES.get(n, (1, 1))[1])]
+        for n in (1, 2, 3, MISSING)
+    ]
+    workbook(
+        motions / "PGVA-zchen.xlsx", [["Serial Number", "Test Number", "PGA", "PGVA"], *intensities]
+    )
     for n, pulse in PULSES.items():
         table_file(motions / f"Test{n:03d}.txt", *pulse)
     return root
@@ -81,20 +126,29 @@ def test_box_overturns_where_theory_says_and_the_benchmark_scores_it(copy, tmp_p
     main([str(copy), "-o", str(tmp_path), "-j", "1", "--mu", "1.0"])
     rows = {int(row["test"]): row for row in csv.DictReader((tmp_path / "tests.csv").open())}
     assert {n: row["computed"] == "1" for n, row in rows.items()} == OVERTURNS
-    assert float(rows[1]["peak_tilt_deg"]) < 0.01 and float(rows[3]["peak_tilt_deg"]) > 0.05  # the third rocks, the first does not
+    assert (
+        float(rows[1]["peak_tilt_deg"]) < 0.01 and float(rows[3]["peak_tilt_deg"]) > 0.05
+    )  # the third rocks, the first does not
     assert all(float(row["closure_rel"]) < 1e-6 for row in rows.values())
     said = capsys.readouterr()
     assert "1 of 4 tests have no file" in said.err
-    assert "| fecolumn | 3 | 0.667 " in said.out and "| 1 | 1 | 0 | 1 |" in said.out  # the measured outcome of the third is not theory's
+    assert (
+        "| fecolumn | 3 | 0.667 " in said.out and "| 1 | 1 | 0 | 1 |" in said.out
+    )  # the measured outcome of the third is not theory's
     assert (tmp_path / "outcomes.png").stat().st_size > 10_000
 
     kept = tmp_path / "tests" / "002.json"
     marked = json.loads(kept.read_text()) | {"peak_tilt_deg": 77.0}
     kept.write_text(json.dumps(marked))
     (tmp_path / "tests" / "001.json").unlink()
-    main([str(copy), "-o", str(tmp_path), "-j", "1", "--mu", "1.0"])  # what is done is kept, what is missing is done
+    main(
+        [str(copy), "-o", str(tmp_path), "-j", "1", "--mu", "1.0"]
+    )  # what is done is kept, what is missing is done
     again = {int(row["test"]): row for row in csv.DictReader((tmp_path / "tests.csv").open())}
-    assert again[2]["peak_tilt_deg"] == "77.0" and again[1]["peak_tilt_deg"] == rows[1]["peak_tilt_deg"]
+    assert (
+        again[2]["peak_tilt_deg"] == "77.0"
+        and again[1]["peak_tilt_deg"] == rows[1]["peak_tilt_deg"]
+    )
     with pytest.raises(SystemExit, match="holds tests with friction 1.0"):
         main([str(copy), "-o", str(tmp_path), "-j", "1", "--mu", "0.5"])
 
@@ -121,7 +175,9 @@ def test_table_motion_has_the_sign_of_the_displacement_and_no_offset(copy):
     assert motion[int(1.025 * SAMPLING_HZ)] > 0.8 * peak > 0 > motion[int(1.075 * SAMPLING_HZ)]
     time = np.arange(0, 100, 1 / SAMPLING_HZ)
     middle = slice(len(time) // 3, -len(time) // 3)  # its ends ring at 0.1 Hz
-    inside, outside = (np.abs(filtered(np.sin(2 * np.pi * f * time))[middle]).max() for f in (2.0, 4 * BAND_HZ[1]))
+    inside, outside = (
+        np.abs(filtered(np.sin(2 * np.pi * f * time))[middle]).max() for f in (2.0, 4 * BAND_HZ[1])
+    )
     assert inside == pytest.approx(1, abs=0.001) and outside < 0.001
     assert METRES == pytest.approx(1.519e-5, rel=1e-3)
 
@@ -136,12 +192,19 @@ def test_scan_of_a_box_has_its_mass_and_inertia_and_stands_on_its_foot(tmp_path)
     body = body_of(scan, Stone(density=2700.0))
     square = LENGTH**2 + WIDTH**2
     assert body.mass == pytest.approx(2700 * volume)
-    assert np.sort(np.linalg.eigvalsh(body.inertia)) == pytest.approx(body.mass / 12 * np.sort([square, LENGTH**2 + HEIGHT**2, WIDTH**2 + HEIGHT**2]), rel=1e-5)
+    assert np.sort(np.linalg.eigvalsh(body.inertia)) == pytest.approx(
+        body.mass / 12 * np.sort([square, LENGTH**2 + HEIGHT**2, WIDTH**2 + HEIGHT**2]), rel=1e-5
+    )
     assert len(body.arms) == 4 and body.center[2] == pytest.approx(HEIGHT / 2, rel=1e-6)
     assert body.arms[:, 2] == pytest.approx(-HEIGHT / 2, rel=1e-5)
     from scipy.spatial import ConvexHull
-    assert at_rest(*(lambda c: (c, center, ConvexHull(c).equations))(read_scan(scan)[0]))[1] == pytest.approx(np.arccos(lean[2, 2]), rel=1e-5)
-    turned = body_of(scan, Stone(density=2700.0, direction=np.pi / 2))  # the table pushes along the scan's y
+
+    assert at_rest(*(lambda c: (c, center, ConvexHull(c).equations))(read_scan(scan)[0]))[
+        1
+    ] == pytest.approx(np.arccos(lean[2, 2]), rel=1e-5)
+    turned = body_of(
+        scan, Stone(density=2700.0, direction=np.pi / 2)
+    )  # the table pushes along the scan's y
     assert turned.inertia[0, 0] == pytest.approx(body.inertia[1, 1], rel=1e-3)
     assert Stone(mass=100.0).mass == body_of(scan, Stone(mass=100.0)).mass
 
@@ -155,7 +218,14 @@ def test_scan_that_is_not_closed_is_refused(tmp_path):
 
 def test_scores_count_what_was_told():
     counts = confusion([1, 1, 0, 0, 0], [1, 0, 1, 0, 0])
-    assert (counts.hit, counts.missed, counts.false, counts.stood) == (1, 1, 1, 2) and counts.accuracy == 0.6
+    assert (counts.hit, counts.missed, counts.false, counts.stood) == (
+        1,
+        1,
+        1,
+        2,
+    ) and counts.accuracy == 0.6
     told, right = [0] * 6, [1] * 6
-    assert chance(right, told, right) == pytest.approx(2 / 2**6) and chance(right, right, right) == 1
+    assert (
+        chance(right, told, right) == pytest.approx(2 / 2**6) and chance(right, right, right) == 1
+    )
     assert chosen("3,5-7", [1, 5, 6, 9]) == {5, 6}

@@ -26,22 +26,34 @@ def plan(sources):
 
 def test_every_drawn_case_can_be_analysed_and_differs_from_all_others(plan):
     assert len({analysis.id for analysis in plan.analyses}) == 120
-    for kind, wanted in (("column.shape", {"tube", "solid", "block"}), ("base.kind", {"plate", "unbounded", "pad"}), ("integration.engine", {"reduced", "rigid"}),
-                         ("contact.law", {"augmented_lagrange", "penalty"})):
+    for kind, wanted in (
+        ("column.shape", {"tube", "solid", "block"}),
+        ("base.kind", {"plate", "unbounded", "pad"}),
+        ("integration.engine", {"reduced", "rigid"}),
+        ("contact.law", {"augmented_lagrange", "penalty"}),
+    ):
         section, key = kind.split(".")
-        assert {getattr(getattr(analysis.case, section), key) for analysis in plan.analyses} == wanted
+        assert {
+            getattr(getattr(analysis.case, section), key) for analysis in plan.analyses
+        } == wanted
 
 
 def test_motions_of_all_families_take_part(plan, sources):
-    heads = collections.Counter(analysis.case.motion.source.partition(":")[0].rpartition("/")[2].partition(".")[0] if analysis.case.motion else "none"
-                                for analysis in plan.analyses)
+    heads = collections.Counter(
+        analysis.case.motion.source.partition(":")[0].rpartition("/")[2].partition(".")[0]
+        if analysis.case.motion
+        else "none"
+        for analysis in plan.analyses
+    )
     assert {"none", "lick", "near-fault", "pulses", "three-components"} <= set(heads)
     assert ("fema-p695" in heads) == ("records" in sources)
 
 
 def test_a_block_begins_with_the_same_analyses_however_many_are_wanted(plan, sources):
     few = cases.block(0, 7, sources, 1, specimens())
-    assert [analysis.id for analysis in few.analyses] == [analysis.id for analysis in plan.analyses[:7]]
+    assert [analysis.id for analysis in few.analyses] == [
+        analysis.id for analysis in plan.analyses[:7]
+    ]
     assert cases.blocks(2 * cases.BLOCK + 3) == [(0, cases.BLOCK), (1, cases.BLOCK), (2, 3)]
 
 
@@ -52,7 +64,9 @@ def test_samples_of_a_hypercube_fill_every_slice_once():
 
 
 def test_what_is_rare_is_as_rare_as_said_and_spread_where_it_is_not():
-    shares = [Draw({"x": k / 100}).rarely("x", 0.2, lambda one: one.even("x", 1, 2)) for k in range(100)]
+    shares = [
+        Draw({"x": k / 100}).rarely("x", 0.2, lambda one: one.even("x", 1, 2)) for k in range(100)
+    ]
     assert shares[:20] == pytest.approx([1 + k / 20 for k in range(20)]) and not any(shares[20:])
 
 
@@ -66,11 +80,16 @@ def test_a_case_is_the_same_from_the_file_that_is_written_for_it(plan, tmp_path)
 
 def test_growth_is_that_of_the_floor_and_not_of_spikes():
     values = [100 + 0.01 * count + (50 if count % 7 == 0 else 0) for count in range(1000)]
-    assert growth(range(1000), values) == pytest.approx(0.01, rel=0.05) and growth(range(1000), [5.0] * 1000) == pytest.approx(0)
+    assert growth(range(1000), values) == pytest.approx(0.01, rel=0.05) and growth(
+        range(1000), [5.0] * 1000
+    ) == pytest.approx(0)
 
 
 def test_every_value_is_counted_in_a_histogram():
-    assert [line.split()[3] for line in histogram([0, 1e-13, 5e-13, 2], (0, 1e-14, 1e-12, float("inf"))).splitlines()] == ["1", "2", "1"]
+    assert [
+        line.split()[3]
+        for line in histogram([0, 1e-13, 5e-13, 2], (0, 1e-14, 1e-12, float("inf"))).splitlines()
+    ] == ["1", "2", "1"]
 
 
 @pytest.mark.slow
@@ -82,7 +101,11 @@ def test_analyses_whose_driver_and_workers_are_killed_are_all_done(tmp_path, mon
     rows, planned = rows_of(tmp_path)
     said = capsys.readouterr().out
     assert planned == len(rows) == 8 and code == 0, said
-    assert "8 planned, 8 in ledgers: 8 done; 0 lost" in said and not list(tmp_path.glob("block-*/analyses/*/history.h5"))
+    assert "8 planned, 8 in ledgers: 8 done; 0 lost" in said and not list(
+        tmp_path.glob("block-*/analyses/*/history.h5")
+    )
     assert "killed" in (tmp_path / "driver.csv").read_text() and "killed: none" not in said
-    assert all(row["state"] == "done" and row["summary"]["process"]["memory_mb"] > 10 for row in rows)
+    assert all(
+        row["state"] == "done" and row["summary"]["process"]["memory_mb"] > 10 for row in rows
+    )
     assert len(list((tmp_path / "worst").glob("*.toml"))) == 8

@@ -32,6 +32,12 @@ def test_next_top_of_a_rigid_podium_has_the_energy_that_its_law_leaves():
 
 def test_figure_is_drawn_from_what_is_there(tmp_path):
     with open(tmp_path / "forces.csv", "w", newline="") as file:
-        csv.writer(file).writerows([["tendons", "tilt_rad", "slab_m", "virtual_work_n", "slender_n", "elements_n"], [True, 0.01, 0.014, 12716, 12649, 12700], [False, 0.01, 0.014, 12250, 12185, 12220]])
+        csv.writer(file).writerows(
+            [
+                ["tendons", "tilt_rad", "slab_m", "virtual_work_n", "slender_n", "elements_n"],
+                [True, 0.01, 0.014, 12716, 12649, 12700],
+                [False, 0.01, 0.014, 12250, 12185, 12220],
+            ]
+        )
     figure.draw(tmp_path)
     assert (tmp_path / "structures.png").stat().st_size > 10_000

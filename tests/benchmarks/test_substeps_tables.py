@@ -2,7 +2,18 @@
 
 import pytest
 
-from benchmarks.substeps.__main__ import CAUSES, FINE, KEYS, LITERAL, PAIRS, ROLLING, SAMPLED, Setting, compared, tables
+from benchmarks.substeps.__main__ import (
+    CAUSES,
+    FINE,
+    KEYS,
+    LITERAL,
+    PAIRS,
+    ROLLING,
+    SAMPLED,
+    Setting,
+    compared,
+    tables,
+)
 from fecolumn.study.plan import read_plan
 
 
@@ -11,22 +22,54 @@ def _plan(name):
 
 
 def test_literal_settings_are_analyses_of_the_paper_study():
-    paper = {(a.values["integration.dt_s"], a.values["integration.alpha_hht"], a.values["motion.source"]): a.id for a in _plan("paper_study").analyses}
-    shared = [a for name in ("coarse", "fine", "finest") for a in _plan(f"substeps/{name}").analyses
-              if a.case.integration.substeps == "none" and not a.case.motion.resample_s]
+    paper = {
+        (
+            a.values["integration.dt_s"],
+            a.values["integration.alpha_hht"],
+            a.values["motion.source"],
+        ): a.id
+        for a in _plan("paper_study").analyses
+    }
+    shared = [
+        a
+        for name in ("coarse", "fine", "finest")
+        for a in _plan(f"substeps/{name}").analyses
+        if a.case.integration.substeps == "none" and not a.case.motion.resample_s
+    ]
     assert len(shared) == 5 * 115
     for a in shared:
-        assert a.id == paper[a.values["integration.dt_s"], a.values["integration.alpha_hht"], a.values["motion.source"]]
+        assert (
+            a.id
+            == paper[
+                a.values["integration.dt_s"],
+                a.values["integration.alpha_hht"],
+                a.values["motion.source"],
+            ]
+        )
 
 
 def test_every_setting_of_the_tables_is_in_the_studies():
-    made = {Setting(*(a.values[key] for key in KEYS)) for name in ("coarse", "fine", "finest") for a in _plan(f"substeps/{name}").analyses}
+    made = {
+        Setting(*(a.values[key] for key in KEYS))
+        for name in ("coarse", "fine", "finest")
+        for a in _plan(f"substeps/{name}").analyses
+    }
     assert {setting for pair in PAIRS for setting in pair} | set(CAUSES) == made
 
 
 def _runs(peaks, fallen, parts=0):
-    return {number: dict(u_max_m=peak, overturned=number in fallen, slid_off=False, steps=100, parts=parts, impacts=7,
-                         energy_j=dict(impact=-0.1 * number, contact=-0.01, friction=-0.02, algorithmic=-5.0)) for number, peak in enumerate(peaks)}
+    return {
+        number: dict(
+            u_max_m=peak,
+            overturned=number in fallen,
+            slid_off=False,
+            steps=100,
+            parts=parts,
+            impacts=7,
+            energy_j=dict(impact=-0.1 * number, contact=-0.01, friction=-0.02, algorithmic=-5.0),
+        )
+        for number, peak in enumerate(peaks)
+    }
 
 
 def test_a_pair_counts_what_overturns_in_one_alone():
@@ -38,10 +81,21 @@ def test_a_pair_counts_what_overturns_in_one_alone():
 
 
 def test_tables_say_what_is_done_and_leave_out_what_is_not():
-    text = tables({LITERAL: _runs([0.01, 0.02, 0.03, 0.04], {3}), FINE: _runs([0.02] * 4, {2, 3}), ROLLING: _runs([0.01] * 4, set(), 9)})
-    assert "| 0.02 s, alpha -0.2, literal | 1 of 4 | 25.0 % [4.6, 69.9] | 20.0 | 100 | 0 | 7 |" in text
+    text = tables(
+        {
+            LITERAL: _runs([0.01, 0.02, 0.03, 0.04], {3}),
+            FINE: _runs([0.02] * 4, {2, 3}),
+            ROLLING: _runs([0.01] * 4, set(), 9),
+        }
+    )
+    assert (
+        "| 0.02 s, alpha -0.2, literal | 1 of 4 | 25.0 % [4.6, 69.9] | 20.0 | 100 | 0 | 7 |" in text
+    )
     assert "| 0.02 s, alpha -0.2, rim in parts | 0 of 4 |" in text and " | 100 | 9 | 7 |" in text
-    assert "| 0.02 s, alpha -0.2, literal; 0.001 s, alpha -0.2, literal | 0.250 | " in text and "impacts in parts" not in text
+    assert (
+        "| 0.02 s, alpha -0.2, literal; 0.001 s, alpha -0.2, literal | 0.250 | " in text
+        and "impacts in parts" not in text
+    )
 
 
 def test_energy_is_of_the_motions_that_stand_in_all_four():

@@ -1,4 +1,6 @@
-"""Case files for the command line: a thick short tube with cap and base, a few hundred bricks, shaken by two tones, results in seconds."""
+"""Case files for the command line: a thick short tube with cap and base, a few hundred bricks,
+shaken by two tones, results in seconds.
+"""
 
 import os
 
@@ -35,6 +37,8 @@ def write_case(folder, duration=0.2, extra=""):
     """Path of a case file in `folder` with its motion beside it."""
     write_motion(folder / "motion.csv", min(duration, 0.5))
     path = folder / "case.toml"
-    path.write_text(f'extends = "{SPECIMEN}"\n{MESH}\n[motion]\nsource = "motion.csv"\n'
-                    f"[integration]\nduration_s = {duration}\ndt_s = 2e-3\nalpha_hht = -0.05\n{extra}")
+    path.write_text(
+        f'extends = "{SPECIMEN}"\n{MESH}\n[motion]\nsource = "motion.csv"\n'
+        f"[integration]\nduration_s = {duration}\ndt_s = 2e-3\nalpha_hht = -0.05\n{extra}"
+    )
     return path

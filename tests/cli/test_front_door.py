@@ -22,22 +22,57 @@ def dotted_keys(section=Case, prefix=""):
 
 
 def test_keys_lists_every_key_of_a_case_and_of_a_study():
-    listed = {f"{table.name}.{key.name}".lstrip(".") for table in keys.tables() for key in table.keys}
+    listed = {
+        f"{table.name}.{key.name}".lstrip(".") for table in keys.tables() for key in table.keys
+    }
     assert set(dotted_keys()) <= listed
-    assert {"case", "axes", "zip", "latin_hypercube", "title", "extends", "latin_hypercube.samples", "latin_hypercube.seed"} <= listed
-    assert all(key.meaning and key.allowed and key.default for table in keys.tables() for key in table.keys)
+    assert {
+        "case",
+        "axes",
+        "zip",
+        "latin_hypercube",
+        "title",
+        "extends",
+        "latin_hypercube.samples",
+        "latin_hypercube.seed",
+    } <= listed
+    assert all(
+        key.meaning and key.allowed and key.default for table in keys.tables() for key in table.keys
+    )
 
 
 def test_manual_has_the_table_of_keys_as_it_is_now():
     table = manual.page("keys").partition("\n\n## ")
-    assert "## " + table[2] == keys.markdown(keys.tables()), "run: fecolumn keys --markdown, below the first lines of fecolumn/manual/keys.md"
+    assert "## " + table[2] == keys.markdown(keys.tables()), (
+        "run: fecolumn keys --markdown, below the first lines of fecolumn/manual/keys.md"
+    )
 
 
-@pytest.mark.parametrize("name, words", [
-    ("contact.friction_coefficient", ["friction_coefficient: in [0, 10]; default 0.3", "Coulomb"]),
-    ("dt_s", ["[integration]", "dt_s [s]: greater than 0 and at most 0.1; default 0.001", "[motion]"]),
-    ("integration.engine", ["one of full, reduced, rigid, housner, wobbling, rocking_frame, wobbling_frame, podium; default full (in a study reduced)"]),
-    ("study", ["samples: whole number, in [1, 1000000]; default required", "[[zip]]"])])
+@pytest.mark.parametrize(
+    "name, words",
+    [
+        (
+            "contact.friction_coefficient",
+            ["friction_coefficient: in [0, 10]; default 0.3", "Coulomb"],
+        ),
+        (
+            "dt_s",
+            [
+                "[integration]",
+                "dt_s [s]: greater than 0 and at most 0.1; default 0.001",
+                "[motion]",
+            ],
+        ),
+        (
+            "integration.engine",
+            [
+                "one of full, reduced, rigid, housner, wobbling, rocking_frame, "
+                "wobbling_frame, podium; default full (in a study reduced)"
+            ],
+        ),
+        ("study", ["samples: whole number, in [1, 1000000]; default required", "[[zip]]"]),
+    ],
+)
 def test_keys_of_a_section_tell_range_unit_and_default(name, words, capsys):
     assert main(["keys", name]) == 0
     text = capsys.readouterr().out
@@ -50,7 +85,9 @@ def test_keys_of_an_unknown_section_name_the_nearest(capsys):
 
 
 @pytest.mark.parametrize("kind", templates.KINDS)
-def test_new_writes_a_case_and_a_study_that_are_accepted_and_overwrites_nothing(kind, tmp_path, capsys):
+def test_new_writes_a_case_and_a_study_that_are_accepted_and_overwrites_nothing(
+    kind, tmp_path, capsys
+):
     folder = tmp_path / "mine"
     assert main(["new", kind, str(folder)]) == 0
     read_case(folder / "case.toml")
@@ -72,7 +109,12 @@ def test_a_studys_commented_lines_are_keys_too(tmp_path):
     """What a newcomer takes out of its comment must work."""
     main(["new", str(tmp_path)])
     lines = (tmp_path / "study.toml").read_text().splitlines()
-    bare = [line.removeprefix("# ") if line.startswith("# [") or line.startswith('# "') or line.startswith("# samples") else line for line in lines]
+    bare = [
+        line.removeprefix("# ")
+        if line.startswith("# [") or line.startswith('# "') or line.startswith("# samples")
+        else line
+        for line in lines
+    ]
     (tmp_path / "study.toml").write_text("\n".join(bare))
     assert len(tomllib.loads("\n".join(bare))) == 5
     assert len(read_plan(tmp_path / "study.toml").analyses) == 20 * 4 * 2 * 20
@@ -90,7 +132,9 @@ def test_help_lists_its_topics_and_refuses_others(capsys):
     assert all(topic in text for topic in manual.TOPICS)
     assert main(["help", "weather"]) == 2
     assert "quick-start" in capsys.readouterr().err
-    assert {f"{topic}.md" for topic in manual.TOPICS} == {path.name for path in manual.FOLDER.glob("*.md")}
+    assert {f"{topic}.md" for topic in manual.TOPICS} == {
+        path.name for path in manual.FOLDER.glob("*.md")
+    }
 
 
 def test_version_is_the_packages(capsys):
@@ -99,16 +143,35 @@ def test_version_is_the_packages(capsys):
     assert end.value.code == 0 and capsys.readouterr().out == f"fecolumn {__version__}\n"
 
 
-@pytest.mark.parametrize("typed, offered", [
-    ("fecolumn ", {"run", "study", "help"}), ("fecolumn st", {"study"}), ("fecolumn motions make ", {"seeded", "pulses"}),
-    ("fecolumn study x.toml --arr", {"--array-index", "--array-size"}), ("fecolumn new ", {"tube", "block"}), ("fecolumn run my_", {"my_case.toml"}),
-    ("fecolumn motions make pulses ", {"half_sine", "type_c"}), ("fecolumn verify --engine ", {"reduced", "rigid"})])
+@pytest.mark.parametrize(
+    "typed, offered",
+    [
+        ("fecolumn ", {"run", "study", "help"}),
+        ("fecolumn st", {"study"}),
+        ("fecolumn motions make ", {"seeded", "pulses"}),
+        ("fecolumn study x.toml --arr", {"--array-index", "--array-size"}),
+        ("fecolumn new ", {"tube", "block"}),
+        ("fecolumn run my_", {"my_case.toml"}),
+        ("fecolumn motions make pulses ", {"half_sine", "type_c"}),
+        ("fecolumn verify --engine ", {"reduced", "rigid"}),
+    ],
+)
 def test_bash_completes_commands_options_choices_and_files(typed, offered, tmp_path, capsys):
     assert main(["completion", "bash"]) == 0
     words = typed.split(" ")
     (tmp_path / "my_case.toml").touch()
-    asked = f"COMP_WORDS=({' '.join(word or chr(39) * 2 for word in words)}); COMP_CWORD={len(words) - 1}; _shtab_fecolumn fecolumn {words[-1] or chr(39) * 2}; printf '%s\\n' \"${{COMPREPLY[@]}}\""
-    result = subprocess.run(["bash", "-c", capsys.readouterr().out + asked], cwd=tmp_path, capture_output=True, text=True, check=True)
+    asked = (
+        f"COMP_WORDS=({' '.join(word or chr(39) * 2 for word in words)}); "
+        f"COMP_CWORD={len(words) - 1}; _shtab_fecolumn fecolumn {words[-1] or chr(39) * 2}; "
+        f"printf '%s\\n' \"${{COMPREPLY[@]}}\""
+    )
+    result = subprocess.run(
+        ["bash", "-c", capsys.readouterr().out + asked],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     assert offered <= set(result.stdout.split()) and result.stderr == ""
 
 
@@ -116,7 +179,9 @@ def test_bash_completes_commands_options_choices_and_files(typed, offered, tmp_p
 def test_other_shells_get_a_script_of_their_own(shell, begins, capsys):
     assert main(["completion", shell]) == 0
     text = capsys.readouterr().out
-    assert text.startswith(begins) and all(word in text for word in ("array-index", "half_sine", "doctor"))
+    assert text.startswith(begins) and all(
+        word in text for word in ("array-index", "half_sine", "doctor")
+    )
 
 
 def test_a_reader_that_stops_early_is_no_error():

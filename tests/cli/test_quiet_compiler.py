@@ -21,7 +21,16 @@ warnings.warn("the step is coarse")
 
 def test_first_use_of_dolfinx_prints_no_compiler_calls_and_keeps_warnings(tmp_path):
     environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path)}
-    result = subprocess.run([sys.executable, "-c", FIRST_USE], capture_output=True, text=True, env=environment, timeout=300)
+    result = subprocess.run(
+        [sys.executable, "-c", FIRST_USE],
+        capture_output=True,
+        text=True,
+        env=environment,
+        timeout=300,
+    )
     assert result.returncode == 0 and list((tmp_path / "fenics").glob("*.so"))  # it did compile
-    assert "gcc" not in result.stdout + result.stderr and "build_ext" not in result.stdout + result.stderr
+    assert (
+        "gcc" not in result.stdout + result.stderr
+        and "build_ext" not in result.stdout + result.stderr
+    )
     assert "UserWarning: the step is coarse" in result.stderr

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-# Between which of the blocks W is not zero: joints of a stack; heads of three columns on a slab, then their feet; feet on rigid ground
+# Between which of the blocks W is not zero: joints of a stack; heads of three columns on a slab,
+# then their feet; feet on rigid ground
 CHAIN = [(k, k + 1) for k in range(4)]
 FRAME = [(0, 1), (0, 2), (1, 2), (0, 3), (1, 4), (2, 5)]
 
@@ -13,5 +14,7 @@ def compliance(sizes, pairs, seed=0):
     touching = np.eye(len(sizes), dtype=bool)
     for k, l in pairs:
         touching[k, l] = touching[l, k] = True
-    W = random.standard_normal((3 * len(of), 3 * len(of))) * np.kron(touching[np.ix_(of, of)], np.ones((3, 3)))
+    W = random.standard_normal((3 * len(of), 3 * len(of))) * np.kron(
+        touching[np.ix_(of, of)], np.ones((3, 3))
+    )
     return W + W.T + np.diag(2 * np.abs(W + W.T).sum(axis=1))

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fecolumn.contact.base_top import BaseTop
-from fecolumn.contact.projection import OFF, ON, UNKNOWN, base_of, nodes_under, project
 from fecolumn.contact.points import node_points
+from fecolumn.contact.projection import OFF, ON, UNKNOWN, base_of, nodes_under, project
 
 
 @pytest.fixture
@@ -16,23 +16,35 @@ def top():
 
 def test_a_linear_field_is_interpolated_exactly(top):
     rng = np.random.default_rng(1)
-    positions = np.column_stack([rng.uniform(-0.3, 0.25, 50), rng.uniform(0.0, 0.4, 50), rng.normal(size=50)])
+    positions = np.column_stack(
+        [rng.uniform(-0.3, 0.25, 50), rng.uniform(0.0, 0.4, 50), rng.normal(size=50)]
+    )
     nodes, shares = nodes_under(top, positions)
-    np.testing.assert_allclose(np.einsum("nq,nqa->na", shares, top.points[nodes][:, :, :2]), positions[:, :2], atol=1e-15)
+    np.testing.assert_allclose(
+        np.einsum("nq,nqa->na", shares, top.points[nodes][:, :, :2]), positions[:, :2], atol=1e-15
+    )
     assert shares.min() >= 0 and shares.sum(axis=1) == pytest.approx(1.0)
 
 
 def test_point_beyond_the_edge_matters_only_where_it_is_wanted(top):
     base = base_of(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36)))
-    positions, points = np.array([[0.0, 0.1, 0.0], [0.26, 0.1, 0.0]]), node_points(np.zeros((2, 3)), 0.5)
+    positions, points = (
+        np.array([[0.0, 0.1, 0.0], [0.26, 0.1, 0.0]]),
+        node_points(np.zeros((2, 3)), 0.5),
+    )
     assert project(base, positions, np.array([0]), points) == ON
     assert project(base, positions, np.array([0, 1]), points) == OFF
 
 
 @pytest.mark.parametrize("x, y", [(-0.3, 0.0), (-0.3, 0.4), (0.25, 0.0), (0.25, 0.4), (-0.2, 0.4)])
 def test_point_beyond_the_edge_by_rounding_stands_on_the_edge(top, x, y):
-    """By less than 2e-3 of the brick there, as a foot that is as wide as its plate; by more it is off, and so is a place that is not a number."""
-    base, points = base_of(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36))), node_points(np.zeros((1, 3)), 0.5)
+    """By less than 2e-3 of the brick there, as a foot that is as wide as its plate; by more it is
+    off, and so is a place that is not a number.
+    """
+    base, points = (
+        base_of(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36))),
+        node_points(np.zeros((1, 3)), 0.5),
+    )
     outwards = np.array([[np.sign(x + 0.2), np.sign(y - 0.2), 0.0]])
 
     def at(way):
@@ -49,12 +61,18 @@ def test_point_beyond_the_edge_by_rounding_stands_on_the_edge(top, x, y):
 def test_point_on_another_body_needs_no_base_below_it(top):
     base = base_of(top.x, top.y, top.number, np.arange(12), np.zeros((36, 36)))
     points = node_points(np.zeros((1, 3)), 0.5, master=1)
-    assert project(base, np.array([[5.0, 0.1, 0.0]]), np.array([0]), points) == ON and not points["shares"].any()
+    assert (
+        project(base, np.array([[5.0, 0.1, 0.0]]), np.array([0]), points) == ON
+        and not points["shares"].any()
+    )
 
 
 def test_node_whose_compliance_is_not_known_is_asked_for(top):
     slot = np.full(12, -1)
-    base, points = base_of(top.x, top.y, top.number, slot, np.zeros((0, 0))), node_points(np.zeros((1, 3)), 0.5)
+    base, points = (
+        base_of(top.x, top.y, top.number, slot, np.zeros((0, 0))),
+        node_points(np.zeros((1, 3)), 0.5),
+    )
     place = np.array([[-0.2, 0.3, 0.0]])
     assert project(base, place, np.array([0]), points) == UNKNOWN
     slot[top.around(place, 0)] = np.arange(4)

@@ -6,7 +6,14 @@ from coupled import CHAIN, FRAME, compliance
 
 from fecolumn.contact.factor import divide, factorize, multiply, no_blocks, solve_factored
 
-CASES = [([5, 4, 6, 5, 3], CHAIN), ([20, 5, 18, 15, 4], CHAIN), ([6, 5, 4, 6, 5, 4], FRAME), ([8, 9, 10], []), ([8, 9, 10], [(0, 1), (0, 2), (1, 2)]), ([4], [])]
+CASES = [
+    ([5, 4, 6, 5, 3], CHAIN),
+    ([20, 5, 18, 15, 4], CHAIN),
+    ([6, 5, 4, 6, 5, 4], FRAME),
+    ([8, 9, 10], []),
+    ([8, 9, 10], [(0, 1), (0, 2), (1, 2)]),
+    ([4], []),
+]
 
 
 def factor_of(W):
@@ -29,7 +36,11 @@ def test_solutions_are_those_of_the_whole_matrix(sizes, pairs):
 def test_products_are_those_of_the_whole_matrix(sizes, pairs):
     """Of another matrix, which is zero between some of the blocks."""
     W, other = compliance(sizes, pairs), compliance(sizes, pairs[1:], seed=3)
-    blocked, found, source = no_blocks(sum(sizes)), np.full(len(W), 7.0), np.random.default_rng(2).standard_normal(len(W))
+    blocked, found, source = (
+        no_blocks(sum(sizes)),
+        np.full(len(W), 7.0),
+        np.random.default_rng(2).standard_normal(len(W)),
+    )
     divide(other, factor_of(W), blocked)
     multiply(blocked, source, found)
     assert found == pytest.approx(other @ source, rel=1e-12, abs=1e-12 * np.abs(other).max())

@@ -9,13 +9,25 @@ from fecolumn.dynamics.assembly import build_system, column_body, foot_of
 from fecolumn.dynamics.gravity import standing
 from fecolumn.mesh.specimen import specimen_mesh
 
-SHAPES = {"drum": {"shape": "solid", "outer_diameter_m": 0.5, "height_m": 0.8}, "block": {"shape": "block", "length_m": 0.4, "width_m": 0.4, "height_m": 0.6}}
+SHAPES = {
+    "drum": {"shape": "solid", "outer_diameter_m": 0.5, "height_m": 0.8},
+    "block": {"shape": "block", "length_m": 0.4, "width_m": 0.4, "height_m": 0.6},
+}
 MARBLE = {"youngs_modulus_pa": 50e9, "density_kg_m3": 2700.0}
 
 
 def marble(shape, interior, **tables):
-    return case_from_tables({"column": SHAPES[shape], "material": MARBLE, "base": {"thickness_m": 0.05}, "integration": {"duration_s": 1.0},
-                             "contact": {"interior_points": interior}} | tables, "marble.toml")
+    return case_from_tables(
+        {
+            "column": SHAPES[shape],
+            "material": MARBLE,
+            "base": {"thickness_m": 0.05},
+            "integration": {"duration_s": 1.0},
+            "contact": {"interior_points": interior},
+        }
+        | tables,
+        "marble.toml",
+    )
 
 
 def foot(case):
@@ -30,13 +42,24 @@ def test_outlines_are_kept_whole_and_points_inside_prefer_no_direction(shape, ou
     places = column.all_X[found.nodes, :2]
     assert np.sum(~found.inner) == outline and 20 <= found.inner.sum() < 24
     for mirror in ([-1, 1], [1, -1]):
-        assert {tuple(one) for one in np.round(places * mirror, 9) + 0.0} == {tuple(one) for one in np.round(places, 9) + 0.0}
-    assert found.areas.sum() == pytest.approx(found.all_areas.sum(), rel=1e-12) and found.areas.min() > 0
+        assert {tuple(one) for one in np.round(places * mirror, 9) + 0.0} == {
+            tuple(one) for one in np.round(places, 9) + 0.0
+        }
+    assert (
+        found.areas.sum() == pytest.approx(found.all_areas.sum(), rel=1e-12)
+        and found.areas.min() > 0
+    )
 
 
 def test_a_tube_of_one_brick_keeps_every_node():
-    case = case_from_tables({"column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.5}, "contact": {"interior_points": 0},
-                             "integration": {"duration_s": 1.0}}, "tube.toml")
+    case = case_from_tables(
+        {
+            "column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.5},
+            "contact": {"interior_points": 0},
+            "integration": {"duration_s": 1.0},
+        },
+        "tube.toml",
+    )
     found, _ = foot(case)
     assert np.array_equal(found.nodes, found.all_nodes) and not found.inner.any()
 
@@ -50,5 +73,7 @@ def test_few_points_carry_the_weight_and_sink_a_little_deeper_than_all(shape):
         state = standing(system)
         assert state.forces[:, 2].sum() == pytest.approx(system.weight, rel=1e-8)
         assert state.forces[:, 2].min() >= 0
-        sunk.append(system.column.node_mass @ (state.x - system.column.X)[:, 2] / system.column.total_mass)
+        sunk.append(
+            system.column.node_mass @ (state.x - system.column.X)[:, 2] / system.column.total_mass
+        )
     assert sunk[1] > sunk[0] > 1.25 * sunk[1]  # downwards is negative, tens of nanometres

@@ -18,31 +18,74 @@ DT = 1e-4
 
 
 def body(mass, arms, inertia=None, within=False):
-    """A rigid body; `within`: its rigid motion is part of the nodal mobility, as in the full-order engine."""
+    """A rigid body; `within`: its rigid motion is part of the nodal mobility, as in the full-order
+    engine.
+    """
     n = len(arms)
     if not within:
-        return one_body(arms, np.zeros((3 * n, 3 * n)), np.zeros((3 * n, 3 * n)), mass, np.eye(3) if inertia is None else inertia)
-    one, W = one_body(arms, np.zeros((3 * n, 3 * n)), np.zeros((3 * n, 3 * n)), mass, inertia), np.zeros((3 * n, 3 * n))
+        return one_body(
+            arms,
+            np.zeros((3 * n, 3 * n)),
+            np.zeros((3 * n, 3 * n)),
+            mass,
+            np.eye(3) if inertia is None else inertia,
+        )
+    one, W = (
+        one_body(arms, np.zeros((3 * n, 3 * n)), np.zeros((3 * n, 3 * n)), mass, inertia),
+        np.zeros((3 * n, 3 * n)),
+    )
     for i, p in enumerate(arms):
         for j, q in enumerate(arms):
             skew = [np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]) for x, y, z in (p, q)]
-            W[3 * i:3 * i + 3, 3 * j:3 * j + 3] = np.eye(3) / mass + skew[0] @ np.linalg.inv(inertia) @ skew[1].T
+            W[3 * i : 3 * i + 3, 3 * j : 3 * j + 3] = (
+                np.eye(3) / mass + skew[0] @ np.linalg.inv(inertia) @ skew[1].T
+            )
     return one_body(arms, one.static, W)
 
 
-def struck(bodies, points, velocity, mu=0.0, restitution=0.0, contact_work=-1.0, force=(0.0, 0.0, 1.0), late=None):
-    """Impulses (n, 3) of an impact of points that arrive with `velocity` (n, 3) in the very moment; `force` (3,) of the step and the velocities `late` that it has left."""
+def struck(
+    bodies,
+    points,
+    velocity,
+    mu=0.0,
+    restitution=0.0,
+    contact_work=-1.0,
+    force=(0.0, 0.0, 1.0),
+    late=None,
+):
+    """Impulses (n, 3) of an impact of points that arrive with `velocity` (n, 3) in the very moment;
+    `force` (3,) of the step and the velocities `late` that it has left.
+    """
     n = len(points)
     points["friction"] = mu
-    interface = interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]), restitution=restitution, master=points["master"][0])
+    interface = interface_of(
+        np.array([[0.0, 0, 0], [1.0, 0, 0]]), restitution=restitution, master=points["master"][0]
+    )
     before, after, landing = np.zeros(n, CONTACT), np.zeros(n, CONTACT), np.zeros(n, bool)
     before["relative"][:, 2], after["force"] = 1e-6, force
     assert mark_landing(interface, points, np.arange(n), before, after, landing) == n
     # what the step's own impulse, about to be replaced, has done is taken out again
     late = np.array(velocity if late is None else late, float)
-    answer, pushed, impulses = find_impact(bodies, NO_BASE, points, interface, Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0), np.arange(n), points["arm"].copy(),
-                                           poses_on_base(np.eye(3)[None]), before, after, np.array(velocity, float), late, landing,
-                                           np.zeros(n, bool), True, DT, contact_work, np.zeros(N_COUNTS, np.int64))
+    answer, pushed, impulses = find_impact(
+        bodies,
+        NO_BASE,
+        points,
+        interface,
+        Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0),
+        np.arange(n),
+        points["arm"].copy(),
+        poses_on_base(np.eye(3)[None]),
+        before,
+        after,
+        np.array(velocity, float),
+        late,
+        landing,
+        np.zeros(n, bool),
+        True,
+        DT,
+        contact_work,
+        np.zeros(N_COUNTS, np.int64),
+    )
     assert answer == OK and (pushed or contact_work >= 0)
     return impulses + DT * after["force"]
 
@@ -53,7 +96,12 @@ def test_rod_that_lands_on_its_end_turns_about_it(within):
     mass, length, speed = 3.0, 2.0, 1.5
     inertia = np.diag([1.0, mass * length**2 / 12, mass * length**2 / 12])
     arms = np.array([[length / 2, 0, 0]])
-    impulse = struck(body(mass, arms, inertia, within), node_points(arms, 0.0, master=BASE), [[0, 0, -speed]], contact_work=-10.0)
+    impulse = struck(
+        body(mass, arms, inertia, within),
+        node_points(arms, 0.0, master=BASE),
+        [[0, 0, -speed]],
+        contact_work=-10.0,
+    )
     assert impulse[0] == pytest.approx([0, 0, mass * speed / 4], rel=1e-4)
 
 
@@ -69,24 +117,48 @@ def test_two_bodies_that_collide_go_on_together():
 
 @pytest.mark.parametrize("mu, pull", [(0.1, 0.1), (0.9, 0.5)])
 def test_oblique_impact_slides_or_sticks(mu, pull):
-    """A mass point arrives at tan(incidence) = 0.5: friction mu times the normal impulse, at most what stops the slip."""
+    """A mass point arrives at tan(incidence) = 0.5: friction mu times the normal impulse, at most
+    what stops the slip.
+    """
     mass, place = 2.0, np.zeros((1, 3))
-    impulse = struck(body(mass, place), node_points(place, 0.0, master=BASE), [[0.5, 0, -1.0]], mu, contact_work=-10.0)
+    impulse = struck(
+        body(mass, place),
+        node_points(place, 0.0, master=BASE),
+        [[0.5, 0, -1.0]],
+        mu,
+        contact_work=-10.0,
+    )
     assert impulse[0] == pytest.approx([-mass * min(mu, pull), 0, mass], rel=1e-4, abs=1e-4)
 
 
 def test_restitution_gives_its_share_of_the_plastic_impulse_once_more():
     mass, place = 2.0, np.zeros((1, 3))
-    impulse = struck(body(mass, place), node_points(place, 0.0, master=BASE), [[0, 0, -1.0]], restitution=0.6, contact_work=-10.0)
+    impulse = struck(
+        body(mass, place),
+        node_points(place, 0.0, master=BASE),
+        [[0, 0, -1.0]],
+        restitution=0.6,
+        contact_work=-10.0,
+    )
     assert impulse[0, 2] == pytest.approx(1.6 * mass, rel=1e-4)
 
 
 @pytest.mark.parametrize("contact_work", [-0.05, 0.0, 1e-3])
 def test_an_impact_gives_back_no_more_than_contact_has_taken(contact_work):
-    """A long step has stopped a slipping mass by the friction of a large force; the impact's smaller one leaves it slipping: 3 m/s less 0.9 times 3 m/s."""
+    """A long step has stopped a slipping mass by the friction of a large force; the impact's
+    smaller one leaves it slipping: 3 m/s less 0.9 times 3 m/s.
+    """
     mass, place = 2.0, np.zeros((1, 3))
     force = np.array([-6.0, 0.0, 6.0]) / DT
-    impulse = struck(body(mass, place), node_points(place, 0.0, master=BASE), [[3.0, 0, -3.0]], 0.9, contact_work=contact_work, force=force, late=[[0.0, 0, 0]])
+    impulse = struck(
+        body(mass, place),
+        node_points(place, 0.0, master=BASE),
+        [[3.0, 0, -3.0]],
+        0.9,
+        contact_work=contact_work,
+        force=force,
+        late=[[0.0, 0, 0]],
+    )
     left = impulse[0] / mass + [3.0, 0, -3.0]
     gained = mass * left @ left / 2
     assert gained <= max(-contact_work, 0.0) + 1e-12
@@ -95,24 +167,37 @@ def test_an_impact_gives_back_no_more_than_contact_has_taken(contact_work):
 
 def test_what_an_impact_gives_back_is_not_booked_as_its_gain():
     """Impact, contact and friction keep their sum; none of them gains where the sum does not."""
-    for gained, impact, contact, friction in ((3.0, -1.0, -4.0, -2.0), (3.0, -1.0, -1.0, -2.0), (-3.0, -1.0, 0.0, 0.0), (2.0, -1.0, 1e-6, -2.0)):
+    for gained, impact, contact, friction in (
+        (3.0, -1.0, -4.0, -2.0),
+        (3.0, -1.0, -1.0, -2.0),
+        (-3.0, -1.0, 0.0, 0.0),
+        (2.0, -1.0, 1e-6, -2.0),
+    ):
         booked = book_impulses(gained, impact, contact, friction)
         assert sum(booked) == pytest.approx(gained + impact + contact + friction, abs=1e-14)
         assert booked[0] <= 0 and booked[1] <= max(contact, 0.0) + 1e-15 and booked[2] <= 1e-15
 
 
-@pytest.mark.parametrize("gained, impact, contact, friction, booked", [
-    (-22.0, 0.0, 25.0, -1.0, (0.0, 3.0, -1.0)),  # what contact had made they take first
-    (-22.0, -1.0, 5.0, -1.0, (-18.0, 0.0, -1.0)),
-    (3.0, 0.0, 0.0, -1.0, (0.0, 2.0, 0.0))])  # and what friction has not taken it does not get back
-def test_impulses_that_come_in_place_of_others_first_undo_what_these_did(gained, impact, contact, friction, booked):
+@pytest.mark.parametrize(
+    "gained, impact, contact, friction, booked",
+    [
+        (-22.0, 0.0, 25.0, -1.0, (0.0, 3.0, -1.0)),  # what contact had made they take first
+        (-22.0, -1.0, 5.0, -1.0, (-18.0, 0.0, -1.0)),
+        (3.0, 0.0, 0.0, -1.0, (0.0, 2.0, 0.0)),
+    ],
+)  # and what friction has not taken it does not get back
+def test_impulses_that_come_in_place_of_others_first_undo_what_these_did(
+    gained, impact, contact, friction, booked
+):
     assert book_impulses(gained, impact, contact, friction) == pytest.approx(booked, abs=1e-14)
 
 
 def ring(radius, height, count):
     """Arms (count, 3) of points around a circle."""
     angles = 2 * np.pi * (np.arange(count) + 0.5) / count
-    return np.column_stack([radius * np.cos(angles), radius * np.sin(angles), np.full(count, height)])
+    return np.column_stack(
+        [radius * np.cos(angles), radius * np.sin(angles), np.full(count, height)]
+    )
 
 
 def square(half, height, side=5):
@@ -135,25 +220,47 @@ SLENDER = np.arctan(2 * HALF / HEIGHT)
 
 
 def a_foot(give):
-    """A column with twenty modes that rocks about a side of its foot and comes down on all of it: bodies, points, velocities (n, 3), those that carried, velocities of all bodies."""
+    """A column with twenty modes that rocks about a side of its foot and comes down on all of it:
+    bodies, points, velocities (n, 3), those that carried, velocities of all bodies.
+    """
     arms = ring(HALF, -HEIGHT / 2, 48)
-    velocity = np.array([[0, 0, HALF * (1 - np.cos(angle)) * -0.3] for angle in 2 * np.pi * (np.arange(48) + 0.5) / 48])
+    velocity = np.array(
+        [
+            [0, 0, HALF * (1 - np.cos(angle)) * -0.3]
+            for angle in 2 * np.pi * (np.arange(48) + 0.5) / 48
+        ]
+    )
     velocity[:, 2] -= velocity[:, 2].max()
-    return elastic(MASS, [ACROSS, ACROSS, 2.0], arms, give, 20), node_points(arms, 0.8, master=BASE), velocity, velocity[:, 2] > -1e-9
+    return (
+        elastic(MASS, [ACROSS, ACROSS, 2.0], arms, give, 20),
+        node_points(arms, 0.8, master=BASE),
+        velocity,
+        velocity[:, 2] > -1e-9,
+    )
 
 
 def a_frame(give, slab=17e3):
-    """A slab on four columns that rock about the sides of their feet and heads, and come down on all of them."""
+    """A slab on four columns that rock about the sides of their feet and heads, and come down on
+    all of them.
+    """
     foot, head, rate = square(HALF, -HEIGHT / 2), square(HALF, HEIGHT / 2), 0.3
     places, n = [(-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5)], len(square(HALF, 0.0))
     column = elastic(MASS, [ACROSS, ACROSS, 2.0], np.concatenate([foot, head]), give)
     under = np.concatenate([head + [x, y, -HEIGHT / 2 - 0.2] for x, y in places])
-    bodies = joined([column] * 4 + [elastic(slab, [slab * 1.4, slab * 1.4, slab * 2.7], under, give)])
+    bodies = joined(
+        [column] * 4 + [elastic(slab, [slab * 1.4, slab * 1.4, slab * 2.7], under, give)]
+    )
     points = []
     for k in range(4):
         points.append(node_points(foot, 10.0, slave=k, master=BASE, first=2 * n * k))
-        points.append(node_points(under[n * k:n * (k + 1)], 10.0, slave=4, master=k, first=8 * n + n * k))
-        points[-1]["below"], points[-1]["shares"], points[-1]["seat"] = 2 * n * k + n + np.arange(n)[:, None], [1.0, 0, 0, 0], head
+        points.append(
+            node_points(under[n * k : n * (k + 1)], 10.0, slave=4, master=k, first=8 * n + n * k)
+        )
+        points[-1]["below"], points[-1]["shares"], points[-1]["seat"] = (
+            2 * n * k + n + np.arange(n)[:, None],
+            [1.0, 0, 0, 0],
+            head,
+        )
     down = -2 * rate * HALF * (HALF - foot[:, 0]) / (2 * HALF)
     up = -2 * rate * HALF * (HALF + head[:, 0]) / (2 * HALF)
     velocity = np.zeros((8 * n, 3))
@@ -161,21 +268,59 @@ def a_frame(give, slab=17e3):
     return bodies, np.concatenate(points), velocity, velocity[:, 2] > -1e-12
 
 
-@pytest.mark.parametrize("made, give", [(a_foot, 1e-9), (a_foot, 0.0), (a_frame, 1e-9), (a_frame, 0.0)])
+@pytest.mark.parametrize(
+    "made, give", [(a_foot, 1e-9), (a_foot, 0.0), (a_frame, 1e-9), (a_frame, 0.0)]
+)
 @pytest.mark.parametrize("parts", [1, 8, 64])
 def test_an_impact_is_plastic_whatever_the_step_and_the_faces(made, give, parts):
-    """Nothing closes by more than a thousandth of the approach, friction stays in its cone, and no energy is made: in a step as in its 64th, on soft faces as on stiff ones."""
+    """Nothing closes by more than a thousandth of the approach, friction stays in its cone, and no
+    energy is made: in a step as in its 64th, on soft faces as on stiff ones.
+    """
     bodies, points, velocity, carried = made(give)
     n, dt = len(points), 1e-3 / parts
     interface = interface_of(np.array([[0.0, 0, 0], [0.2, 0, 0]]), master=points["master"][0])
     before, after, landing = np.zeros(n, CONTACT), np.zeros(n, CONTACT), ~carried
-    before["relative"][~carried, 2], before["force"][carried, 2], after["force"][:, 2] = 1e-6, 1.0, 1.0
+    before["relative"][~carried, 2], before["force"][carried, 2], after["force"][:, 2] = (
+        1e-6,
+        1.0,
+        1.0,
+    )
     mobility, poses, listed = np.empty((3 * n, 3 * n)), poses_on_base(np.eye(3)[None]), np.arange(n)
-    assemble(bodies, NO_BASE, points, points["arm"].copy(), listed, poses, 1.0, bodies.mobility, 0.0, np.zeros((n, 3)), mobility)
+    assemble(
+        bodies,
+        NO_BASE,
+        points,
+        points["arm"].copy(),
+        listed,
+        poses,
+        1.0,
+        bodies.mobility,
+        0.0,
+        np.zeros((n, 3)),
+        mobility,
+    )
     given = dt * after["force"].ravel()
     late, counts = velocity + (mobility @ given).reshape(n, 3), np.zeros(N_COUNTS, np.int64)
-    answer, pushed, impulses = find_impact(bodies, NO_BASE, points, interface, Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0), listed, points["arm"].copy(), poses,
-                                           before, after, velocity, late, landing, np.zeros(n, bool), True, dt, 0.0, counts)
+    answer, pushed, impulses = find_impact(
+        bodies,
+        NO_BASE,
+        points,
+        interface,
+        Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0),
+        listed,
+        points["arm"].copy(),
+        poses,
+        before,
+        after,
+        velocity,
+        late,
+        landing,
+        np.zeros(n, bool),
+        True,
+        dt,
+        0.0,
+        counts,
+    )
     assert answer == OK and pushed
     total = impulses.ravel() + given
     left, each = velocity + (mobility @ total).reshape(n, 3), total.reshape(n, 3)
@@ -194,11 +339,47 @@ def test_a_frame_keeps_what_the_theory_of_rocking_frames_says(slab):
     n, ratio = len(points), slab / (4 * MASS)
     interface = interface_of(np.array([[0.0, 0, 0], [0.2, 0, 0]]))
     before, after = np.zeros(n, CONTACT), np.zeros(n, CONTACT)
-    before["relative"][~carried, 2], before["force"][carried, 2], after["force"][:, 2] = 1e-6, 1e-9, 1e-9
+    before["relative"][~carried, 2], before["force"][carried, 2], after["force"][:, 2] = (
+        1e-6,
+        1e-9,
+        1e-9,
+    )
     mobility, poses, listed = np.empty((3 * n, 3 * n)), poses_on_base(np.eye(3)[None]), np.arange(n)
-    assemble(bodies, NO_BASE, points, points["arm"].copy(), listed, poses, 1.0, bodies.mobility, 0.0, np.zeros((n, 3)), mobility)
-    answer, _, impulses = find_impact(bodies, NO_BASE, points, interface, Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0), listed, points["arm"].copy(), poses,
-                                      before, after, velocity, velocity, ~carried, np.zeros(n, bool), True, 1e-4, 0.0, np.zeros(N_COUNTS, np.int64))
+    assemble(
+        bodies,
+        NO_BASE,
+        points,
+        points["arm"].copy(),
+        listed,
+        poses,
+        1.0,
+        bodies.mobility,
+        0.0,
+        np.zeros((n, 3)),
+        mobility,
+    )
+    answer, _, impulses = find_impact(
+        bodies,
+        NO_BASE,
+        points,
+        interface,
+        Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0),
+        listed,
+        points["arm"].copy(),
+        poses,
+        before,
+        after,
+        velocity,
+        velocity,
+        ~carried,
+        np.zeros(n, bool),
+        True,
+        1e-4,
+        0.0,
+        np.zeros(N_COUNTS, np.int64),
+    )
     left = velocity + (mobility @ impulses.ravel()).reshape(n, 3)
-    kept = (1 - 1.5 * np.sin(SLENDER)**2 + 3 * ratio * np.cos(2 * SLENDER)) / (1 + 3 * ratio)
-    assert answer == OK and left[:, 2].max() / -velocity[:, 2].min() == pytest.approx(kept, abs=5e-3 * (1 - kept))
+    kept = (1 - 1.5 * np.sin(SLENDER) ** 2 + 3 * ratio * np.cos(2 * SLENDER)) / (1 + 3 * ratio)
+    assert answer == OK and left[:, 2].max() / -velocity[:, 2].min() == pytest.approx(
+        kept, abs=5e-3 * (1 - kept)
+    )

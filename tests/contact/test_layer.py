@@ -23,8 +23,14 @@ def test_layer_is_the_middle_of_a_wide_plate_of_the_same_bricks():
     def held(body):
         return {}, np.flatnonzero(body.all_X[:, 2] < DEPTHS[-1] + 1e-9)
 
-    plate = BasePlate(Body(MPI.COMM_SELF, swept_grid(lines, lines, DEPTHS[::-1], BASE), STEEL, 1, held))
-    under, beside, across = plate.grid.number[20, 20], plate.grid.number[20, 24], plate.grid.number[23, 18]
+    plate = BasePlate(
+        Body(MPI.COMM_SELF, swept_grid(lines, lines, DEPTHS[::-1], BASE), STEEL, 1, held)
+    )
+    under, beside, across = (
+        plate.grid.number[20, 20],
+        plate.grid.number[20, 24],
+        plate.grid.number[23, 18],
+    )
     plate.need(np.array([under, beside, across]))
     response = layer_response(SIZE, DEPTHS, STEEL, 6)
     for node, i, j in ((under, 0, 0), (beside, 0, 4), (across, 3, -2)):
@@ -39,7 +45,9 @@ def test_uniform_load_compresses_the_layer_as_an_oedometer_and_shears_it_as_a_bl
     E, nu = STEEL.youngs_modulus_pa, STEEL.poissons_ratio
     oedometer, shear = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
     assert response[2, 2] == pytest.approx(0.02 / oedometer, rel=1e-6)
-    assert response[0, 0] == pytest.approx(0.02 / shear, rel=1e-6) and response[1, 1] == pytest.approx(response[0, 0], rel=1e-12)
+    assert response[0, 0] == pytest.approx(0.02 / shear, rel=1e-6) and response[
+        1, 1
+    ] == pytest.approx(response[0, 0], rel=1e-12)
 
 
 def test_layer_too_thick_for_its_bricks_is_refused_with_what_fits():
@@ -55,11 +63,23 @@ def test_unbounded_base_gives_as_much_wherever_the_foot_is():
     for moved in (np.zeros(3), np.array([1234 * SIZE, -77 * SIZE, 0.0])):
         nodes, weights = nodes_under(base.grid, foot + moved + [0.0013, 0.0004, 0.0])
         base.need(nodes.ravel())
-        found.append(np.einsum("np,npnqab,nq->nab", weights, base.compliance[base.slot[nodes][:, :, None, None], base.slot[nodes]], weights))
+        found.append(
+            np.einsum(
+                "np,npnqab,nq->nab",
+                weights,
+                base.compliance[base.slot[nodes][:, :, None, None], base.slot[nodes]],
+                weights,
+            )
+        )
     np.testing.assert_allclose(found[0], found[1], atol=1e-11 * base.compliance.max())
     whole = base.compliance.transpose(0, 2, 1, 3).reshape(3 * len(base.known), -1)
-    assert np.linalg.eigvalsh(whole).min() > 0 and np.abs(whole - whole.T).max() < 1e-12 * whole.max()
+    assert (
+        np.linalg.eigvalsh(whole).min() > 0 and np.abs(whole - whole.T).max() < 1e-12 * whole.max()
+    )
 
 
 def test_manual_states_the_frequency_of_the_base_as_it_is():
-    assert f"at {shear_frequency(STEEL, 0.02) / 1e3:.0f} kHz for 20 mm of steel" in (Path(manual.__file__).parent / "theory.md").read_text()
+    assert (
+        f"at {shear_frequency(STEEL, 0.02) / 1e3:.0f} kHz for 20 mm of steel"
+        in (Path(manual.__file__).parent / "theory.md").read_text()
+    )

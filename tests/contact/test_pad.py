@@ -10,7 +10,12 @@ INTERFACE = {"on_pad": True}
 def pad(stiffness: float, relaxation: float, dt: float = 1e-3):
     """One point on a pad: its points and springs in a step, and what it carries before and after."""
     points = node_points(np.zeros((1, 3)), 0.5, springs=np.full((1, 3), stiffness))
-    return points, springs_of(points, INTERFACE | {"relaxation": relaxation}, dt), np.zeros(1, CONTACT), np.zeros(1, CONTACT)
+    return (
+        points,
+        springs_of(points, INTERFACE | {"relaxation": relaxation}, dt),
+        np.zeros(1, CONTACT),
+        np.zeros(1, CONTACT),
+    )
 
 
 @pytest.mark.parametrize("relaxation", [0.0, 2e-4, 1e-2])
@@ -22,10 +27,17 @@ def test_springs_and_dashpots_take_no_more_than_the_forces_give(relaxation):
         after["force"] = 0.1 * force, 0.0, force
         indent(springs, before, after)
         taken.append(dashpot_work(points, springs, before, after))
-        given += float(np.sum(after["force"] * (springs.give * after["force"] + (springs.kept - 1) * before["indentation"])))
+        given += float(
+            np.sum(
+                after["force"]
+                * (springs.give * after["force"] + (springs.kept - 1) * before["indentation"])
+            )
+        )
         before["indentation"] = after["indentation"]
     assert min(taken) > -1e-15 and before["indentation"][0, 2] >= 0
-    assert sum(taken) + 0.5e5 * np.sum(before["indentation"]**2) == pytest.approx(given, rel=1e-12)
+    assert sum(taken) + 0.5e5 * np.sum(before["indentation"] ** 2) == pytest.approx(
+        given, rel=1e-12
+    )
 
 
 def test_force_of_a_step_is_that_of_the_midpoint():

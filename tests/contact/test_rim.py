@@ -15,7 +15,9 @@ def foot(n, radius=0.05, center=(0.3, -0.1), start=0.2):
 
 
 def carriers(rim, angle):
-    """Number of the point at `angle`, how far it is past its node in sectors, carriers (n, 4) among the rim's nodes and their weights (4,)."""
+    """Number of the point at `angle`, how far it is past its node in sectors, carriers (n, 4) among
+    the rim's nodes and their weights (4,).
+    """
     n, offsets, weights = len(rim.nodes), np.empty(4, np.int64), np.empty(4)
     index, phase = on_circle(angle, rim.first, rim.sector, n, offsets, weights)
     return index, phase, rim.nodes[(np.arange(n)[:, None] + offsets) % n], weights
@@ -33,7 +35,9 @@ def test_points_lie_on_the_circle_and_follow_any_rigid_motion(n):
         asked = np.array([0.3, -0.1]) + 0.05 * np.array([np.cos(angle), np.sin(angle)])
         assert places[index, :2] == pytest.approx(asked, abs=1e-12)
         # no farther than half a sector from the node whose place each takes
-        assert np.linalg.norm(places - reference[rim.nodes], axis=1).max() <= 2 * 0.05 * np.sin(np.pi / n / 2) * (1 + 1e-9)
+        assert np.linalg.norm(places - reference[rim.nodes], axis=1).max() <= 2 * 0.05 * np.sin(
+            np.pi / n / 2
+        ) * (1 + 1e-9)
         assert weights.sum() == pytest.approx(1.0, abs=1e-12)
 
 

@@ -7,14 +7,20 @@ from fecolumn.dynamics.assembly import build_system
 from fecolumn.schema import merge
 
 SPECIMEN = "meshes/stout.toml"
-# A wall four times as thick, of bricks of its size: a fourth of the nodes in the foot, a third of the time
+# A wall four times as thick, of bricks of its size: a fourth of the nodes in the foot, a third of
+# the time
 THICK = {"column": {"wall_m": 0.02, "fine_height_m": 0.02}, "mesh": {"fine_size_m": 0.02}}
 
 
 def coarse_case(**sections):
-    tables = merge(read_toml(SPECIMEN), {
-        "column": {"fine_height_m": 0.03}, "base": {"slide_allowance_m": 0.01, "length_m": 0.2, "width_m": 0.2},
-        "mesh": {"coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05}})
+    tables = merge(
+        read_toml(SPECIMEN),
+        {
+            "column": {"fine_height_m": 0.03},
+            "base": {"slide_allowance_m": 0.01, "length_m": 0.2, "width_m": 0.2},
+            "mesh": {"coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05},
+        },
+    )
     return case_from_tables(merge(tables, sections), SPECIMEN)
 
 

@@ -11,10 +11,14 @@ G = 9.80665
 
 
 def block(width, height, dt=1e-3, alpha=0.0, bricks=1, plate=(0.5, 0.5), **options):
-    """System of a steel block of square section: `bricks` along its height, one across; plate: half lengths of the base [m]."""
+    """System of a steel block of square section: `bricks` along its height, one across; plate: half
+    lengths of the base [m].
+    """
     side, deep = np.array([-width / 2, width / 2]), np.linspace(0, height, bricks + 1)
     x, y = (np.linspace(-half, half, 1 + 2 * max(1, round(half / 0.25))) for half in plate)
-    return block_system("corotated", box(side, side, deep), box(x, y, [-0.02, 0]), HHT(dt, alpha), **options)
+    return block_system(
+        "corotated", box(side, side, deep), box(x, y, [-0.02, 0]), HHT(dt, alpha), **options
+    )
 
 
 def trial(engine, system, start, n_modes=30):

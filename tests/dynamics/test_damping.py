@@ -18,13 +18,19 @@ def slender(**options):
 @pytest.mark.parametrize("engine", ["corotated", "reduced"])
 @pytest.mark.parametrize("alpha", [0.0, -0.1])
 def test_the_first_bending_mode_decays_by_2_pi_zeta_a_cycle(engine, alpha):
-    """Released from a shape of the mode, its energy falls by exp(-4 pi zeta) a cycle; HHT's own loss, small at 100 steps a cycle, is booked apart."""
+    """Released from a shape of the mode, its energy falls by exp(-4 pi zeta) a cycle; HHT's own
+    loss, small at 100 steps a cycle, is booked apart.
+    """
     system = slender()
     frequency, shape = system.damping.frequencies[0], system.damping.shapes[0]
     dt, cycles = 2 * np.pi / frequency / 100, 3
     system = slender(dt=dt, alpha=alpha)
     start = 1e-4 * shape / np.abs(shape).max()
-    one = trial(engine, system, lambda system: afloat(system, start, 0 * start, FALL - frequency**2 * start, 0.1))
+    one = trial(
+        engine,
+        system,
+        lambda system: afloat(system, start, 0 * start, FALL - frequency**2 * start, 0.1),
+    )
     begun, first = one.mechanical(), one.energy()["strain"]
     for _ in range(100 * cycles):
         one.step()
@@ -56,12 +62,20 @@ def test_tumbling_in_free_flight_is_not_damped(engine):
 
 
 def test_a_damped_landing_closes_its_ledger_in_both_engines_and_loses_the_same():
-    """A bar that lands on one edge and rings: contact, impact, damping and HHT are booked to the last joule."""
+    """A bar that lands on one edge and rings: contact, impact, damping and HHT are booked to the
+    last joule.
+    """
     losses = []
     for engine in ("corotated", "reduced"):
         system = block(0.02, 0.2, bricks=8, damping_ratio=RATIO, dt=2e-5, alpha=-0.1)
         still = np.zeros_like(system.column.X)
-        one = trial(engine, system, lambda system: afloat(system, still, still + [0.0, 0.0, -0.1], still + [0.0, 0.0, -9.80665], 5e-5))
+        one = trial(
+            engine,
+            system,
+            lambda system: afloat(
+                system, still, still + [0.0, 0.0, -0.1], still + [0.0, 0.0, -9.80665], 5e-5
+            ),
+        )
         first = one.energy()["kinetic"]
         for _ in range(60):
             one.step()

@@ -1,4 +1,7 @@
-"""What must not change the answer: kinematics, and contact law as the penalty grows. Shaken hard enough to rock."""
+"""What must not change the answer: kinematics, and contact law as the penalty grows.
+
+Shaken hard enough to rock.
+"""
 
 import numpy as np
 import pytest
@@ -45,7 +48,12 @@ def test_total_lagrangian_goes_the_same_way(reference):
 def test_penalty_converges_to_augmented_lagrange_with_order_one(reference):
     """Order one in the interface's compliance, h / (k E A), from a tenth of a brick's own on."""
     peak = np.abs(reference[0]).max()
-    off = [np.abs(_shaken(contact={"law": "penalty", "penalty_factor": factor})[0] - reference[0]).max() for factor in (10, 100, 1000)]
+    off = [
+        np.abs(
+            _shaken(contact={"law": "penalty", "penalty_factor": factor})[0] - reference[0]
+        ).max()
+        for factor in (10, 100, 1000)
+    ]
     assert off[0] / off[1] == pytest.approx(10, rel=0.1)
     assert off[1] / off[2] == pytest.approx(10, rel=0.02)
     assert off[2] < 1e-5 * peak

@@ -6,15 +6,16 @@ from coarse_column import coarse_system
 
 from fecolumn.dynamics.energy import Ledger
 from fecolumn.dynamics.gravity import tilted
-from fecolumn.fem.rotation import tilt_angle
 from fecolumn.dynamics.stepper import Stepper
+from fecolumn.fem.rotation import tilt_angle
 
 
 @pytest.mark.parametrize("alpha", [0.0, pytest.param(-0.2, marks=pytest.mark.slow)])
 def test_quarter_period_loss_and_ledger_of_free_rocking(alpha):
     """T/4 = acosh(1 / (1 - th0/al)) / p; loss at the impact near Housner's 1 - r^2.
 
-    At this step it is 0.64 to 1.04 of Housner's, by the moment of the impact within the step (ten tilts from 0.4 to 0.404 of the critical one).
+    At this step it is 0.64 to 1.04 of Housner's, by the moment of the impact within the step (ten
+    tilts from 0.4 to 0.404 of the critical one).
     """
     system = coarse_system(integration={"dt_s": 1e-3, "alpha_hht": alpha})
     column = system.column
@@ -55,6 +56,8 @@ def test_a_column_released_between_nodes_of_its_rim_stays_in_its_plane():
     stepper, across = Stepper(system, ledger), []
     for _ in range(400):
         state = stepper.step(state, np.zeros(3))
-        across.append(state.rotation[1, 2] * np.cos(azimuth) - state.rotation[0, 2] * np.sin(azimuth))
+        across.append(
+            state.rotation[1, 2] * np.cos(azimuth) - state.rotation[0, 2] * np.sin(azimuth)
+        )
     assert np.abs(across).max() < 1e-5
     assert np.isfinite(state.rims["angle"][0])

@@ -14,7 +14,9 @@ def started(engine, system, **initial):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_pushed_puck_slides_v2_over_2_mu_g(engine):
-    one = started(engine, block(0.3, 0.1, friction=0.2, plate=(0.5, 0.25)), velocity_m_s=(0.5, 0.0, 0.0))
+    one = started(
+        engine, block(0.3, 0.1, friction=0.2, plate=(0.5, 0.25)), velocity_m_s=(0.5, 0.0, 0.0)
+    )
     first = centre(one)
     assert one.energy()["kinetic"] == pytest.approx(one.system.column.total_mass * 0.5**2 / 2)
     for _ in range(300):
@@ -22,13 +24,26 @@ def test_a_pushed_puck_slides_v2_over_2_mu_g(engine):
     moved = centre(one) - first
     assert moved[0] == pytest.approx(0.5**2 / (2 * 0.2 * G), rel=1e-3)
     assert abs(moved[1]) < 1e-6
-    assert one.energy()["friction"] == pytest.approx(-one.system.column.total_mass * 0.5**2 / 2, rel=1e-3)
+    assert one.energy()["friction"] == pytest.approx(
+        -one.system.column.total_mass * 0.5**2 / 2, rel=1e-3
+    )
 
 
-@pytest.mark.parametrize("engine, share, towards", [("rigid", 0.98, (0.0, 1.0, 0.0)), ("rigid", 1.02, (0.0, 1.0, 0.0)),
-                                                    ("rigid", 1.02, (-1.0, 0.0, 0.0)), ("corotated", 0.9, (0.0, 1.0, 0.0))])
-def test_a_block_spun_about_its_edge_overturns_beyond_the_energy_of_the_verge(engine, share, towards):
-    """I_O w^2 / 2 = m g (R - h) brings the centre of mass over the edge: w y tips towards +x, w x towards -y."""
+@pytest.mark.parametrize(
+    "engine, share, towards",
+    [
+        ("rigid", 0.98, (0.0, 1.0, 0.0)),
+        ("rigid", 1.02, (0.0, 1.0, 0.0)),
+        ("rigid", 1.02, (-1.0, 0.0, 0.0)),
+        ("corotated", 0.9, (0.0, 1.0, 0.0)),
+    ],
+)
+def test_a_block_spun_about_its_edge_overturns_beyond_the_energy_of_the_verge(
+    engine, share, towards
+):
+    """I_O w^2 / 2 = m g (R - h) brings the centre of mass over the edge: w y tips towards +x, w x
+    towards -y.
+    """
     system = block(0.2, 0.6, friction=0.8, dt=2e-3)
     column, edge, height = system.column, 0.1, 0.3
     inertia = _about_edge(system, edge)
@@ -42,7 +57,11 @@ def test_a_block_spun_about_its_edge_overturns_beyond_the_energy_of_the_verge(en
         tilts.append(np.arcsin(one.state.rotation[:, 2] @ lean))
         if not -0.01 < tilts[-1] < 1.2 * critical:
             break
-    returns = critical - np.arccos(1 - (1 - share**2) * (1 - np.cos(critical))) if share < 1 else 1.2 * critical
+    returns = (
+        critical - np.arccos(1 - (1 - share**2) * (1 - np.cos(critical)))
+        if share < 1
+        else 1.2 * critical
+    )
     assert max(tilts) == pytest.approx(returns, rel=0.03)
 
 
@@ -66,7 +85,9 @@ def test_a_spin_about_the_axis_lasts_without_friction(engine):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_tilted_column_spins_about_the_point_on_which_it_stands(engine):
-    """The velocity of a tilted start is that of its contact point: nothing slips or strikes in the first step."""
+    """The velocity of a tilted start is that of its contact point: nothing slips or strikes in the
+    first step.
+    """
     system = block(0.2, 0.6, friction=0.8)
     one = started(engine, system, tilt_rad=0.1, spin_rad_s=(0.0, -0.5, 0.0))
     at_rest = started(engine, system, tilt_rad=0.1)

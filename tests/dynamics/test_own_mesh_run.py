@@ -20,9 +20,15 @@ from own_meshes import bricks, own_case, tetrahedra, write  # noqa: E402
 def test_tetrahedra_and_bricks_of_one_block_stand_and_vibrate_alike(tmp_path):
     found = []
     for kind, made in (("tetra", tetrahedra), ("hexahedron", bricks)):
-        system = build_system(own_case(write(tmp_path, "own.vtu", kind, *made()), mesh={"element_order": 2}), MPI.COMM_SELF)
+        system = build_system(
+            own_case(write(tmp_path, "own.vtu", kind, *made()), mesh={"element_order": 2}),
+            MPI.COMM_SELF,
+        )
         state = standing(system)
-        assert state.forces[:, 2].sum() == np.float64(system.weight).round(9) or abs(state.forces[:, 2].sum() / system.weight - 1) < 1e-8
+        assert (
+            state.forces[:, 2].sum() == np.float64(system.weight).round(9)
+            or abs(state.forces[:, 2].sum() / system.weight - 1) < 1e-8
+        )
         modes = free_modes(system.column, 8).frequencies
         assert np.abs(modes[:6]).max() < 1e-2
         found.append((system.weight, modes[6]))
@@ -30,14 +36,21 @@ def test_tetrahedra_and_bricks_of_one_block_stand_and_vibrate_alike(tmp_path):
 
 
 def test_fields_of_tetrahedra_open_in_a_reader_of_xdmf(tmp_path):
-    case = own_case(write(tmp_path, "own.vtu", "tetra", *tetrahedra((2, 1, 3))), output={"fields_every_s": 1e-3},
-                    integration={"duration_s": 0.002})
+    case = own_case(
+        write(tmp_path, "own.vtu", "tetra", *tetrahedra((2, 1, 3))),
+        output={"fields_every_s": 1e-3},
+        integration={"duration_s": 0.002},
+    )
     summary = run(case, tmp_path / "run", comm=MPI.COMM_SELF, quiet=True)
     assert summary["steps"] == 2 and not summary["overturned"]
     with meshio.xdmf.TimeSeriesReader(tmp_path / "run" / "fields" / "fields.xdmf") as reader:
         points, blocks = reader.read_points_cells()
         time, at_points, of_cells = reader.read_data(reader.num_steps - 1)
-    assert reader.num_steps == 3 and [block.type for block in blocks] == ["tetra", "hexahedron"] and len(blocks[0].data) == 36
+    assert (
+        reader.num_steps == 3
+        and [block.type for block in blocks] == ["tetra", "hexahedron"]
+        and len(blocks[0].data) == 36
+    )
     assert at_points["displacement [m]"].shape == (len(points), 3)
     with h5py.File(next((tmp_path / "run" / "fields").glob("frame_*2000.h5"))) as frame:
         assert frame["pressure"][:].max() > 0 and np.isfinite(frame["von_mises"][:]).all()

@@ -15,19 +15,27 @@ from fecolumn.verification.trial import afloat
 def test_a_block_dropped_flat_by_9_mm_rebounds_to_e2_of_it(engine, e):
     system = block(0.1, 0.1, dt=2e-4, restitution=e)
     still, fallen = np.zeros_like(system.column.X), np.sqrt(2 * 0.009 / 9.80665)
-    one = trial(engine, system, lambda system: afloat(system, still, still, still + [0.0, 0.0, -9.80665], 0.009))
+    one = trial(
+        engine,
+        system,
+        lambda system: afloat(system, still, still, still + [0.0, 0.0, -9.80665], 0.009),
+    )
     heights = []
     for _ in range(round((1 + e) * fallen / 2e-4)):
         one.step()
         heights.append(centre(one)[2] - 0.05)
     assert heights[-1] == pytest.approx(e**2 * 0.009, rel=0.01)
-    assert one.energy()["impact"] + one.energy()["contact"] == pytest.approx(-(1 - e**2) * 0.009 * system.weight, rel=0.01)
+    assert one.energy()["impact"] + one.energy()["contact"] == pytest.approx(
+        -(1 - e**2) * 0.009 * system.weight, rel=0.01
+    )
     assert abs(one.energy()["closure"]) < 1e-9 * 0.009 * system.weight
 
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_planar_rocking_gets_back_e2_of_what_housner_s_impact_takes(engine):
-    """A plastic impact about the other edge takes 1 - r^2 of the kinetic energy; e of its impulse once more returns e^2 of that."""
+    """A plastic impact about the other edge takes 1 - r^2 of the kinetic energy; e of its impulse
+    once more returns e^2 of that.
+    """
     taken, e = {}, 0.6
     for restitution in (0.0, e):
         system = block(0.2, 0.8, friction=0.8, dt=5e-4, restitution=restitution)
@@ -40,12 +48,16 @@ def test_planar_rocking_gets_back_e2_of_what_housner_s_impact_takes(engine):
     column = system.column
     turn = np.cross([0.0, 1.0, 0.0], column.X - [0.1, 0.0, 0.0])
     housner = 1 - 2 * column.total_mass * 0.1**2 / column.dot(turn, column.momentum(turn))
-    assert taken[e] - taken[0.0] == pytest.approx(e**2 * (1 - housner**2) * was["kinetic"], rel=0.02)
+    assert taken[e] - taken[0.0] == pytest.approx(
+        e**2 * (1 - housner**2) * was["kinetic"], rel=0.02
+    )
 
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_bounces_on_corners_with_friction_never_make_energy(engine):
-    """A tilted, spinning block dropped on a corner, e = 0.9, mu = 0.5: a dozen impacts at one to four corners."""
+    """A tilted, spinning block dropped on a corner, e = 0.9, mu = 0.5: a dozen impacts at one to
+    four corners.
+    """
     system = block(0.1, 0.1, friction=0.5, restitution=0.9)
     arm = system.column.X - system.column.center
     turn = rotation_matrix([0.15, 0.1, 0.3])

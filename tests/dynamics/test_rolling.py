@@ -22,7 +22,9 @@ def started(tilt=0.003):
 
 
 def test_rolling_past_twenty_nodes_loses_what_the_sudden_start_does_and_no_more(tmp_path):
-    """At a tilt of 3 mrad the contact is several nodes wide; a polygon loses 3 % here, the start (m g)^2 C / 2 half as stress."""
+    """At a tilt of 3 mrad the contact is several nodes wide; a polygon loses 3 % here, the start (m
+    g)^2 C / 2 half as stress.
+    """
     system, state, ledger = started()
     stepper, rest = Stepper(system, ledger), np.zeros(3)
     for _ in range(10):
@@ -40,9 +42,16 @@ def test_rolling_past_twenty_nodes_loses_what_the_sudden_start_does_and_no_more(
 
 
 def test_a_stiff_column_passes_upright_at_a_tilt_of_a_tenth_of_a_milliradian_without_loss():
-    """Released from a tenth of its slenderness with a spin across: in steps of 1 ms, the fastest of them made in parts, it loses nothing of Housner's loss."""
+    """Released from a tenth of its slenderness with a spin across: in steps of 1 ms, the fastest of
+    them made in parts, it loses nothing of Housner's loss.
+    """
     stiff, spin = {"youngs_modulus_pa": 2e13}, 1.2e-3
-    system = coarse_system(integration={"dt_s": 1e-3}, contact={"friction_coefficient": 0.8}, material=stiff, base=stiff)
+    system = coarse_system(
+        integration={"dt_s": 1e-3},
+        contact={"friction_coefficient": 0.8},
+        material=stiff,
+        base=stiff,
+    )
     rocking, radius = RigidRocking(system), RollingRim.of(system).radius
     tilt = 0.1 * rocking.slenderness
 
@@ -53,8 +62,12 @@ def test_a_stiff_column_passes_upright_at_a_tilt_of_a_tenth_of_a_milliradian_wit
 
     trial = Trial(system, released)
     steps = round(1.6 * rocking.quarter_period(tilt) / 1e-3)
-    energies, tilts = np.array([(trial.mechanical(), np.hypot(*trial.step().rotation[:2, 2])) for _ in range(steps)]).T
+    energies, tilts = np.array(
+        [(trial.mechanical(), np.hypot(*trial.step().rotation[:2, 2])) for _ in range(steps)]
+    ).T
     assert tilts.min() < 1.2e-4
-    assert abs(energies[steps // 6] - trial.mechanical()) < 0.01 * (1 - rocking.restitution**2) * rocking.energy(tilt)
+    assert abs(energies[steps // 6] - trial.mechanical()) < 0.01 * (
+        1 - rocking.restitution**2
+    ) * rocking.energy(tilt)
     record = trial.stepper.record
     assert record.parts > 0 and record.impacts == 0 and abs(trial.state.time - steps * 1e-3) < 1e-12

@@ -15,8 +15,13 @@ TILT, RESISTANCE = 0.03, 5e-4
 
 
 def wobble(engine, steps):
-    """The trial after `steps` of 1 ms from steady precession, its rim, and the length of rim rolled [m]."""
-    system = coarse_system(integration={"dt_s": 1e-3, "alpha_hht": 0.0}, contact={"friction_coefficient": 0.8, "rolling_resistance": RESISTANCE})
+    """The trial after `steps` of 1 ms from steady precession, its rim, and the length of rim rolled
+    [m].
+    """
+    system = coarse_system(
+        integration={"dt_s": 1e-3, "alpha_hht": 0.0},
+        contact={"friction_coefficient": 0.8, "rolling_resistance": RESISTANCE},
+    )
     rim = RollingRim.of(system)
     one = begin(engine, system, rolling(rim, TILT, rim.untwisted(TILT)))
     angles = []
@@ -39,7 +44,9 @@ def test_a_wobbling_column_loses_the_resistance_times_its_weight_per_length_roll
 
 
 def test_wobbling_decays_as_steady_precession_does():
-    """Quadrature of dE/dt = -c m g R rate(tilt) with E(tilt) of steady precession; the sudden resistance makes it nod a little about that."""
+    """Quadrature of dE/dt = -c m g R rate(tilt) with E(tilt) of steady precession; the sudden
+    resistance makes it nod a little about that.
+    """
     one, rim, _ = wobble("rigid", 800)
     weight = one.system.weight
 
@@ -48,7 +55,9 @@ def test_wobbling_decays_as_steady_precession_does():
 
     def rate(time, tilt):
         slope = (energy(tilt[0] + 1e-5) - energy(tilt[0] - 1e-5)) / 2e-5
-        return [-RESISTANCE * weight * rim.radius * rim.rate(tilt[0], rim.untwisted(tilt[0])) / slope]
+        return [
+            -RESISTANCE * weight * rim.radius * rim.rate(tilt[0], rim.untwisted(tilt[0])) / slope
+        ]
 
     tilt = solve_ivp(rate, (0, one.state.time), [TILT], rtol=1e-9).y[0, -1]
     assert one.energy()["rolling"] == pytest.approx(energy(tilt) - energy(TILT), rel=0.02)
@@ -56,8 +65,13 @@ def test_wobbling_decays_as_steady_precession_does():
 
 
 def test_planar_rocking_does_not_roll():
-    system = coarse_system(integration={"dt_s": 1e-3}, contact={"friction_coefficient": 0.8, "rolling_resistance": RESISTANCE})
+    system = coarse_system(
+        integration={"dt_s": 1e-3},
+        contact={"friction_coefficient": 0.8, "rolling_resistance": RESISTANCE},
+    )
     one = begin("rigid", system, lambda system: tilted(system, 0.03, 0.0))
     for _ in range(300):
         one.step()
-    assert one.energy()["impact"] < 0 and abs(one.energy()["rolling"]) < 1e-3 * abs(one.energy()["impact"])
+    assert one.energy()["impact"] < 0 and abs(one.energy()["rolling"]) < 1e-3 * abs(
+        one.energy()["impact"]
+    )

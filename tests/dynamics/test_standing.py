@@ -26,13 +26,16 @@ def test_standing_column_neither_drifts_nor_gains_energy(dt, alpha):
 
 
 def contracting(ratio):
-    """Proximal steps that move a structure by 1 m times a power of `ratio`: 0.87 is a tube on a pad that tilts under five times its own moment."""
+    """Proximal steps that move a structure by 1 m times a power of `ratio`: 0.87 is a tube on a pad
+    that tilts under five times its own moment.
+    """
     moved = 1.0
 
     def proximal_step():
         nonlocal moved
         moved *= ratio
         return moved
+
     return proximal_step
 
 

@@ -1,4 +1,6 @@
-"""Every kind of column stands, rocks and closes its ledger: solid, without cap, second order, imported, literal HHT."""
+"""Every kind of column stands, rocks and closes its ledger: solid, without cap, second order,
+imported, literal HHT.
+"""
 
 import numpy as np
 import pytest
@@ -19,29 +21,50 @@ SPECIMEN = "meshes/stout.toml"
 def _without_cap():
     tables = read_toml(SPECIMEN)
     del tables["cap"]
-    return case_from_tables(merge(tables, {
-        "column": {"fine_height_m": 0.03}, "base": {"slide_allowance_m": 0.01}, "mesh": {"coarse_size_m": 0.03}}), SPECIMEN)
+    return case_from_tables(
+        merge(
+            tables,
+            {
+                "column": {"fine_height_m": 0.03},
+                "base": {"slide_allowance_m": 0.01},
+                "mesh": {"coarse_size_m": 0.03},
+            },
+        ),
+        SPECIMEN,
+    )
 
 
 def _imported(folder):
     """The coarse column through an Abaqus file written by meshio."""
     import meshio
 
-    mesh = column_mesh(coarse_case(column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.0133}))  # a polygon of true area is wider than the circle
+    mesh = column_mesh(
+        coarse_case(column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.0133})
+    )  # a polygon of true area is wider than the circle
     meshio.Mesh(mesh.points, [("hexahedron", mesh.cells)]).write(folder / "column.inp")
     return coarse_case(column={"mesh_file": str(folder / "column.inp")})
 
 
 CASES = {
-    "solid": lambda folder: coarse_case(column={"wall_m": 0.0508, "fine_height_m": 0.02}, mesh={"fine_size_m": 0.0125, "coarse_size_m": 0.019}),
+    "solid": lambda folder: coarse_case(
+        column={"wall_m": 0.0508, "fine_height_m": 0.02},
+        mesh={"fine_size_m": 0.0125, "coarse_size_m": 0.019},
+    ),
     "no cap": lambda folder: _without_cap(),
-    "order 2": lambda folder: coarse_case(mesh={"element_order": 2, "coarse_size_m": 0.03}, column={"fine_height_m": 0.0}),
+    "order 2": lambda folder: coarse_case(
+        mesh={"element_order": 2, "coarse_size_m": 0.03}, column={"fine_height_m": 0.0}
+    ),
     "imported": _imported,
-    "all fine": lambda folder: coarse_case(column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.02}),
+    "all fine": lambda folder: coarse_case(
+        column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.02}
+    ),
 }
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name == "order 2" else name for name in CASES])
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow) if name == "order 2" else name for name in CASES],
+)
 def test_stands_still_and_rocks_without_creating_energy(name, tmp_path):
     system = build_system(CASES[name](tmp_path), MPI.COMM_SELF)
     state = start = standing(system)

@@ -1,4 +1,6 @@
-"""The form compiler: killed at any moment while it compiles for the first time, the next process goes on as if it had not been."""
+"""The form compiler: killed at any moment while it compiles for the first time, the next process
+goes on as if it had not been.
+"""
 
 import os
 import random
@@ -24,18 +26,34 @@ print("mass", sum(mass.getRow(row)[1].sum() for row in range(24)))
 
 
 def _start(cache):
-    process = subprocess.Popen([sys.executable, "-c", FIRST_USE], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               env=os.environ | {"XDG_CACHE_HOME": str(cache)}, start_new_session=True)
+    process = subprocess.Popen(
+        [sys.executable, "-c", FIRST_USE],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"XDG_CACHE_HOME": str(cache)},
+        start_new_session=True,
+    )
     assert process.stdout.readline() == "begins\n", process.stderr.read()
     return process
 
 
 def _whole(cache):
-    process = subprocess.run([sys.executable, "-c", FIRST_USE], capture_output=True, text=True, timeout=300, env=os.environ | {"XDG_CACHE_HOME": str(cache)})
+    process = subprocess.run(
+        [sys.executable, "-c", FIRST_USE],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        env=os.environ | {"XDG_CACHE_HOME": str(cache)},
+    )
     assert process.returncode == 0, process.stderr
-    assert float(process.stdout.split()[-1]) == pytest.approx(3.0)  # a cube of unit density, along three axes
+    assert float(process.stdout.split()[-1]) == pytest.approx(
+        3.0
+    )  # a cube of unit density, along three axes
     kept = sorted(file.name for file in (cache / "fenics").iterdir())
-    assert sum(name.endswith(".so") for name in kept) and not [name for name in kept if name.startswith(".")]  # neither locks nor unfinished folders are left
+    assert sum(name.endswith(".so") for name in kept) and not [
+        name for name in kept if name.startswith(".")
+    ]  # neither locks nor unfinished folders are left
 
 
 def _killed(cache, times, seed):
@@ -64,19 +82,34 @@ def test_killed_fifty_times_while_it_compiles_the_next_process_compiles_again(tm
 def test_what_a_killed_compiler_of_other_programs_left_is_made_again(tmp_path):
     _whole(tmp_path)
     for file in (tmp_path / "fenics").iterdir():
-        if not file.name.endswith(".c"):  # the lock of ffcx itself, and no sign that its module is ready
+        if not file.name.endswith(
+            ".c"
+        ):  # the lock of ffcx itself, and no sign that its module is ready
             file.unlink()
     _whole(tmp_path)
 
 
 def test_processes_that_start_at_once_compile_once_and_all_go_on(tmp_path):
     processes = [_start(tmp_path) for _ in range(3)]
-    assert all(process.communicate(timeout=300) and process.returncode == 0 for process in processes)
+    assert all(
+        process.communicate(timeout=300) and process.returncode == 0 for process in processes
+    )
     _whole(tmp_path)
 
 
 def test_error_of_the_compiler_is_told_and_the_next_process_tries_again(tmp_path):
     environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path), "CC": "false"}
-    failed = subprocess.run([sys.executable, "-c", FIRST_USE], capture_output=True, text=True, env=environment, timeout=300)
-    assert failed.returncode and "false" in failed.stderr and "timed out" not in failed.stderr and "No such file" not in failed.stderr
+    failed = subprocess.run(
+        [sys.executable, "-c", FIRST_USE],
+        capture_output=True,
+        text=True,
+        env=environment,
+        timeout=300,
+    )
+    assert (
+        failed.returncode
+        and "false" in failed.stderr
+        and "timed out" not in failed.stderr
+        and "No such file" not in failed.stderr
+    )
     _whole(tmp_path)

@@ -1,4 +1,6 @@
-"""Static response of a free body against all modes of a small mesh, found densely: tall and soft, short and stiff."""
+"""Static response of a free body against all modes of a small mesh, found densely: tall and soft,
+short and stiff.
+"""
 
 import numpy as np
 import pytest
@@ -25,7 +27,9 @@ BARS = {
 
 @pytest.fixture(scope="module", params=BARS, ids=str)
 def bar(request):
-    """A bar of six bricks of second order, its eigenvalues [1/s2] and modes (3 n, 3 n) of unit modal mass, and its frequency [Hz]."""
+    """A bar of six bricks of second order, its eigenvalues [1/s2] and modes (3 n, 3 n) of unit
+    modal mass, and its frequency [Hz].
+    """
     width, height, material, frequency = BARS[request.param]
     side = np.array([-width / 2, width / 2])
     body = Body(MPI.COMM_SELF, box(side, side, np.linspace(0, height, 7)), material, order=2)
@@ -35,7 +39,9 @@ def bar(request):
 
 
 def _compliance(body, values, modes):
-    """Displacements (3 n, 3) of a body under unit forces at a corner, by FreeBody and as the sum over all elastic modes [m/N]."""
+    """Displacements (3 n, 3) of a body under unit forces at a corner, by FreeBody and as the sum
+    over all elastic modes [m/N].
+    """
     loads = np.zeros((3 * body.n_owned, 3))
     loads[3 * np.argmin(body.X.sum(axis=1)) + np.arange(3), np.arange(3)] = 1.0
     elastic = modes[:, 6:]

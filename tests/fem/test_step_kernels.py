@@ -1,4 +1,6 @@
-"""What every step of the full-order engine asks for, against plain formulas: nearest rotation, momentum, solution of one load."""
+"""What every step of the full-order engine asks for, against plain formulas: nearest rotation,
+momentum, solution of one load.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,14 @@ def tied_body():
     from fecolumn.case import case_from_tables
     from fecolumn.dynamics.assembly import column_body, share_specimen_mesh
 
-    case = case_from_tables({"column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.3}, "cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.02}, "mesh": {"coarse_size_m": 0.035, "cap_size_m": 0.05}}, "case")
+    case = case_from_tables(
+        {
+            "column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.3},
+            "cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.02},
+            "mesh": {"coarse_size_m": 0.035, "cap_size_m": 0.05},
+        },
+        "case",
+    )
     return column_body(case, share_specimen_mesh(case, MPI.COMM_SELF), MPI.COMM_SELF)
 
 
@@ -60,9 +69,15 @@ def test_one_load_and_many_at_once_have_the_same_solution_and_leave_no_residual(
 
     hht = HHT(1e-3, -0.2)
     factor = effective_factor(tied_body, hht.mass_factor, hht.stiffness_factor)
-    loads = tied_body.apply(tied_body.mass, np.random.default_rng(6).normal(size=(tied_body.n_owned, 3)))
+    loads = tied_body.apply(
+        tied_body.mass, np.random.default_rng(6).normal(size=(tied_body.n_owned, 3))
+    )
     solution = factor.solve(loads)
-    residual = hht.mass_factor * tied_body.momentum(solution) + hht.stiffness_factor * tied_body.apply(tied_body.stiffness, solution) - loads
+    residual = (
+        hht.mass_factor * tied_body.momentum(solution)
+        + hht.stiffness_factor * tied_body.apply(tied_body.stiffness, solution)
+        - loads
+    )
     assert np.abs(residual).max() < 1e-9 * np.abs(loads).max()
     both = factor.solve(np.stack([loads, -2 * loads]))
     assert both[0] == pytest.approx(solution, abs=1e-12 * np.abs(solution).max())
@@ -70,13 +85,24 @@ def test_one_load_and_many_at_once_have_the_same_solution_and_leave_no_residual(
 
 
 def test_a_tangent_that_is_not_definite_is_factored_too(tied_body):
-    """As that of a strained body, where an iteration is far from its answer: K less as much inertia as its lowest elastic modes have."""
+    """As that of a strained body, where an iteration is far from its answer: K less as much inertia
+    as its lowest elastic modes have.
+    """
     from fecolumn.fem.effective import effective_factor
     from fecolumn.fem.modes import free_modes
 
     between = -np.mean((2 * np.pi * free_modes(tied_body, 9).frequencies[6:9]) ** 2)
     factor = effective_factor(tied_body, between, 1.0, tied_body.stiffness)
-    loads = tied_body.apply(tied_body.mass, np.random.default_rng(7).normal(size=(tied_body.n_owned, 3)))
-    for solution, load in ((factor.solve(loads), loads), (factor.solve(np.stack([loads, -loads]))[1], -loads)):
-        residual = between * tied_body.momentum(solution) + tied_body.apply(tied_body.stiffness, solution) - load
+    loads = tied_body.apply(
+        tied_body.mass, np.random.default_rng(7).normal(size=(tied_body.n_owned, 3))
+    )
+    for solution, load in (
+        (factor.solve(loads), loads),
+        (factor.solve(np.stack([loads, -loads]))[1], -loads),
+    ):
+        residual = (
+            between * tied_body.momentum(solution)
+            + tied_body.apply(tied_body.stiffness, solution)
+            - load
+        )
         assert np.abs(residual).max() < 1e-9 * np.abs(load).max()

@@ -1,4 +1,6 @@
-"""The algorithm page names what the code has: its tolerances with their values, its functions, its figure."""
+"""The algorithm page names what the code has: its tolerances with their values, its functions, its
+figure.
+"""
 
 import importlib
 import re
@@ -13,16 +15,29 @@ VALUES = {name: value for name, value in vars(tolerances).items() if name.isuppe
 
 
 def test_the_table_of_tolerances_has_every_name_with_its_value_and_no_other():
-    told = {name: tuple(map(float, value.split(", "))) for name, value in listed("algorithm", "8. Tolerances").items()}
-    assert told == {name: value if isinstance(value, tuple) else (value,) for name, value in VALUES.items()}
+    told = {
+        name: tuple(map(float, value.split(", ")))
+        for name, value in listed("algorithm", "8. Tolerances").items()
+    }
+    assert told == {
+        name: value if isinstance(value, tuple) else (value,) for name, value in VALUES.items()
+    }
 
 
 def test_every_tolerance_has_a_scale_a_meaning_and_an_origin():
-    rows = [row.strip("|").split("|") for row in re.findall(r"^\| `[A-Z_]+` \|.*\|$", TEXT, re.MULTILINE)]
-    assert len(rows) == len(VALUES) and all(len(row) == 5 and all(cell.strip() for cell in row) for row in rows)
+    rows = [
+        row.strip("|").split("|")
+        for row in re.findall(r"^\| `[A-Z_]+` \|.*\|$", TEXT, re.MULTILINE)
+    ]
+    assert len(rows) == len(VALUES) and all(
+        len(row) == 5 and all(cell.strip() for cell in row) for row in rows
+    )
 
 
-@pytest.mark.parametrize("place", sorted(set(re.findall(r"`((?:contact|dynamics|fem|reduced)\.[a-z_]+(?:\.\w+)*)`", TEXT))))
+@pytest.mark.parametrize(
+    "place",
+    sorted(set(re.findall(r"`((?:contact|dynamics|fem|reduced)\.[a-z_]+(?:\.\w+)*)`", TEXT))),
+)
 def test_every_function_it_names_exists(place):
     folder, module, *names = place.split(".")
     found = importlib.import_module(f"fecolumn.{folder}.{module}")

@@ -1,4 +1,6 @@
-"""Every command in README and manual is understood, and those of a walk through a page run, at small size, in its order."""
+"""Every command in README and manual is understood, and those of a walk through a page run, at
+small size, in its order.
+"""
 
 import importlib.util
 import os
@@ -15,8 +17,18 @@ from fecolumn.cli import _parser, main
 from fecolumn.schema import merge, read_toml
 
 SHELLS = ("sh", "slurm")
-COMMANDS = [(page, command) for page in PAGES for block in blocks(page) if block.language in SHELLS for command in block.commands]
-RUNNING = [page for page in PAGES if any(block.language in ("sh", "python") and not block.mark for block in blocks(page))]
+COMMANDS = [
+    (page, command)
+    for page in PAGES
+    for block in blocks(page)
+    if block.language in SHELLS
+    for command in block.commands
+]
+RUNNING = [
+    page
+    for page in PAGES
+    if any(block.language in ("sh", "python") and not block.mark for block in blocks(page))
+]
 # What stands for a number in a job array
 VARIABLES = {"$SLURM_ARRAY_TASK_ID": "7"}
 # Programs outside of this package whose commands are read by the shell alone
@@ -66,8 +78,15 @@ def test_every_fenced_block_has_a_language_that_is_tested():
         assert not any(fences[1::2]), page
 
 
-# the examples are seven analyses and two studies, a minute and a half; the first steps are a minute, and most of them are the README's, too
-@pytest.mark.parametrize("page", [pytest.param(page, marks=pytest.mark.slow) if page in ("examples", "quick-start") else page for page in RUNNING])
+# the examples are seven analyses and two studies, a minute and a half; the first steps are a
+# minute, and most of them are the README's, too
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, marks=pytest.mark.slow) if page in ("examples", "quick-start") else page
+        for page in RUNNING
+    ],
+)
 def test_a_page_runs_from_top_to_bottom_at_small_size(page, tmp_path, monkeypatch):
     walk(page, tmp_path, monkeypatch, small=True)
 
@@ -118,7 +137,9 @@ def run(command, small):
 
 
 def shrink(path):
-    """Make a case or a study small: two motions, a fiftieth of a second, coarse bricks; its own text stays beside it and is extended."""
+    """Make a case or a study small: two motions, a fiftieth of a second, coarse bricks; its own
+    text stays beside it and is extended.
+    """
     text = open(path).read()
     tables = tomllib.loads(text)
     folder, name = os.path.split(path)
@@ -130,9 +151,16 @@ def shrink(path):
         with open(own, "w") as file:
             file.write(text)
         case = tables["case"]
-        change = "" if isinstance(case, str) else f"[case.integration]\nduration_s = 0.02\n{coarse(whole(case, folder), 'case.mesh')}"
+        change = (
+            ""
+            if isinstance(case, str)
+            else "[case.integration]\nduration_s = "
+            f"0.02\n{coarse(whole(case, folder), 'case.mesh')}"
+        )
     else:
-        modes = "n_modes = 3\n" if "column" in tables or "extends" in tables else ""  # rocking models have none
+        modes = (
+            "n_modes = 3\n" if "column" in tables or "extends" in tables else ""
+        )  # rocking models have none
         change = f"[integration]\nduration_s = 0.02\n{modes}{coarse(whole(tables, folder), 'mesh')}"
     with open(path, "w") as file:
         file.write(f'extends = "whole-{name}"\n{change}')
@@ -140,7 +168,11 @@ def shrink(path):
 
 def whole(tables, folder) -> dict:
     """Tables of a case with those of the file that it extends."""
-    return merge(read_toml(os.path.join(folder, tables["extends"])), tables) if "extends" in tables else tables
+    return (
+        merge(read_toml(os.path.join(folder, tables["extends"])), tables)
+        if "extends" in tables
+        else tables
+    )
 
 
 def coarse(tables, section) -> str:
@@ -149,7 +181,16 @@ def coarse(tables, section) -> str:
     if column.get("mesh_file") or not column:
         return ""
     if column.get("shape", "tube") == "tube":
-        fine, around = column["wall_m"], 3.1416 * (column["outer_diameter_m"] - column["wall_m"]) / 8.1
-        return f"[{section}]\nfine_size_m = {fine}\ncoarse_size_m = {around}\ncap_size_m = {around}\nbase_size_m = {around}\n"
+        fine, around = (
+            column["wall_m"],
+            3.1416 * (column["outer_diameter_m"] - column["wall_m"]) / 8.1,
+        )
+        return (
+            f"[{section}]\nfine_size_m = {fine}\ncoarse_size_m = {around}\ncap_size_m = "
+            f"{around}\nbase_size_m = {around}\n"
+        )
     side = column.get("outer_diameter_m") or column["width_m"]
-    return f"[{section}]\nfine_size_m = {side / 6}\ncoarse_size_m = {side / 4}\nbase_size_m = {side / 4}\n"
+    return (
+        f"[{section}]\nfine_size_m = {side / 6}\ncoarse_size_m = {side / 4}\nbase_size_m = "
+        f"{side / 4}\n"
+    )

@@ -1,4 +1,6 @@
-"""The manual lists what is really written: datasets, entries and columns, with their units, all of them and no others."""
+"""The manual lists what is really written: datasets, entries and columns, with their units, all of
+them and no others.
+"""
 
 import csv
 import io
@@ -25,7 +27,6 @@ from fecolumn.simulation import run  # noqa: E402
 from fecolumn.study.plan import read_plan  # noqa: E402
 from fecolumn.study.run import run_study  # noqa: E402
 from fecolumn.study.table import write_tables  # noqa: E402
-
 
 BLOCK = """
 [column]
@@ -61,7 +62,11 @@ def analysis(tmp_path_factory):
 def test_every_dataset_of_a_history_with_its_unit(analysis):
     found = {}
     with h5py.File(analysis / "history.h5") as file:
-        file.visititems(lambda name, item: found.update({name: item.attrs["unit"]}) if isinstance(item, h5py.Dataset) else None)
+        file.visititems(
+            lambda name, item: (
+                found.update({name: item.attrs["unit"]}) if isinstance(item, h5py.Dataset) else None
+            )
+        )
     assert listed("outputs", "history.h5") == found
 
 
@@ -73,43 +78,81 @@ def test_every_dataset_of_the_states_with_its_unit(analysis):
 def test_every_dataset_of_the_states_of_a_structure_with_its_unit(tmp_path):
     run(structure(**stack(integration={"duration_s": 0.01})), tmp_path / "out", quiet=True)
     with h5py.File(tmp_path / "out" / "states.h5") as file:
-        assert listed("outputs", "states.h5") | listed("outputs", "states.h5 of a structure") == {name: file[name].attrs["unit"] for name in file}
+        assert listed("outputs", "states.h5") | listed("outputs", "states.h5 of a structure") == {
+            name: file[name].attrs["unit"] for name in file
+        }
 
 
 def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_path):
     """Of bodies, joints, marks, storeys and links the name is left out."""
-    building = dict(kind="storeys", length_m=0.6, width_m=0.6, thickness_m=0.1, mass_kg=500.0, floors=1, floor_masses_kg=[100.0], storey_heights_m=[1.0], period_s=0.2, at_m=[0, 0, 0.4])
+    building = dict(
+        kind="storeys",
+        length_m=0.6,
+        width_m=0.6,
+        thickness_m=0.1,
+        mass_kg=500.0,
+        floors=1,
+        floor_masses_kg=[100.0],
+        storey_heights_m=[1.0],
+        period_s=0.2,
+        at_m=[0, 0, 0.4],
+    )
     block = dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.4, element_size_m=0.3)
     tie = dict(kind="spring", body="lower", to_point_m=[1, 0, 0], stiffness_n_m=1e3)
-    case = structure(bodies=dict(lower=block, upper=building), interfaces=dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")), links=dict(tie=tie),
-                     integration=dict(duration_s=0.01))
+    case = structure(
+        bodies=dict(lower=block, upper=building),
+        interfaces=dict(
+            foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")
+        ),
+        links=dict(tie=tie),
+        integration=dict(duration_s=0.01),
+    )
     summary, found = run(case, tmp_path / "out", quiet=True), {}
 
     def take(name, item):
         kind, _, rest = name.partition("/")
         if isinstance(item, h5py.Dataset):
-            found[f"{kind}/NAME/{rest.rpartition('/')[2]}" if kind in ("body", "interface", "mark", "storey", "link") else name] = item.attrs["unit"]
+            found[
+                f"{kind}/NAME/{rest.rpartition('/')[2]}"
+                if kind in ("body", "interface", "mark", "storey", "link")
+                else name
+            ] = item.attrs["unit"]
 
     with h5py.File(tmp_path / "out" / "history.h5") as file:
         file.visititems(take)
     assert listed("outputs", "history.h5") | listed("outputs", "history.h5 of a structure") == found
-    entries = {name: next(iter(parts.values())) for name, parts in summary.items() if name in ("bodies", "interfaces", "storeys", "links")}
+    entries = {
+        name: next(iter(parts.values()))
+        for name, parts in summary.items()
+        if name in ("bodies", "interfaces", "storeys", "links")
+    }
     assert set(listed("outputs", "summary.json")) | set(entries) == set(summary)
-    assert set(listed("outputs", "summary.json of a structure")) == set(entries) | {f"{name}.{entry}" for name, entry in ((name, entry) for name in entries for entry in entries[name])}
+    assert set(listed("outputs", "summary.json of a structure")) == set(entries) | {
+        f"{name}.{entry}"
+        for name, entry in ((name, entry) for name in entries for entry in entries[name])
+    }
 
 
 def test_every_entry_of_a_comparison_of_two_analyses(analysis, tmp_path):
     assert main(["compare", str(analysis), str(analysis), "-o", str(tmp_path / "out")]) == 0
-    assert set(listed("outputs", "comparison.json")) == set(json.loads((tmp_path / "out" / "comparison.json").read_text()))
+    assert set(listed("outputs", "comparison.json")) == set(
+        json.loads((tmp_path / "out" / "comparison.json").read_text())
+    )
 
 
 def test_every_entry_of_a_summary(analysis):
-    assert set(listed("outputs", "summary.json")) == set(json.loads((analysis / "summary.json").read_text()))
+    assert set(listed("outputs", "summary.json")) == set(
+        json.loads((analysis / "summary.json").read_text())
+    )
 
 
 def test_every_column_of_a_studys_tables(tmp_path):
     plan = read_plan(write_study(tmp_path, pulses=range(2)))
-    write_tables(plan, run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO()), tmp_path / "out")
+    write_tables(
+        plan,
+        run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO()),
+        tmp_path / "out",
+    )
     for name in ("table.csv", "analyses.csv", "timing.csv"):
         columns = [column for column in header(tmp_path / "out" / name) if column not in plan.axes]
         assert list(listed("outputs", name)) == columns, name
@@ -117,9 +160,22 @@ def test_every_column_of_a_studys_tables(tmp_path):
 
 def test_every_quantity_of_a_comparison(tmp_path):
     for name, factor in (("a", 1.0), ("b", 1.1)):
-        rows = "".join(f"{number},{factor * (5 + number)},{int(number == 7)}\n" for number in range(8))
+        rows = "".join(
+            f"{number},{factor * (5 + number)},{int(number == 7)}\n" for number in range(8)
+        )
         (tmp_path / f"{name}.csv").write_text("motion,u_max_mm,overturned\n" + rows)
-    assert main(["compare", str(tmp_path / "a.csv"), str(tmp_path / "b.csv"), "-o", str(tmp_path / "out")]) == 0
+    assert (
+        main(
+            [
+                "compare",
+                str(tmp_path / "a.csv"),
+                str(tmp_path / "b.csv"),
+                "-o",
+                str(tmp_path / "out"),
+            ]
+        )
+        == 0
+    )
     with open(tmp_path / "out" / "comparison.csv", newline="") as file:
         assert list(listed("outputs", "comparison.csv")) == [row[0] for row in csv.reader(file)][1:]
     assert list(listed("outputs", "pairs.csv")) == header(tmp_path / "out" / "pairs.csv")
@@ -127,16 +183,31 @@ def test_every_quantity_of_a_comparison(tmp_path):
 
 def test_every_column_of_an_ensemble(tmp_path):
     assert main(["motions", "make", "seeded", "-n", "2", "-o", str(tmp_path / "two.h5")]) == 0
-    columns = [column for column in header(tmp_path / "two.csv") if not column.startswith("parameter_")]
+    columns = [
+        column for column in header(tmp_path / "two.csv") if not column.startswith("parameter_")
+    ]
     assert list(listed("outputs", "ENSEMBLE.csv")) == columns
 
 
 def test_every_column_of_a_reports_tables(tmp_path):
     axes = {"integration.dt_s": [0.02, 1e-3], "integration.alpha_hht": [0, -0.2]}
-    page = write_report(write_synthetic(tmp_path, axes, 12, fails=(3,), sources=[f"lick:{number}" for number in range(1, 13)]), files=())
-    told = dict(re.findall(r"^\| `(\w+)\.csv` \| (.*) \|$", PAGES["outputs"].read_text().partition("### tables")[2], re.MULTILINE))
+    page = write_report(
+        write_synthetic(
+            tmp_path, axes, 12, fails=(3,), sources=[f"lick:{number}" for number in range(1, 13)]
+        ),
+        files=(),
+    )
+    told = dict(
+        re.findall(
+            r"^\| `(\w+)\.csv` \| (.*) \|$",
+            PAGES["outputs"].read_text().partition("### tables")[2],
+            re.MULTILINE,
+        )
+    )
     for table in sorted(Path(page.parent / "tables").glob("*.csv")):
         assert table.stem in told, f"{table.name} is not in the manual"
         for column in set(header(table)) - set(axes) - {"motion.source"}:
             borrowed = table.stem == "p_overturn" and column in listed("outputs", "table.csv")
-            assert borrowed or re.search(rf"\b{column}\b", told[table.stem]), f"{table.name}: {column}"
+            assert borrowed or re.search(rf"\b{column}\b", told[table.stem]), (
+                f"{table.name}: {column}"
+            )

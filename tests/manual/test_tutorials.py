@@ -15,7 +15,11 @@ TUTORIALS = sorted((ROOT / "fecolumn" / "manual" / "tutorials").glob("*.py"))
 def test_tutorial_is_cells_of_python(tutorial):
     text = tutorial.read_text(encoding="utf-8")
     compile(text, str(tutorial), "exec")
-    assert text.startswith("# ---\n# jupyter:") and text.count("\n# %%") > 5 and len(code_cells(text)) > 5
+    assert (
+        text.startswith("# ---\n# jupyter:")
+        and text.count("\n# %%") > 5
+        and len(code_cells(text)) > 5
+    )
 
 
 @pytest.mark.slow
@@ -23,10 +27,23 @@ def test_tutorial_is_cells_of_python(tutorial):
 @pytest.mark.parametrize("tutorial", TUTORIALS, ids=lambda path: path.stem)
 def test_tutorial_runs_cell_by_cell_and_shows_tables_and_figures(tutorial, tmp_path):
     path = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
-    done = subprocess.run([sys.executable, str(ROOT / "tests" / "manual" / "cells.py"), str(tutorial), "shown"], cwd=tmp_path, env={**os.environ, "PYTHONPATH": path},
-                          capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, str(ROOT / "tests" / "manual" / "cells.py"), str(tutorial), "shown"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+    )
     assert done.returncode == 0, done.stderr[-2000:]
     assert "Traceback" not in done.stderr and list((tmp_path / "results").rglob("cdf.png"))
-    tables, figures = list((tmp_path / "shown").glob("*.html")), list((tmp_path / "shown").glob("*.png"))
-    assert tables and all("analyses done" in file.read_text() or "<table>" in file.read_text() for file in tables)
-    assert figures and all(file.read_bytes().startswith(b"\x89PNG") and file.stat().st_size > 10_000 for file in figures)
+    tables, figures = (
+        list((tmp_path / "shown").glob("*.html")),
+        list((tmp_path / "shown").glob("*.png")),
+    )
+    assert tables and all(
+        "analyses done" in file.read_text() or "<table>" in file.read_text() for file in tables
+    )
+    assert figures and all(
+        file.read_bytes().startswith(b"\x89PNG") and file.stat().st_size > 10_000
+        for file in figures
+    )

@@ -14,7 +14,9 @@ TABLES = {
 
 
 def small_case(cap=True, **keys):
-    """Case of TABLES; `column_wall_m=0.05` sets the key wall_m of the table column, `cap=False` leaves the cap out."""
+    """Case of TABLES; `column_wall_m=0.05` sets the key wall_m of the table column, `cap=False`
+    leaves the cap out.
+    """
     tables = copy.deepcopy(TABLES)
     for name, value in keys.items():
         table, _, key = name.partition("_")

@@ -34,12 +34,24 @@ ODD_CASES = {
     "base no larger than the fine zone": {"base_length_m": 0.14, "base_width_m": 0.1400001},
     "base thinner than a brick": {"base_thickness_m": 0.002},
     "one size everywhere": {"mesh_coarse_size_m": 0.01, "mesh_base_size_m": 0.01},
-    "odd numbers": {"column_wall_m": 0.0137, "column_height_m": 0.2777, "mesh_fine_size_m": 0.0061, "mesh_coarse_size_m": 0.0193},
-    "solid with odd numbers": {"column_wall_m": 0.05, "mesh_fine_size_m": 0.0083, "mesh_coarse_size_m": 0.0177},
+    "odd numbers": {
+        "column_wall_m": 0.0137,
+        "column_height_m": 0.2777,
+        "mesh_fine_size_m": 0.0061,
+        "mesh_coarse_size_m": 0.0193,
+    },
+    "solid with odd numbers": {
+        "column_wall_m": 0.05,
+        "mesh_fine_size_m": 0.0083,
+        "mesh_coarse_size_m": 0.0177,
+    },
 }
 
 
-BLOCK = {"column": {"shape": "block", "length_m": 0.4, "width_m": 0.2, "height_m": 1.2}, "integration": {"duration_s": 1.0}}
+BLOCK = {
+    "column": {"shape": "block", "length_m": 0.4, "width_m": 0.2, "height_m": 1.2},
+    "integration": {"duration_s": 1.0},
+}
 
 
 @pytest.mark.parametrize("keys", ODD_CASES.values(), ids=ODD_CASES)
@@ -52,24 +64,39 @@ def test_every_brick_of_any_specimen_has_positive_volume_at_each_corner(keys):
     z = specimen.body.points[:, 2]
     assert z.min() == 0 and z.max() == pytest.approx(case.top_m, rel=1e-14)
     assert np.ptp(specimen.base.points, axis=0) == pytest.approx(
-        [case.base.length_m, case.base.width_m, case.base.thickness_m], rel=1e-14)
+        [case.base.length_m, case.base.width_m, case.base.thickness_m], rel=1e-14
+    )
     assert np.all(specimen.body.points[specimen.foot_nodes, 2] == 0)
     assert specimen.base.points[:, 2].max() == 0
 
 
-@pytest.mark.parametrize("keys", [{}, {"column_wall_m": 0.05, "mesh_coarse_size_m": 0.018}], ids=["tube", "solid"])
+@pytest.mark.parametrize(
+    "keys", [{}, {"column_wall_m": 0.05, "mesh_coarse_size_m": 0.018}], ids=["tube", "solid"]
+)
 def test_the_rim_of_the_foot_lies_on_the_true_circle(keys):
     specimen = specimen_mesh(small_case(**keys))
     rim = Rim.find(specimen.body.points[specimen.foot_nodes])
     assert rim.radius == pytest.approx(0.05, rel=1e-14)
 
 
-@pytest.mark.parametrize("keys", [{}, {"column_fine_height_m": 0.0, "mesh_coarse_size_m": 0.018}, {"column_fine_height_m": 0.3}, {"column_fine_height_m": 0.01},
-                                  {"column_wall_m": 0.05, "mesh_coarse_size_m": 0.018}], ids=["tube", "all coarse", "all fine", "one fine layer", "solid"])
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {},
+        {"column_fine_height_m": 0.0, "mesh_coarse_size_m": 0.018},
+        {"column_fine_height_m": 0.3},
+        {"column_fine_height_m": 0.01},
+        {"column_wall_m": 0.05, "mesh_coarse_size_m": 0.018},
+    ],
+    ids=["tube", "all coarse", "all fine", "one fine layer", "solid"],
+)
 def test_a_coarse_column_has_the_weight_of_the_true_one(keys):
     """Polygons of the true area: inscribed ones of 8 corners are a tenth too light."""
     case = small_case(**keys)
-    found, exact = mass_properties(specimen_mesh(case).body, 7850.0), exact_column(case) + exact_cap(case)
+    found, exact = (
+        mass_properties(specimen_mesh(case).body, 7850.0),
+        exact_column(case) + exact_cap(case),
+    )
     assert found.mass == pytest.approx(exact.mass, rel=1e-3)
     assert found.centre[2] == pytest.approx(exact.centre[2], rel=1e-3)
     assert np.diag(found.inertia) == pytest.approx(np.diag(exact.inertia), rel=3e-3)
@@ -77,10 +104,16 @@ def test_a_coarse_column_has_the_weight_of_the_true_one(keys):
 
 @pytest.mark.parametrize("keys", [{}, {"inner_diameter_m": 0.06}], ids=["full", "with a hole"])
 def test_a_flange_carries_the_column_and_weighs_what_it_should(keys):
-    case = case_from_tables(TABLES | {"flange": {"outer_diameter_m": 0.16, "thickness_m": 0.012} | keys}, "flange.toml")
+    case = case_from_tables(
+        TABLES | {"flange": {"outer_diameter_m": 0.16, "thickness_m": 0.012} | keys}, "flange.toml"
+    )
     specimen = specimen_mesh(case)
     body, exact = specimen.body, exact_flange(case) + exact_column(case) + exact_cap(case)
-    assert [(one.slave_part, one.master_part) for one in specimen.ties] == [(LOWER, FLANGE), (LOWER, UPPER), (UPPER, CAP)]
+    assert [(one.slave_part, one.master_part) for one in specimen.ties] == [
+        (LOWER, FLANGE),
+        (LOWER, UPPER),
+        (UPPER, CAP),
+    ]
     assert mass_properties(body, 7850.0).mass == pytest.approx(exact.mass, rel=1e-3)
     assert body.points[:, 2].max() == pytest.approx(case.top_m, rel=1e-14)
     assert np.hypot(*body.points[specimen.foot_nodes, :2].T).max() == pytest.approx(0.08, rel=1e-14)
@@ -91,7 +124,9 @@ def test_a_block_has_its_own_sides_and_finer_bricks_below():
     specimen = specimen_mesh(case)
     assert np.ptp(specimen.body.points, axis=0) == pytest.approx([0.4, 0.2, 1.2], rel=1e-14)
     found, exact = mass_properties(specimen.body, 7850.0), exact_column(case)
-    assert found.mass == pytest.approx(0.4 * 0.2 * 1.2 * 7850, rel=1e-12) and found.inertia == pytest.approx(exact.inertia, rel=1e-10, abs=1e-9)
+    assert found.mass == pytest.approx(
+        0.4 * 0.2 * 1.2 * 7850, rel=1e-12
+    ) and found.inertia == pytest.approx(exact.inertia, rel=1e-10, abs=1e-9)
     assert len(specimen.ties) == 1
     below, above = (len(boundary_faces(specimen.body, part, 0.1, 1e-9)) for part in (LOWER, UPPER))
     assert below == 4 * above
@@ -125,13 +160,17 @@ def test_ring_of_any_number_of_bricks_closes():
             quads = mesh.points[boundary_faces(mesh, UPPER, z, 1e-9)][:, :, :2]
             d = quads[:, 2:] - quads[:, :2]
             # Positive areas at top and bottom: boundary quads run counter-clockwise in plan.
-            assert (d[:, 0, 0] * d[:, 1, 1] - d[:, 0, 1] * d[:, 1, 0]).sum() / 2 == pytest.approx(exact, rel=1e-12)
+            assert (d[:, 0, 0] * d[:, 1, 1] - d[:, 0, 1] * d[:, 1, 0]).sum() / 2 == pytest.approx(
+                exact, rel=1e-12
+            )
 
 
 def test_solid_foot_has_bricks_of_about_the_fine_size_everywhere():
     case = small_case(column_wall_m=0.05, mesh_coarse_size_m=0.018, mesh_fine_size_m=0.005)
     quads = boundary_faces(mesh := column_mesh(case), LOWER, 0, 1e-9)
-    edges = np.linalg.norm(mesh.points[quads] - mesh.points[np.roll(quads, 1, axis=1)], axis=2) / 0.005
+    edges = (
+        np.linalg.norm(mesh.points[quads] - mesh.points[np.roll(quads, 1, axis=1)], axis=2) / 0.005
+    )
     # The O-grid's square is inscribed in the ring, so its bricks are smaller than those of the rim.
     assert edges.max() < 1.35 and edges.min() > 0.5
 
@@ -147,7 +186,9 @@ def test_outer_faces_enclose_the_volume():
     corners = mesh.points[outer_faces(mesh, CAP)]
     areas = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]) / 2
     assert areas.sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-15)
-    assert np.einsum("fi,fi->", corners.mean(axis=1), areas) / 3 == pytest.approx(0.15 * 0.12 * 0.01, rel=1e-12)
+    assert np.einsum("fi,fi->", corners.mean(axis=1), areas) / 3 == pytest.approx(
+        0.15 * 0.12 * 0.01, rel=1e-12
+    )
 
 
 def test_exchanged_bottom_and_top_are_turned_back():
@@ -156,7 +197,9 @@ def test_exchanged_bottom_and_top_are_turned_back():
     assert np.array_equal(turned.cells, mesh.cells)
 
 
-@pytest.mark.parametrize("keys", [{}, {"base_length_m": 3.0, "base_width_m": 0.14}, {"mesh_fine_size_m": 0.0037}])
+@pytest.mark.parametrize(
+    "keys", [{}, {"base_length_m": 3.0, "base_width_m": 0.14}, {"mesh_fine_size_m": 0.0037}]
+)
 def test_base_is_a_tensor_grid_fine_below_the_column_and_growing_gently(keys):
     case = small_case(**keys)
     mesh = base_mesh(case)
@@ -223,8 +266,14 @@ def test_meshing_leaves_ctrl_c_to_the_program():
 
 
 def test_meshes_are_made_in_any_thread_of_a_process_that_has_not_met_gmsh():
-    program = ("import threading; from fecolumn.mesh.gmsh_section import extruded; from fecolumn.mesh.section import Annulus; made = []\n"
-               "thread = threading.Thread(target=lambda: made.append(extruded(Annulus(0.5, 1.0, 8, 2), 0.0, 1.0, 1, 0)))\n"
-               "thread.start(); thread.join(); assert made[0].cells.shape == (16, 8)")
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    program = (
+        "import threading; from fecolumn.mesh.gmsh_section import extruded; from "
+        "fecolumn.mesh.section import Annulus; made = []\n"
+        "thread = threading.Thread(target=lambda: made.append(extruded(Annulus(0.5, "
+        "1.0, 8, 2), 0.0, 1.0, 1, 0)))\n"
+        "thread.start(); thread.join(); assert made[0].cells.shape == (16, 8)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60
+    )
     assert done.returncode == 0, done.stderr

@@ -18,7 +18,9 @@ def test_written_files_hold_the_mesh_and_its_parts(specimen, tmp_path):
     whole = merge([specimen.body, specimen.base])
     for _ in range(2):  # the second time over existing files
         paths = write_meshes(specimen, tmp_path / "new" / "folder")
-    assert sorted(p.name for p in (tmp_path / "new" / "folder").iterdir()) == sorted(p.name for p in paths)
+    assert sorted(p.name for p in (tmp_path / "new" / "folder").iterdir()) == sorted(
+        p.name for p in paths
+    )
     for name, key in (("specimen.msh", "gmsh:physical"), ("specimen.xdmf", "part")):
         found = meshio.read(tmp_path / "new" / "folder" / name)
         assert np.array_equal(found.points, whole.points)
@@ -38,15 +40,18 @@ def test_a_failed_write_leaves_the_earlier_files(specimen, tmp_path, monkeypatch
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
-def test_picture_shows_every_part_in_its_colour_without_an_x_server(specimen, tmp_path, monkeypatch):
+def test_picture_shows_every_part_in_its_colour_without_an_x_server(
+    specimen, tmp_path, monkeypatch
+):
     from matplotlib.image import imread
 
     monkeypatch.delenv("DISPLAY", raising=False)
     path = picture(specimen, tmp_path / "specimen.png")
     image = imread(path)[:, :, :3]
     assert image.shape[0] > 1000 and [p.name for p in tmp_path.iterdir()] == ["specimen.png"]
-    # Reddish (lower), bluish (upper), yellowish (cap) and neutral grey (base) areas, away from the legend's swatches.
-    foot = image[image.shape[0] // 3:].reshape(-1, 3)
+    # Reddish (lower), bluish (upper), yellowish (cap) and neutral grey (base) areas, away from the
+    # legend's swatches.
+    foot = image[image.shape[0] // 3 :].reshape(-1, 3)
     left = image[:, : image.shape[1] // 3].reshape(-1, 3)
     red, blue = foot[:, 0] - foot[:, 2], left[:, 2] - left[:, 0]
     assert np.mean(red > 0.2) > 0.02

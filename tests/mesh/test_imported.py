@@ -21,9 +21,11 @@ def tube():
 @pytest.fixture
 def with_file(tmp_path):
     """Writes points and cells into a file and returns the case that imports it."""
+
     def write(points, cells, name="tube.inp", kind="hexahedron"):
         meshio.Mesh(points, [(kind, cells)]).write(tmp_path / name)
         return named(tmp_path / name)
+
     return write
 
 
@@ -58,7 +60,9 @@ def test_foot_is_shifted_to_zero_and_inverted_bricks_are_turned(tube, with_file)
 
 def test_points_without_bricks_and_shells_on_the_surface_are_left_out(tube, tmp_path):
     points = np.concatenate([[[9.0, 9, 9]], tube.points])
-    meshio.Mesh(points, [("quad", tube.cells[:, :4] + 1), ("hexahedron", tube.cells + 1)]).write(tmp_path / "mixed.vtu")
+    meshio.Mesh(points, [("quad", tube.cells[:, :4] + 1), ("hexahedron", tube.cells + 1)]).write(
+        tmp_path / "mixed.vtu"
+    )
     body = specimen_mesh(named(tmp_path / "mixed.vtu")).body
     assert body.points[: len(tube.points)] == pytest.approx(tube.points)
 
@@ -69,7 +73,9 @@ def test_mesh_in_millimetres_is_refused_with_a_hint(tube, with_file):
 
 def test_mesh_of_other_dimensions_is_refused(tube, with_file):
     assert "column.height_m = 0.3 m" in refusal(with_file(tube.points * [1, 1, 1.02], tube.cells))
-    assert "column.outer_diameter_m = 0.1 m" in refusal(with_file(tube.points * [1.02, 1.02, 1], tube.cells))
+    assert "column.outer_diameter_m = 0.1 m" in refusal(
+        with_file(tube.points * [1.02, 1.02, 1], tube.cells)
+    )
 
 
 def test_a_mesh_is_shifted_with_the_middle_of_its_foot_to_the_origin(tube, with_file):
@@ -83,7 +89,9 @@ def test_tetrahedra_carry_no_cap_of_bricks(tube, with_file):
 
 
 def test_bricks_mixed_with_wedges_are_refused(tube, tmp_path):
-    meshio.Mesh(tube.points, [("hexahedron", tube.cells[1:]), ("wedge", tube.cells[:1, [0, 1, 2, 4, 5, 6]])]).write(tmp_path / "a.vtu")
+    meshio.Mesh(
+        tube.points, [("hexahedron", tube.cells[1:]), ("wedge", tube.cells[:1, [0, 1, 2, 4, 5, 6]])]
+    ).write(tmp_path / "a.vtu")
     assert "1 x wedge" in refusal(named(tmp_path / "a.vtu"))
 
 
@@ -101,17 +109,25 @@ def test_folded_torn_and_not_finite_meshes_are_refused(tube, with_file):
     assert "finite" in refusal(with_file(broken, tube.cells, "nan.vtk"))
 
 
-@pytest.mark.parametrize("name, content, said", [
-    ("empty.inp", b"", "empty"),
-    ("text.inp", b"good morning\n", "*NODE"),
-    ("noise.msh", bytes(range(256)) * 4, "meshio"),
-    ("tube.doc", b"x", "meshio"),
-    ("tube.xdmf", b"<Xdmf>", "meshio"),
-    ("gap.inp", b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,2,3,4,5,6,7,8\n", "refers to 2"),
-    ("cut.inp", b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1\n", "data items"),
-    ("points.inp", b"*NODE\n1,0,0,0\n", "no elements"),
-    ("parts.inp", b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1,1,1,1,1,1\n*Node\n1,0,0,0\n*NODE OUTPUT\n", "2 *NODE blocks"),
-])
+@pytest.mark.parametrize(
+    "name, content, said",
+    [
+        ("empty.inp", b"", "empty"),
+        ("text.inp", b"good morning\n", "*NODE"),
+        ("noise.msh", bytes(range(256)) * 4, "meshio"),
+        ("tube.doc", b"x", "meshio"),
+        ("tube.xdmf", b"<Xdmf>", "meshio"),
+        ("gap.inp", b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,2,3,4,5,6,7,8\n", "refers to 2"),
+        ("cut.inp", b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1\n", "data items"),
+        ("points.inp", b"*NODE\n1,0,0,0\n", "no elements"),
+        (
+            "parts.inp",
+            b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1,1,1,1,1,1\n*Node\n1,0,0,0\n*NODE "
+            b"OUTPUT\n",
+            "2 *NODE blocks",
+        ),
+    ],
+)
 def test_unreadable_files_are_refused_naming_file_and_key(tmp_path, capfd, name, content, said):
     (tmp_path / name).write_bytes(content)
     assert said in refusal(named(tmp_path / name))

@@ -9,22 +9,39 @@ from fecolumn.mesh.quality import quality_table
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.schema import InputError
 
-FORMATS = [("own.inp", {}), ("own.msh", {"file_format": "gmsh22"}), ("own.msh", {"file_format": "gmsh"}), ("own.vtk", {}), ("own.vtu", {})]
+FORMATS = [
+    ("own.inp", {}),
+    ("own.msh", {"file_format": "gmsh22"}),
+    ("own.msh", {"file_format": "gmsh"}),
+    ("own.vtk", {}),
+    ("own.vtu", {}),
+]
 
 
 @pytest.mark.parametrize("name, options", FORMATS, ids=["Abaqus", "Gmsh 2", "Gmsh 4", "VTK", "VTU"])
-@pytest.mark.parametrize("kind, made", [("hexahedron", bricks), ("tetra", tetrahedra)], ids=["bricks", "tetrahedra"])
+@pytest.mark.parametrize(
+    "kind, made", [("hexahedron", bricks), ("tetra", tetrahedra)], ids=["bricks", "tetrahedra"]
+)
 def test_height_foot_and_weight_are_read_from_the_mesh(tmp_path, name, options, kind, made):
     points, cells = made()
     case = own_case(write(tmp_path, name, kind, points + [3.0, 0, 1.0], cells, **options))
     assert case.column.height_m == pytest.approx(SIDES[2], rel=1e-3)
     specimen = specimen_mesh(case)
     foot = specimen.body.points[specimen.foot_nodes]
-    assert np.ptp(foot[:, :2], axis=0) == pytest.approx(SIDES[:2], rel=1e-12) and foot.mean(axis=0) == pytest.approx(np.zeros(3), abs=1e-9)
+    assert np.ptp(foot[:, :2], axis=0) == pytest.approx(SIDES[:2], rel=1e-12) and foot.mean(
+        axis=0
+    ) == pytest.approx(np.zeros(3), abs=1e-9)
     rows = {row.name: row for row in quality_table(case, specimen)}
-    assert rows["column: mass"].mesh == pytest.approx(7850 * np.prod(SIDES), rel=1e-9) and rows["column: mass"].exact is None
-    assert rows["column: inertia I_xx about the centre of mass"].mesh == pytest.approx(7850 * np.prod(SIDES) * (0.1**2 + 0.4**2) / 12, rel=1e-9)
-    assert rows["tilt with the centre of mass over the foot's nearest side"].mesh == pytest.approx(np.arctan(0.05 / 0.2), rel=1e-9)
+    assert (
+        rows["column: mass"].mesh == pytest.approx(7850 * np.prod(SIDES), rel=1e-9)
+        and rows["column: mass"].exact is None
+    )
+    assert rows["column: inertia I_xx about the centre of mass"].mesh == pytest.approx(
+        7850 * np.prod(SIDES) * (0.1**2 + 0.4**2) / 12, rel=1e-9
+    )
+    assert rows["tilt with the centre of mass over the foot's nearest side"].mesh == pytest.approx(
+        np.arctan(0.05 / 0.2), rel=1e-9
+    )
     assert case.mesh.element_order == (2 if kind == "tetra" else 1)
     assert estimate(case).bricks[2] == len(cells)
 
@@ -32,7 +49,9 @@ def test_height_foot_and_weight_are_read_from_the_mesh(tmp_path, name, options, 
 def test_second_order_tetrahedra_of_a_file_are_read_by_their_corners(tmp_path):
     points, cells = tetrahedra((2, 2, 2))
     ends = points[cells[:, [0, 1, 2, 0, 1, 2]]], points[cells[:, [1, 2, 0, 3, 3, 3]]]
-    middles, where = np.unique(np.round(((ends[0] + ends[1]) / 2).reshape(-1, 3), 12), axis=0, return_inverse=True)
+    middles, where = np.unique(
+        np.round(((ends[0] + ends[1]) / 2).reshape(-1, 3), 12), axis=0, return_inverse=True
+    )
     ten = np.hstack([cells, len(points) + where.reshape(-1, 6)])
     case = own_case(write(tmp_path, "ten.vtu", "tetra10", np.vstack([points, middles]), ten))
     assert len(specimen_mesh(case).body.points) == len(points)
@@ -53,16 +72,23 @@ def test_nodes_of_second_order_are_counted_before_anything_is_built(tmp_path):
         specimen = specimen_mesh(case)
         body = column_body(case, specimen, MPI.COMM_SELF)
         expected = estimate(case)
-        assert 3 * body.n_nodes == expected.dofs[2] and 3 * len(specimen.base.points) == expected.dofs[4]
+        assert (
+            3 * body.n_nodes == expected.dofs[2]
+            and 3 * len(specimen.base.points) == expected.dofs[4]
+        )
         foot = foot_of(case, specimen, body)
         assert len(foot.all_nodes) == expected.foot_points
-        assert foot.all_areas.min() > 0 and foot.areas.sum() == pytest.approx(SIDES[0] * SIDES[1], rel=1e-12)
+        assert foot.all_areas.min() > 0 and foot.areas.sum() == pytest.approx(
+            SIDES[0] * SIDES[1], rel=1e-12
+        )
 
 
 def test_a_shape_beside_a_mesh_of_ones_own_is_refused(tmp_path):
     file = write(tmp_path, "own.vtu", "hexahedron", *bricks())
-    for section, said in (({"flange": {"outer_diameter_m": 1.0, "thickness_m": 0.1}}, "flange"),
-                          ({"column": {"mesh_file": str(file), "shape": "block"}}, "column.shape"),
-                          ({"column": {"mesh_file": str(file), "height_m": 0.5}}, "column.height_m = 0.5 m")):
+    for section, said in (
+        ({"flange": {"outer_diameter_m": 1.0, "thickness_m": 0.1}}, "flange"),
+        ({"column": {"mesh_file": str(file), "shape": "block"}}, "column.shape"),
+        ({"column": {"mesh_file": str(file), "height_m": 0.5}}, "column.height_m = 0.5 m"),
+    ):
         with pytest.raises(InputError, match=said):
             own_case(file, **section)

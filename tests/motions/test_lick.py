@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fecolumn.case import Motion
-from fecolumn.motions.lick import COUNT
 from fecolumn.motions.chosen import chosen_motions
+from fecolumn.motions.lick import COUNT
 from fecolumn.motions.load import read_motion
 from fecolumn.motions.processing import scale_time
 from fecolumn.motions.record import GroundMotion
@@ -29,4 +29,6 @@ def test_number_the_ensemble_does_not_have_is_refused(number):
 
 
 def test_all_motions_of_it_are_an_axis(tmp_path):
-    assert chosen_motions("lick:*", "axes", tmp_path / "study.toml") == [f"lick:{number}" for number in range(1, COUNT + 1)]
+    assert chosen_motions("lick:*", "axes", tmp_path / "study.toml") == [
+        f"lick:{number}" for number in range(1, COUNT + 1)
+    ]

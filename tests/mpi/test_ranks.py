@@ -11,7 +11,8 @@ import pytest
 
 from fecolumn._mpi import launch_environment
 
-# Ranks give way to others while they wait: they would take a core each from tests that run beside them
+# Ranks give way to others while they wait: they would take a core each from tests that run beside
+# them
 MPIRUN = ["mpirun", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"]
 
 SHAKEN = """
@@ -40,20 +41,39 @@ fields_every_s = 0.1
 
 
 def _run(n, case, out):
-    command = [*MPIRUN, "-n", str(n), sys.executable, "-m", "fecolumn.cli", "run", str(case), "-o", str(out)]
+    command = [
+        *MPIRUN,
+        "-n",
+        str(n),
+        sys.executable,
+        "-m",
+        "fecolumn.cli",
+        "run",
+        str(case),
+        "-o",
+        str(out),
+    ]
     done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
     assert done.returncode == 0, done.stderr
     with h5py.File(out / "history.h5") as history:
-        return json.loads((out / "summary.json").read_text()), history["u_top"][:], history["active_nodes"][:]
+        return (
+            json.loads((out / "summary.json").read_text()),
+            history["u_top"][:],
+            history["active_nodes"][:],
+        )
 
 
-@pytest.mark.parametrize("kinematics", ["corotated", pytest.param("total_lagrangian", marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "kinematics", ["corotated", pytest.param("total_lagrangian", marks=pytest.mark.slow)]
+)
 def test_two_ranks_give_the_history_of_one(tmp_path, kinematics):
     time = np.arange(0, 0.5, 0.0025)
     rows = [f"{t:.4f},{0.4 * np.sin(25 * t):.6f},{0.3 * np.sin(33 * t):.6f}\n" for t in time]
     (tmp_path / "motion.csv").write_text("time [s],ax [g],ay [g]\n" + "".join(rows))
     case = tmp_path / "case.toml"
-    case.write_text(SHAKEN.format(specimen=os.path.abspath("meshes/stout.toml"), kinematics=kinematics))
+    case.write_text(
+        SHAKEN.format(specimen=os.path.abspath("meshes/stout.toml"), kinematics=kinematics)
+    )
     one, two = (_run(n, case, tmp_path / str(n)) for n in (1, 2))
     assert (one[0]["ranks"], two[0]["ranks"]) == (1, 2)
     np.testing.assert_allclose(two[1], one[1], rtol=0, atol=1e-6 * np.abs(one[1]).max())
@@ -64,7 +84,18 @@ def test_two_ranks_give_the_history_of_one(tmp_path, kinematics):
 def test_refusal_is_said_once_and_ends_both_ranks(tmp_path):
     case = tmp_path / "case.toml"
     case.write_text("[column]\nwall = 1\n")
-    command = [*MPIRUN, "-n", "2", sys.executable, "-m", "fecolumn.cli", "run", str(case), "-o", str(tmp_path / "out")]
+    command = [
+        *MPIRUN,
+        "-n",
+        "2",
+        sys.executable,
+        "-m",
+        "fecolumn.cli",
+        "run",
+        str(case),
+        "-o",
+        str(tmp_path / "out"),
+    ]
     done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
     assert done.returncode == 2
     assert done.stderr.count("unknown key") == 1
@@ -100,14 +131,32 @@ def test_two_ranks_give_the_motion_of_a_structure_that_one_gives(tmp_path):
     assert (one[0]["ranks"], two[0]["ranks"]) == (1, 2) and one[0]["dofs"] == two[0]["dofs"]
     np.testing.assert_allclose(two[1], one[1], rtol=0, atol=1e-9)
     assert np.ptp(one[1][:, 0]) > 5e-3 and one[0]["impacts"] == two[0]["impacts"] > 0
-    with h5py.File(tmp_path / "1" / "fields" / "frame_000000040000.h5") as first, h5py.File(tmp_path / "2" / "fields" / "frame_000000040000.h5") as second:
+    with (
+        h5py.File(tmp_path / "1" / "fields" / "frame_000000040000.h5") as first,
+        h5py.File(tmp_path / "2" / "fields" / "frame_000000040000.h5") as second,
+    ):
         for name in ("displacement", "von_mises", "pressure"):
-            np.testing.assert_allclose(second[name][:], first[name][:], rtol=0, atol=1e-6 * np.abs(first[name][:]).max())
+            np.testing.assert_allclose(
+                second[name][:], first[name][:], rtol=0, atol=1e-6 * np.abs(first[name][:]).max()
+            )
 
 
 def test_a_structure_of_the_reduced_engine_is_refused_on_two_ranks(tmp_path):
     case = tmp_path / "case.toml"
-    case.write_text(STACKED.replace('"full"', '"reduced"').replace("output.fields_every_s = 0.04", ""))
-    command = [*MPIRUN, "-n", "2", sys.executable, "-m", "fecolumn.cli", "run", str(case), "-o", str(tmp_path / "out")]
+    case.write_text(
+        STACKED.replace('"full"', '"reduced"').replace("output.fields_every_s = 0.04", "")
+    )
+    command = [
+        *MPIRUN,
+        "-n",
+        "2",
+        sys.executable,
+        "-m",
+        "fecolumn.cli",
+        "run",
+        str(case),
+        "-o",
+        str(tmp_path / "out"),
+    ]
     done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
     assert done.returncode == 2 and done.stderr.count("runs on one process") == 1

@@ -30,7 +30,9 @@ def _picture(file):
 
 @pytest.mark.parametrize("n, titles", [(2, ["a"]), (115, ["a", "b", "c", "d"])])
 def test_cdf_figure_shows_lines_and_bands(tmp_path, n, titles):
-    png, pdf = cdf_figure([_panel(title, n, seed) for seed, title in enumerate(titles)], tmp_path / "cdf")
+    png, pdf = cdf_figure(
+        [_panel(title, n, seed) for seed, title in enumerate(titles)], tmp_path / "cdf"
+    )
     colours = np.unique(_picture(png)[..., :3].reshape(-1, 3).round(1), axis=0)
     assert len(colours) > 20 and pdf.read_bytes().startswith(b"%PDF")
     width, height = struct.unpack(">II", png.read_bytes()[16:24])
@@ -46,17 +48,25 @@ def _share(picture, colour, opacity=1.0) -> float:
 
 
 def test_band_is_as_large_as_the_distribution_says(tmp_path):
-    # 1000 runs, half of them overturned, one of the others at 250 mm and all else at 10: from 10 to 250 mm the band reaches 0.5 +- 0.031
+    # 1000 runs, half of them overturned, one of the others at 250 mm and all else at 10: from 10 to
+    # 250 mm the band reaches 0.5 +- 0.031
     u = np.where(np.arange(1000) < 999, 0.01, 0.25)
-    picture = _picture(cdf_figure([Panel("a", (("line", ecdf(u, np.arange(1000) < 500)),))], tmp_path / "cdf")[0])
-    rows, columns = np.nonzero(np.abs(picture[..., :3] - (1 - 0.2 * (1 - np.array([0, 0x72, 0xB2]) / 255))).max(axis=2) < 0.02)
+    picture = _picture(
+        cdf_figure([Panel("a", (("line", ecdf(u, np.arange(1000) < 500)),))], tmp_path / "cdf")[0]
+    )
+    rows, columns = np.nonzero(
+        np.abs(picture[..., :3] - (1 - 0.2 * (1 - np.array([0, 0x72, 0xB2]) / 255))).max(axis=2)
+        < 0.02
+    )
     frame = np.nonzero((picture[..., :3] < 0.6).all(axis=2).sum(axis=1) > 300)[0]
     assert np.ptp(rows) / np.ptp(frame) == pytest.approx(0.062 / 1.02, abs=0.006)
     assert np.ptp(columns) > 0.7 * picture.shape[1]
 
 
 def test_axis_of_displacements_follows_the_data_not_a_cap():
-    assert axis_end([0.01, 0.03]) == pytest.approx(0.0324) and axis_end([]) == axis_end([0.0]) == 1.0
+    assert (
+        axis_end([0.01, 0.03]) == pytest.approx(0.0324) and axis_end([]) == axis_end([0.0]) == 1.0
+    )
 
 
 def test_one_peak_far_beyond_the_others_does_not_squeeze_them():
@@ -71,7 +81,9 @@ def test_same_data_same_bytes(tmp_path):
 
 
 def test_combination_in_which_all_overturn_is_drawn(tmp_path):
-    png, _ = cdf_figure([Panel("all", (("line", ecdf([1.0, 1.0], [True, True])),))], tmp_path / "cdf")
+    png, _ = cdf_figure(
+        [Panel("all", (("line", ecdf([1.0, 1.0], [True, True])),))], tmp_path / "cdf"
+    )
     assert png.stat().st_size > 5000
 
 
@@ -90,17 +102,34 @@ def test_axis_text_carries_the_unit():
 def test_figures_of_one_analysis(tmp_path, overturned):
     write_history(tmp_path, overturned=overturned)
     files = history_figures(tmp_path)
-    assert [file.name for file in files] == ["u_top.png", "u_top.pdf", "path.png", "path.pdf", "energy.png", "energy.pdf"]
+    assert [file.name for file in files] == [
+        "u_top.png",
+        "u_top.pdf",
+        "path.png",
+        "path.pdf",
+        "energy.png",
+        "energy.pdf",
+    ]
     for png in files[::2]:
         assert np.mean(_picture(png)[..., :3].min(axis=2) < 0.9) > 0.01
     assert _share(_picture(tmp_path / "u_top.png"), BLUE) > 0.002
-    assert min(_share(_picture(tmp_path / "energy.png"), colour) for colour in (VERMILION, BLUE, PURPLE)) > 0.0005
+    assert (
+        min(
+            _share(_picture(tmp_path / "energy.png"), colour)
+            for colour in (VERMILION, BLUE, PURPLE)
+        )
+        > 0.0005
+    )
 
 
 def test_history_is_read_back(tmp_path):
     write_history(tmp_path, n=11)
     history = History.read(tmp_path / "history.h5")
-    assert history.u_top.shape == (11, 3) and history.time[-1] == 4.0 and set(history.energy) >= {"kinetic", "closure"}
+    assert (
+        history.u_top.shape == (11, 3)
+        and history.time[-1] == 4.0
+        and set(history.energy) >= {"kinetic", "closure"}
+    )
 
 
 def test_folder_without_a_history_is_named(tmp_path):
@@ -109,7 +138,9 @@ def test_folder_without_a_history_is_named(tmp_path):
 
 
 def test_bands_of_many_lines_stand_beside_each_other(tmp_path):
-    """Five shades would hide each other and mix their colours; bars are seen in the colour of their line, each."""
+    """Five shades would hide each other and mix their colours; bars are seen in the colour of their
+    line, each.
+    """
     picture = _picture(cdf_figure([_panel("a", 60, 3)], tmp_path / "cdf")[0])
     from fecolumn.post.style import LINES
 
@@ -141,29 +172,84 @@ def _texts(draw):
 def test_displacement_stands_below_the_ground_motion_and_beside_what_is_critical(tmp_path):
     write_history(tmp_path / "a")
     words = _texts(lambda: history_figures(tmp_path / "a"))
-    assert "ground" in words and "$a_x$" in words and "critical, $u_c$ = 76.2 mm" in words and "times the peak" in words
-    assert "$u_{\\max}$ =" in words and "at rest" in words and "foot" in words and "enlarged" in words
+    assert (
+        "ground" in words
+        and "$a_x$" in words
+        and "critical, $u_c$ = 76.2 mm" in words
+        and "times the peak" in words
+    )
+    assert (
+        "$u_{\\max}$ =" in words and "at rest" in words and "foot" in words and "enlarged" in words
+    )
     write_history(tmp_path / "b", overturned=True)
     words = _texts(lambda: history_figures(tmp_path / "b"))
-    assert "overturned, stopped at" in words and "$u_{\\max}$ =" not in words and "times the peak" not in words
+    assert (
+        "overturned, stopped at" in words
+        and "$u_{\\max}$ =" not in words
+        and "times the peak" not in words
+    )
 
 
 def test_every_loss_of_energy_has_a_name_and_strain_an_axis(tmp_path):
     write_history(tmp_path)
-    words = _texts(lambda: energy_figure(History.read(tmp_path / "history.h5"), tmp_path / "energy"))
-    assert all(name in words for name in ("strain", "impacts", "sliding friction", "numerical damping (HHT)", "taken so far by"))
+    words = _texts(
+        lambda: energy_figure(History.read(tmp_path / "history.h5"), tmp_path / "energy")
+    )
+    assert all(
+        name in words
+        for name in (
+            "strain",
+            "impacts",
+            "sliding friction",
+            "numerical damping (HHT)",
+            "taken so far by",
+        )
+    )
 
 
-@pytest.mark.parametrize("case, words, width", [
-    ({"column": {"outer_diameter_m": 0.5, "wall_m": 0.25, "height_m": 1.6}}, "solid cylinder 500 mm", 0.5),
-    ({"column": {"outer_diameter_m": 0.02, "wall_m": 0.0015, "height_m": 0.15}}, "tube 20 × 1.5 mm", 0.02),
-    ({"column": {"shape": "block", "length_m": 0.4, "width_m": 0.3, "height_m": 1.2}}, "block 400 × 300 mm", 0.4),
-    ({"column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 1.0}, "flange": {"outer_diameter_m": 0.2, "thickness_m": 0.01}}, "foot plate 200 mm", 0.2)])
+@pytest.mark.parametrize(
+    "case, words, width",
+    [
+        (
+            {"column": {"outer_diameter_m": 0.5, "wall_m": 0.25, "height_m": 1.6}},
+            "solid cylinder 500 mm",
+            0.5,
+        ),
+        (
+            {"column": {"outer_diameter_m": 0.02, "wall_m": 0.0015, "height_m": 0.15}},
+            "tube 20 × 1.5 mm",
+            0.02,
+        ),
+        (
+            {"column": {"shape": "block", "length_m": 0.4, "width_m": 0.3, "height_m": 1.2}},
+            "block 400 × 300 mm",
+            0.4,
+        ),
+        (
+            {
+                "column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 1.0},
+                "flange": {"outer_diameter_m": 0.2, "thickness_m": 0.01},
+            },
+            "foot plate 200 mm",
+            0.2,
+        ),
+    ],
+)
 def test_outline_of_any_column(tmp_path, case, words, width):
     outline = specimen_outline(case)
     assert words in outline.words and np.ptp(outline.foot[:, 0]) == pytest.approx(width)
-    assert specimen_figure(outline, 0.1, None, tmp_path / "specimen", ("svg",), width_in=3.5)[0].stat().st_size > 1000
+    assert (
+        specimen_figure(outline, 0.1, None, tmp_path / "specimen", ("svg",), width_in=3.5)[0]
+        .stat()
+        .st_size
+        > 1000
+    )
 
 
 def test_an_own_mesh_has_no_outline():
-    assert specimen_outline({"column": {"mesh_file": "own.msh", "outer_diameter_m": 0.5, "height_m": 1.6}}) is None
+    assert (
+        specimen_outline(
+            {"column": {"mesh_file": "own.msh", "outer_diameter_m": 0.5, "height_m": 1.6}}
+        )
+        is None
+    )

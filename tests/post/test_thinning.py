@@ -9,7 +9,13 @@ from fecolumn.post.thinning import thinned
 def _rocking(n: int = 4000):
     """Time [s] and three components of a decaying motion with kinks, as impacts make them."""
     time = np.cumsum(np.random.default_rng(3).uniform(2e-3, 8e-3, n))
-    return time, np.column_stack([np.exp(-time / 8) * np.abs(np.sin(7 * time)), 0.3 * np.sin(5 * time), np.random.default_rng(4).normal(0, 1e-3, n)])
+    return time, np.column_stack(
+        [
+            np.exp(-time / 8) * np.abs(np.sin(7 * time)),
+            0.3 * np.sin(5 * time),
+            np.random.default_rng(4).normal(0, 1e-3, n),
+        ]
+    )
 
 
 @pytest.mark.parametrize("share", [0.002, 0.02, 0.2])
@@ -26,7 +32,10 @@ def test_a_coarser_tolerance_keeps_fewer_rows_and_a_straight_line_its_ends_alone
     time, values = _rocking()
     kept = [len(thinned(time, values[:, :2], (share, share))) for share in (0.002, 0.02, 0.2)]
     assert len(time) / 3 > kept[0] > 2 * kept[1] > 4 * kept[2]
-    assert thinned(time, np.column_stack([2 * time - 1, 0 * time]), (1e-6, 1e-6)).tolist() == [0, len(time) - 1]
+    assert thinned(time, np.column_stack([2 * time - 1, 0 * time]), (1e-6, 1e-6)).tolist() == [
+        0,
+        len(time) - 1,
+    ]
 
 
 def test_one_or_two_rows_stay():

@@ -27,11 +27,17 @@ import recording  # noqa: E402
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="python tests/recorded", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="python tests/recorded",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("case", nargs="*", help="names of cases, all unless given")
-    parser.add_argument("--check", action="store_true",
-                        help="write nothing, tell the largest difference of each case")
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="write nothing, tell the largest difference of each case",
+    )
     # file for the histories with other rounding errors
     parser.add_argument("--rounded", help=argparse.SUPPRESS)
     args = parser.parse_args()
@@ -56,8 +62,10 @@ def check(chosen: dict) -> int:
         worst = max(off, key=off.get)
         far += not off[worst] <= recording.TOLERANCE
         print(f"{off[worst]:8.1e} {worst:28s} {name}", flush=True)
-    print(f"{len(chosen) - far} of {len(chosen)} cases are within {recording.TOLERANCE:.0e} of "
-          "their peaks")
+    print(
+        f"{len(chosen) - far} of {len(chosen)} cases are within {recording.TOLERANCE:.0e} of "
+        "their peaks"
+    )
     return int(far > 0)
 
 
@@ -81,8 +89,11 @@ def record(chosen: dict, known: dict) -> int:
         last = recording.third_impact(rows)
         histories[name], one = limited(name, recording.kept(rows, last), rounded[name])
         about[name] = one = one | {"ended_by": ended(one, last < len(rows["time"]))} | made_by
-        print(f"{seconds[name]:6.2f} s {one['rows']:5d} rows to {one['end_s']:.3f} s, "
-              f"{one['ended_by']}: {name}", flush=True)
+        print(
+            f"{seconds[name]:6.2f} s {one['rows']:5d} rows to {one['end_s']:.3f} s, "
+            f"{one['ended_by']}: {name}",
+            flush=True,
+        )
     # in the order of the cases; no others
     kept = {name: recording.thinned(histories[name]) for name in known if name in histories}
     recording.write(kept, about)
@@ -97,11 +108,18 @@ def limited(name: str, rows: dict, rounded: dict) -> tuple[dict, dict]:
     moved = np.flatnonzero(~(off <= recording.BY_ROUNDING))
     n = int(moved[0]) if len(moved) else len(off)
     if n < recording.FEWEST:
-        raise SystemExit(f"{name}: rounding errors alone move its history by {off.max():.0e} of "
-                         f"its peak, from step {n} on: record another case of this kind")
+        raise SystemExit(
+            f"{name}: rounding errors alone move its history by {off.max():.0e} of "
+            f"its peak, from step {n} on: record another case of this kind"
+        )
     time = rows["time"]
-    said = dict(rows=n, end_s=float(time[n - 1]), rounding=float(off[:n].max()),
-                would_end_s=float(time[-1]), would_round=float(off.max()))
+    said = dict(
+        rows=n,
+        end_s=float(time[n - 1]),
+        rounding=float(off[:n].max()),
+        would_end_s=float(time[-1]),
+        would_round=float(off.max()),
+    )
     return {column: values[:n] for column, values in rows.items()}, said
 
 

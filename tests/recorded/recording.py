@@ -26,8 +26,8 @@ RECORD, ABOUT = HERE / "histories.npz", HERE / "about.json"
 #: How far a column may be off, over its peak; and how far rounding errors may have moved it where
 #: it is kept.
 TOLERANCE, BY_ROUNDING = 1e-9, 2e-10
-#: As TOLERANCE, where another processor or other libraries than the record's round otherwise: kernels
-#: of OpenBLAS for another processor move a rigid frame that is shaken by 1.6e-8.
+#: As TOLERANCE, where another processor or other libraries than the record's round otherwise:
+#: kernels of OpenBLAS for another processor move a rigid frame that is shaken by 1.6e-8.
 ELSEWHERE = 1e-6
 # Impacts until which a history is kept, and what one takes at least, over the change of the
 # potential of the weight
@@ -45,8 +45,11 @@ ROUNDING = 1e-14
 # of the energy but the error of the balance
 KEPT = ("time", "u_top", "tilt", "twist", "slide", "theta_x", "theta_y")
 KEPT_OF_PARTS = {"body": ("displacement", "tilt"), "link": ("tension",), "storey": ("drift",)}
-UNITS = {"rad": ("tilt", "twist", "theta_x", "theta_y"),
-         "m": ("u_top", "slide", "displacement", "drift"), "N": ("tension",)}
+UNITS = {
+    "rad": ("tilt", "twist", "theta_x", "theta_y"),
+    "m": ("u_top", "slide", "displacement", "drift"),
+    "N": ("tension",),
+}
 # Ranks give way to one another while they wait
 MPIRUN = ("mpirun", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1")
 ONE_RANK = """import json, sys
@@ -57,7 +60,8 @@ analyse(json.loads(sys.argv[1]), sys.argv[2])"""
 @dataclass(frozen=True)
 class Recorded:
     """A case of CASES: its tables, the features that it covers, ranks of MPI, and whether it is one
-    of the quick ones."""
+    of the quick ones.
+    """
 
     name: str
     tables: dict
@@ -106,8 +110,10 @@ def analyse(tables: dict, folder) -> None:
 def history(case: Recorded, rounding: float = 0.0) -> dict[str, np.ndarray]:
     """Columns of a case by name, in full length.
 
-    Args:
-        rounding: share by which densities and Young's moduli are larger.
+    Parameters
+    ----------
+    rounding
+        share by which densities and Young's moduli are larger.
     """
     from fecolumn._mpi import launch_environment
     from fecolumn.dynamics.history import read_history
@@ -168,7 +174,8 @@ def thinned(rows: dict) -> dict[str, np.ndarray]:
 
 def peaks(rows: dict) -> dict[str, float]:
     """What differences of each column are divided by: its peak, of a vector's length, or SMALL of
-    the largest of its unit."""
+    the largest of its unit.
+    """
     own, most = {}, {}
     for name, values in rows.items():
         own[name] = float(np.linalg.norm(values.reshape(len(values), -1), axis=1).max())
@@ -185,7 +192,8 @@ def _unit(name: str) -> str:
 
 def differences(recorded: dict, rows: dict) -> dict[str, np.ndarray]:
     """How far each recorded column is off a history at each recorded time, over its peak; inf where
-    the history has no such column, or has ended."""
+    the history has no such column, or has ended.
+    """
     time, found = recorded["time"], {}
     places = np.searchsorted(rows["time"], time - 1e-9 * time[-1])
     for name, peak in peaks(recorded).items():
@@ -203,8 +211,12 @@ def here() -> dict[str, str]:
     import numba
     from llvmlite.binding import get_host_cpu_name
 
-    return {"processor": get_host_cpu_name(), "python": platform.python_version(),
-            "numpy": np.__version__, "numba": numba.__version__}
+    return {
+        "processor": get_host_cpu_name(),
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "numba": numba.__version__,
+    }
 
 
 def tolerance_here(about: dict) -> float:
@@ -218,9 +230,11 @@ def told(name: str, recorded: dict, rows: dict, tolerance: float = TOLERANCE) ->
     for column, off in differences(recorded, rows).items():
         if not off.max() <= tolerance:
             first = recorded["time"][np.flatnonzero(~(off <= tolerance))[0]]
-            lines.append(f"{name}: {column} is off by {off.max():.1e} of its peak, "
-                         f"{peaks(recorded)[column]:.4g}; by more than {tolerance:.0e} of it "
-                         f"from {first:.4g} s on")
+            lines.append(
+                f"{name}: {column} is off by {off.max():.1e} of its peak, "
+                f"{peaks(recorded)[column]:.4g}; by more than {tolerance:.0e} of it "
+                f"from {first:.4g} s on"
+            )
     return lines
 
 
@@ -243,6 +257,8 @@ def read() -> tuple[dict[str, dict[str, np.ndarray]], dict]:
         for name in file.files:
             values, place, found[name] = file[name], 0, {}
             for column, width in about[name]["columns"].items():
-                found[name][column] = values[:, place:place + width] if width else values[:, place]
+                found[name][column] = (
+                    values[:, place : place + width] if width else values[:, place]
+                )
                 place += width or 1
     return found, about

@@ -1,5 +1,7 @@
-"""Histories keep to the record within 1e-9 of each column's peak, until the third impact; on another
-processor within 1e-6. See recording.py. Cases that are not quick are of the verification suite."""
+"""Histories keep to the record within 1e-9 of each column's peak, until the third impact; on
+another processor within 1e-6. See recording.py. Cases that are not quick are of the verification
+suite.
+"""
 
 import dataclasses
 import os
@@ -14,29 +16,77 @@ from fecolumn.schema import build
 CASES = recording.cases()
 HISTORIES, ABOUT = recording.read()
 # What the cases cover together
-FEATURES = {"column", "structure", "model", "full", "reduced", "rigid", "housner", "wobbling",
-            "plate", "unbounded", "pad", "penalty", "restitution", "rolling resistance", "tendon",
-            "spring", "dashpot", "restrainer", "dome", "rounded edge", "storeys", "MPI", "shaken",
-            "release", "own mesh", "total Lagrangian", "literal HHT"}
+FEATURES = {
+    "column",
+    "structure",
+    "model",
+    "full",
+    "reduced",
+    "rigid",
+    "housner",
+    "wobbling",
+    "plate",
+    "unbounded",
+    "pad",
+    "penalty",
+    "restitution",
+    "rolling resistance",
+    "tendon",
+    "spring",
+    "dashpot",
+    "restrainer",
+    "dome",
+    "rounded edge",
+    "storeys",
+    "MPI",
+    "shaken",
+    "release",
+    "own mesh",
+    "total Lagrangian",
+    "literal HHT",
+}
 # Keys that every case of finite elements states, whatever their defaults are in either form
-STATED = {"integration": ("engine", "n_modes", "dt_s", "alpha_hht", "kinematics", "substeps",
-                          "tolerance", "max_iterations", "max_cuts"),
-          "contact": ("law", "friction_coefficient", "penalty_factor", "interior_points", "impact",
-                      "restitution", "rolling_resistance")}
+STATED = {
+    "integration": (
+        "engine",
+        "n_modes",
+        "dt_s",
+        "alpha_hht",
+        "kinematics",
+        "substeps",
+        "tolerance",
+        "max_iterations",
+        "max_cuts",
+    ),
+    "contact": (
+        "law",
+        "friction_coefficient",
+        "penalty_factor",
+        "interior_points",
+        "impact",
+        "restitution",
+        "rolling_resistance",
+    ),
+}
 # Keys of bodies and interfaces that follow from others where they are left out
-FOLLOW = {"bodies": ("modes", "element_size_m", "coarse_size_m", "element_order"),
-          "interfaces": ("allowance_m",)}
+FOLLOW = {
+    "bodies": ("modes", "element_size_m", "coarse_size_m", "element_order"),
+    "interfaces": ("allowance_m",),
+}
 
 
-MARKED = [pytest.param(name, marks=() if case.quick else pytest.mark.verification)
-          for name, case in CASES.items()]
+MARKED = [
+    pytest.param(name, marks=() if case.quick else pytest.mark.verification)
+    for name, case in CASES.items()
+]
 
 
 @pytest.mark.parametrize("name", MARKED)
 def test_history_is_the_recorded_one(name):
     assert os.environ["OMP_NUM_THREADS"] == "1", "records are of one thread: OMP_NUM_THREADS=1"
-    lines = recording.told(name, HISTORIES[name], recording.history(CASES[name]),
-                           recording.tolerance_here(ABOUT[name]))
+    lines = recording.told(
+        name, HISTORIES[name], recording.history(CASES[name]), recording.tolerance_here(ABOUT[name])
+    )
     assert not lines, "\n" + "\n".join(lines)
 
 
@@ -51,8 +101,12 @@ def test_case_states_what_defaults_decide(name):
     tables = CASES[name].tables
     if "model" in CASES[name].covers:
         return
-    missing = [f"{section}.{key}" for section, keys in STATED.items() for key in keys
-               if key not in tables[section]]
+    missing = [
+        f"{section}.{key}"
+        for section, keys in STATED.items()
+        for key in keys
+        if key not in tables[section]
+    ]
     case = case_from_tables(tables, recording.CASES[0])
     if "column" in tables:
         open_case = build(Case, tables, recording.CASES[0])
@@ -60,9 +114,13 @@ def test_case_states_what_defaults_decide(name):
             whole, left = (dataclasses.asdict(getattr(one, section)) for one in (case, open_case))
             missing += [f"{section}.{key}" for key in whole if whole[key] != left[key]]
     else:
-        missing += [f"{section}.{part}.{key}" for section, keys in FOLLOW.items()
-                    for part, one in getattr(case, section).items() for key in keys
-                    if getattr(one, key, 0) is None and not _in_file(one, key)]
+        missing += [
+            f"{section}.{part}.{key}"
+            for section, keys in FOLLOW.items()
+            for part, one in getattr(case, section).items()
+            for key in keys
+            if getattr(one, key, 0) is None and not _in_file(one, key)
+        ]
     assert not missing
 
 

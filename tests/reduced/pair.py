@@ -24,20 +24,31 @@ def reduced(system, n_modes=30, begin=start.standing, overturn=0.25):
     body, interface = system.column, system.interface
     model, _ = column_model(body, system.foot_nodes, system.areas, *top_nodes(body), n_modes)
     eye = view(model, system.weight, interface.laws["friction"], overturn)
-    return column_engine(model, system.base, eye, system.hht, begin, system.gravity, damping_ratio=system.damping.ratio if system.damping else 0.0, **interface.laws)
+    return column_engine(
+        model,
+        system.base,
+        eye,
+        system.hht,
+        begin,
+        system.gravity,
+        damping_ratio=system.damping.ratio if system.damping else 0.0,
+        **interface.laws,
+    )
 
 
 def tops(system, grounds, begin=gravity.standing):
     """Displacement (n, 3) [m] of the top's middle in the full-order engine, and its trial."""
     trial = Trial(system, begin)
     nodes, weights = top_nodes(system.column)
-    return np.array([weights @ (trial.step(ground).x[nodes] - system.column.X[nodes]) for ground in grounds]), trial
+    return np.array(
+        [weights @ (trial.step(ground).x[nodes] - system.column.X[nodes]) for ground in grounds]
+    ), trial
 
 
 def column(rows, name, width=1):
     """A column of the reduced engine's rows."""
     place = PLACES[name]
-    return rows[:, place] if width == 1 else rows[:, place:place + width]
+    return rows[:, place] if width == 1 else rows[:, place : place + width]
 
 
 def system_of(**tables):

@@ -1,4 +1,6 @@
-"""Bases without edges, in the rigid engine: a pad of springs and dashpots against closed forms, and a flat on which a column slides far."""
+"""Bases without edges, in the rigid engine: a pad of springs and dashpots against closed forms, and
+a flat on which a column slides far.
+"""
 
 import numpy as np
 import pytest
@@ -10,8 +12,11 @@ from fecolumn.verification.models import column_system
 from fecolumn.verification.trial import begin
 
 # a stout steel tube with 24 bricks around and two through the wall
-STOUT = dict(column={"outer_diameter_m": 0.2, "wall_m": 0.04, "height_m": 0.4, "fine_height_m": 0.0}, cap=False,
-             mesh={"fine_size_m": 0.02, "coarse_size_m": 0.025, "base_size_m": 0.05})
+STOUT = dict(
+    column={"outer_diameter_m": 0.2, "wall_m": 0.04, "height_m": 0.4, "fine_height_m": 0.0},
+    cap=False,
+    mesh={"fine_size_m": 0.02, "coarse_size_m": 0.025, "base_size_m": 0.05},
+)
 SUBGRADE = 5e7
 
 
@@ -25,10 +30,12 @@ def pad(**keys):
 
 def moved(velocity):
     """A standing column of which every node gets velocity(positions) [m/s] at once."""
+
     def start(system):
         state = standing(system)
         state.v = velocity(state.x)
         return state
+
     return start
 
 
@@ -44,14 +51,22 @@ def on_pad():
 
 @pytest.mark.parametrize("times", [3.0, 300.0])
 def test_column_stands_on_any_pad_that_holds_it_upright(on_pad, times):
-    upright = on_pad.weight * on_pad.column.center[2] / (on_pad.areas @ on_pad.interface.reference[:, 0] ** 2)
+    upright = (
+        on_pad.weight
+        * on_pad.column.center[2]
+        / (on_pad.areas @ on_pad.interface.reference[:, 0] ** 2)
+    )
     soft = system_of(pad(stiffness_n_m3=times * upright))
     state = standing(soft)
-    assert state.contact["indentation"][:, 2] == pytest.approx(soft.weight / (times * upright * soft.areas.sum()), rel=1e-4)
+    assert state.contact["indentation"][:, 2] == pytest.approx(
+        soft.weight / (times * upright * soft.areas.sum()), rel=1e-4
+    )
 
 
 def rocking_of(system):
-    """Stiffness I k [N m] of the whole foot, angular frequency [rad/s] and inertia about the foot's middle [kg m2] of a column that rocks on a pad."""
+    """Stiffness I k [N m] of the whole foot, angular frequency [rad/s] and inertia about the foot's
+    middle [kg m2] of a column that rocks on a pad.
+    """
     interface, column = system.interface, system.column
     stiffness = float(interface.pad.stiffness[:, 2] @ interface.reference[:, 0] ** 2)
     inertia = float(column.node_mass @ (column.X[:, 0] ** 2 + column.X[:, 2] ** 2))
@@ -60,14 +75,20 @@ def rocking_of(system):
 
 def test_column_settles_by_its_weight_over_the_subgrade(on_pad):
     area = on_pad.areas.sum()
-    assert area == pytest.approx(np.pi * (0.1**2 - 0.06**2), rel=0.02)  # of a polygon with 20 corners
+    assert area == pytest.approx(
+        np.pi * (0.1**2 - 0.06**2), rel=0.02
+    )  # of a polygon with 20 corners
     state = begin("rigid", on_pad).state
-    assert state.contact["indentation"][:, 2] == pytest.approx(on_pad.weight / (SUBGRADE * area), rel=1e-4)
+    assert state.contact["indentation"][:, 2] == pytest.approx(
+        on_pad.weight / (SUBGRADE * area), rel=1e-4
+    )
     assert (state.forces[:, 2] > 0).all()
 
 
 def test_column_bounces_on_its_pad_as_a_damped_oscillator(on_pad):
-    """m z'' + c z' + k A z = 0 with the damping ratio of the case, released with 5 mm/s down: z = -(v / w_d) exp(-D w t) sin(w_d t)."""
+    """m z'' + c z' + k A z = 0 with the damping ratio of the case, released with 5 mm/s down: z =
+    -(v / w_d) exp(-D w t) sin(w_d t).
+    """
     trial = begin("rigid", on_pad, moved(lambda x: np.tile([0.0, 0.0, -0.005], (len(x), 1))))
     w = np.sqrt(on_pad.interface.pad.stiffness[:, 2].sum() / on_pad.column.total_mass)
     damped, times = w * np.sqrt(1 - 0.05**2), 5e-4 * np.arange(1, round(3 * 2 * np.pi / w / 5e-4))
@@ -84,8 +105,14 @@ def test_column_bounces_on_its_pad_as_a_damped_oscillator(on_pad):
 
 
 def test_rigid_column_rocks_on_springs_with_the_frequency_of_the_whole_foot_and_lifts_at_its_uplift_moment():
-    """Stiff along, undamped: it turns about the foot's middle, I_O q'' + (k I_f - m g h) q = 0, until k q R = W / A lifts the rim."""
-    system = system_of(pad(shear_stiffness_n_m3=40 * SUBGRADE), integration={"dt_s": 5e-4}, contact={"friction_coefficient": 5.0})
+    """Stiff along, undamped: it turns about the foot's middle, I_O q'' + (k I_f - m g h) q = 0,
+    until k q R = W / A lifts the rim.
+    """
+    system = system_of(
+        pad(shear_stiffness_n_m3=40 * SUBGRADE),
+        integration={"dt_s": 5e-4},
+        contact={"friction_coefficient": 5.0},
+    )
     stiffness, w, _ = rocking_of(system)
     exact = SUBGRADE * np.pi / 4 * (0.1**4 - 0.06**4)
     assert stiffness == pytest.approx(exact, rel=0.03)
@@ -113,14 +140,23 @@ def test_column_that_rocks_off_half_its_pad_loses_to_its_dashpots_alone(on_pad):
     energy = trial.energy()
     assert least < len(trial.state.forces) / 2
     assert np.diff(lost).max() <= 1e-12 * moves and lost[-1] < -0.02 * moves
-    assert energy["impact"] == 0 and abs(energy["contact"]) < 1e-2 * abs(lost[-1]) and abs(energy["closure"]) < 1e-8 * moves
+    assert (
+        energy["impact"] == 0
+        and abs(energy["contact"]) < 1e-2 * abs(lost[-1])
+        and abs(energy["closure"]) < 1e-8 * moves
+    )
 
 
 def test_flat_without_edges_is_the_plate_near_its_middle():
     """Layer and plate differ by the plate's edges only, here by 1e-3 of micrometres of settlement."""
-    ground = np.array([[8.0 * np.sin(40 * 1e-3 * k), 3.0 * np.sin(55 * 1e-3 * k), 0.0] for k in range(1, 61)])
+    ground = np.array(
+        [[8.0 * np.sin(40 * 1e-3 * k), 3.0 * np.sin(55 * 1e-3 * k), 0.0] for k in range(1, 61)]
+    )
     paths = []
-    for base in ({"length_m": 0.4, "width_m": 0.4, "slide_allowance_m": 0.06}, {"kind": "unbounded"}):
+    for base in (
+        {"length_m": 0.4, "width_m": 0.4, "slide_allowance_m": 0.06},
+        {"kind": "unbounded"},
+    ):
         trial = begin("rigid", system_of(base, integration={"dt_s": 1e-3}))
         for one in ground:
             trial.step(one)
@@ -130,9 +166,15 @@ def test_flat_without_edges_is_the_plate_near_its_middle():
 
 
 def test_column_slides_over_a_flat_without_edges_as_newmark_has_it():
-    """0.6 m/s against mu g = 0.05 g stop after v^2 / (2 mu g) = 0.367 m, beyond any plate of the case's."""
-    system = system_of({"kind": "unbounded"}, contact={"friction_coefficient": 0.05}, integration={"dt_s": 4e-3})
-    trial = begin("rigid", system, lambda system: begin_state(system, Initial(velocity_m_s=(0.6, 0.0, 0.0))))
+    """0.6 m/s against mu g = 0.05 g stop after v^2 / (2 mu g) = 0.367 m, beyond any plate of the
+    case's.
+    """
+    system = system_of(
+        {"kind": "unbounded"}, contact={"friction_coefficient": 0.05}, integration={"dt_s": 4e-3}
+    )
+    trial = begin(
+        "rigid", system, lambda system: begin_state(system, Initial(velocity_m_s=(0.6, 0.0, 0.0)))
+    )
     start = trial.state.anchors.mean(axis=0)
     stop = 0.6 / (0.05 * GRAVITY)
     for _ in range(round(1.1 * stop / 4e-3)):

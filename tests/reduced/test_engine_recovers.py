@@ -1,4 +1,6 @@
-"""What stops the reduced engine between two steps, a full disk for example, costs no step; a step that fails leaves what was before it."""
+"""What stops the reduced engine between two steps, a full disk for example, costs no step; a step
+that fails leaves what was before it.
+"""
 
 import errno
 import os
@@ -11,8 +13,8 @@ from fecolumn.case import case_from_tables
 from fecolumn.contact.problem import CONTACT_FAILED
 from fecolumn.dynamics.cuts import StepFailed
 from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.history import read_history
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.history import read_history
 from fecolumn.reduced import cache
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.trial import begin
@@ -25,8 +27,16 @@ def full_disk(*_):
 
 
 def sliding(engine, max_cuts=4):
-    """Engine of a steel block that slides at 1.5 m/s, mu 0.2, over bricks of the base that it does not know yet."""
-    system = block_system("corotated", box([-0.1, 0.1], [-0.1, 0.1], [0, 0.06]), box(np.linspace(-0.8, 0.8, 33), [-0.3, 0.3], [-0.02, 0]), HHT(DT, 0.0), friction=0.2)
+    """Engine of a steel block that slides at 1.5 m/s, mu 0.2, over bricks of the base that it does
+    not know yet.
+    """
+    system = block_system(
+        "corotated",
+        box([-0.1, 0.1], [-0.1, 0.1], [0, 0.06]),
+        box(np.linspace(-0.8, 0.8, 33), [-0.3, 0.3], [-0.02, 0]),
+        HHT(DT, 0.0),
+        friction=0.2,
+    )
 
     def pushed(system):
         state = standing(system)
@@ -46,7 +56,9 @@ def state_of(engine):
 
 @pytest.mark.parametrize("name", ["rigid", "reduced"])
 def test_a_base_that_cannot_be_extended_costs_no_row_and_no_digit(name, monkeypatch):
-    """The rows of the steps made are there, the motion is that after them; once there is room on the disk all goes on as if nothing had been."""
+    """The rows of the steps made are there, the motion is that after them; once there is room on
+    the disk all goes on as if nothing had been.
+    """
     grounds, whole, engine = np.zeros((STEPS, 3)), sliding(name), sliding(name)
     undisturbed, _ = whole.advance(grounds)
     done, stops = undisturbed[:0], []
@@ -54,14 +66,14 @@ def test_a_base_that_cannot_be_extended_costs_no_row_and_no_digit(name, monkeypa
         with monkeypatch.context() as patch:
             patch.setattr(engine.base, "need", full_disk)
             try:
-                engine.advance(grounds[len(done):])
+                engine.advance(grounds[len(done) :])
             except OSError:
                 stops.append(len(engine.made))
         done = np.concatenate([done, engine.made])
         assert engine.motion.time == done[-1, 0]
         if len(done) < STEPS:
             # there is room again
-            engine.advance(grounds[len(done):len(done) + 1])
+            engine.advance(grounds[len(done) : len(done) + 1])
             done = np.concatenate([done, engine.made])
     # motions change places from step to step: after an odd and after an even number of them
     assert {count % 2 for count in stops} == {0, 1}
@@ -88,7 +100,9 @@ def test_a_step_that_fails_after_some_of_its_halves_leaves_what_was_before_it():
     """The base jumps up with a million g: a quarter of the step is made, the next one is not."""
     engine, grounds = sliding("reduced", max_cuts=2), np.zeros((20, 3))
     grounds[12, 2] = 1e7
-    with pytest.raises(StepFailed, match="no convergence within max_iterations .step cut 2 times to 0.00025 s"):
+    with pytest.raises(
+        StepFailed, match="no convergence within max_iterations .step cut 2 times to 0.00025 s"
+    ):
         engine.advance(grounds)
     assert len(engine.made) == 12 and engine.motion.time == engine.made[-1, 0]
     undisturbed = sliding("reduced")
@@ -98,14 +112,26 @@ def test_a_step_that_fails_after_some_of_its_halves_leaves_what_was_before_it():
 
 def case_of(**tables):
     """A steel block thrown along its base, with half a brick of slide allowance."""
-    return case_from_tables({
-        "column": {"shape": "block", "length_m": 0.2, "width_m": 0.2, "height_m": 0.1}, "contact": {"friction_coefficient": 0.2},
-        "base": {"length_m": 1.0, "width_m": 0.3, "slide_allowance_m": 0.0}, "mesh": {"fine_size_m": 0.05, "coarse_size_m": 0.05, "base_size_m": 0.05},
-        "initial": {"velocity_m_s": [1.0, 0.0, 0.0]}, "integration": {"engine": "rigid", "duration_s": 0.4, "dt_s": 1e-3}} | tables, "block.toml")
+    return case_from_tables(
+        {
+            "column": {"shape": "block", "length_m": 0.2, "width_m": 0.2, "height_m": 0.1},
+            "contact": {"friction_coefficient": 0.2},
+            "base": {"length_m": 1.0, "width_m": 0.3, "slide_allowance_m": 0.0},
+            "mesh": {"fine_size_m": 0.05, "coarse_size_m": 0.05, "base_size_m": 0.05},
+            "initial": {"velocity_m_s": [1.0, 0.0, 0.0]},
+            "integration": {"engine": "rigid", "duration_s": 0.4, "dt_s": 1e-3},
+        }
+        | tables,
+        "block.toml",
+    )
 
 
-def test_an_analysis_that_a_full_disk_stopped_keeps_its_steps_and_goes_on_to_the_last_digit(tmp_path, monkeypatch):
-    """Checkpoint and history hold every step made; the base's next reach is found by the next run, none is left out."""
+def test_an_analysis_that_a_full_disk_stopped_keeps_its_steps_and_goes_on_to_the_last_digit(
+    tmp_path, monkeypatch
+):
+    """Checkpoint and history hold every step made; the base's next reach is found by the next run,
+    none is left out.
+    """
     case, folder = case_of(), tmp_path / "stopped"
     with monkeypatch.context() as patch:
         patch.setenv("FECOLUMN_CACHE", str(tmp_path / "cache"))
@@ -116,7 +142,10 @@ def test_an_analysis_that_a_full_disk_stopped_keeps_its_steps_and_goes_on_to_the
                 simulation.run(case, folder, quiet=True)
         kept = read_history(folder / "history.h5")["time"]
         with np.load(folder / "checkpoint.npz") as saved:
-            assert len(kept) == saved["step"] + 1 > 10 and saved["motion.whole"]["time"][0] == kept[-1] == saved["rows.time"][-1]
+            assert (
+                len(kept) == saved["step"] + 1 > 10
+                and saved["motion.whole"]["time"][0] == kept[-1] == saved["rows.time"][-1]
+            )
         simulation.run(case, folder, quiet=True)
         simulation.run(case, tmp_path / "whole", quiet=True)
     stopped, whole = (read_history(tmp_path / name / "history.h5") for name in ("stopped", "whole"))

@@ -22,19 +22,34 @@ def model(system):
 def test_flexibility_is_that_of_the_filtered_foot_at_any_step(system, model):
     """U^T K^+ U + C = K^+, whatever the step's filter moves from one to the other."""
     foot, n = system.interface.foot, len(model.arms)
-    response = (foot.unit_push().T @ FreeBody(system.column).response(foot.unit_push())).reshape(n, 3, n, 3).transpose(0, 2, 1, 3)
-    assert np.abs(response + foot.static - model.flexibility).max() < 1e-8 * np.abs(model.flexibility).max()
+    response = (
+        (foot.unit_push().T @ FreeBody(system.column).response(foot.unit_push()))
+        .reshape(n, 3, n, 3)
+        .transpose(0, 2, 1, 3)
+    )
+    assert (
+        np.abs(response + foot.static - model.flexibility).max()
+        < 1e-8 * np.abs(model.flexibility).max()
+    )
 
 
 def test_compliance_within_a_step_is_that_of_all_finite_elements(system, model):
-    """Rigid motion, 40 modes and static rest against B A^-1 B^T; what is left is the inertia of the modes above."""
+    """Rigid motion, 40 modes and static rest against B A^-1 B^T; what is left is the inertia of the
+    modes above.
+    """
     interface = system.interface
     structure, points = structure_of(model, system.hht, system.gravity, **interface.laws)
     mine, n = scheme(structure, points, system.hht), len(model.arms)
     skew = np.array([np.cross(np.eye(3), arm) for arm in model.arms])
-    rigid = np.eye(3) / model.mass + np.einsum("iab,bc,jdc->ijad", skew, np.linalg.inv(model.inertia), skew)
+    rigid = np.eye(3) / model.mass + np.einsum(
+        "iab,bc,jdc->ijad", skew, np.linalg.inv(model.inertia), skew
+    )
     W = mine.half * rigid.transpose(0, 2, 1, 3).reshape(3 * n, 3 * n) + mine.dynamic
-    full = system.operators(system.hht.mass_factor, system.hht.stiffness_factor).response.compliance / (2 * system.hht.beta) + interface.foot.static
+    full = (
+        system.operators(system.hht.mass_factor, system.hht.stiffness_factor).response.compliance
+        / (2 * system.hht.beta)
+        + interface.foot.static
+    )
     full = full.transpose(0, 2, 1, 3).reshape(3 * n, 3 * n)
     assert np.abs(W - full).max() < 1e-5 * np.abs(interface.foot.static).max()
 

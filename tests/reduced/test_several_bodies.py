@@ -9,7 +9,17 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced.observe import ENERGY, WIDTH
 from fecolumn.reduced.start import of_parts
 from fecolumn.structures.model import GROUND, Link
-from fecolumn.verification.boxes import GRAVITY, block_on_a_heavy_one, box, engine, frame, joint, part, pulse, stack
+from fecolumn.verification.boxes import (
+    GRAVITY,
+    block_on_a_heavy_one,
+    box,
+    engine,
+    frame,
+    joint,
+    part,
+    pulse,
+    stack,
+)
 from fecolumn.verification.several_bodies import closure
 
 G = -GRAVITY[2]
@@ -20,7 +30,9 @@ def test_a_stack_carries_its_weight_and_rests(alpha):
     made = stack(alpha=alpha)
     low, up = (body["mass"] * G for body in made.structure.bodies.body)
     forces = made.motion.forces[:, 2]
-    assert forces[:4].sum() == pytest.approx(low + up, rel=1e-8) and forces[4:].sum() == pytest.approx(up, rel=1e-8)
+    assert forces[:4].sum() == pytest.approx(low + up, rel=1e-8) and forces[
+        4:
+    ].sum() == pytest.approx(up, rel=1e-8)
     rows, over = made.advance(np.zeros((500, 3)))
     assert not over and np.abs(rows[:, 1:4] - rows[0, 1:4]).max() < 1e-11
 
@@ -35,15 +47,17 @@ def test_a_slab_rests_on_more_columns_than_it_needs(columns):
 
 
 def test_a_block_rocks_on_a_heavy_one_as_on_the_ground():
-    """Housner (1963): quarter period acosh(1 / (1 - theta / alpha)) / p; an impact leaves (1 - 3/2 sin^2 alpha)^2 of the energy."""
+    """Housner (1963): quarter period acosh(1 / (1 - theta / alpha)) / p; an impact leaves (1 - 3/2
+    sin^2 alpha)^2 of the energy.
+    """
     dt = 5e-4
     made, alpha, p = block_on_a_heavy_one(dt)
     tilt = made.advance(np.zeros((1000, 3)))[0][:, 4]
     top = np.argmax(tilt[:500])
     quarter = np.arccosh(1 / (1 - tilt[top] / alpha)) / p
-    back = top + np.argmin(tilt[top:top + int(1.3 * quarter / dt)])
+    back = top + np.argmin(tilt[top : top + int(1.3 * quarter / dt)])
     assert (back - top) * dt == pytest.approx(quarter, abs=4 * dt)
-    again = tilt[back:back + int(1.2 * quarter / dt)].max()
+    again = tilt[back : back + int(1.2 * quarter / dt)].max()
     energy = [np.cos(alpha - most) - np.cos(alpha) for most in (tilt[top], again)]
     assert energy[1] / energy[0] == pytest.approx((1 - 1.5 * np.sin(alpha) ** 2) ** 2, rel=2e-3)
 
@@ -59,26 +73,36 @@ def test_energy_of_a_stack_in_which_both_blocks_rock_is_accounted_for():
 
 @pytest.mark.parametrize("seed", [1, 7])
 def test_a_stack_shaken_to_pieces_never_gains_by_contact(seed):
-    """Blocks slide over the edges of one another, tilt there and come back: impact and friction only take, contact makes no more than its solver leaves."""
+    """Blocks slide over the edges of one another, tilt there and come back: impact and friction
+    only take, contact makes no more than its solver leaves.
+    """
     random, t = np.random.default_rng(seed), np.arange(1, 1501) * 1e-3
     ground = np.zeros((1500, 3))
     for axis in (0, 1):
         for frequency in (1.0, 2.3, 4.1):
-            ground[:, axis] += 7 * random.normal() * np.sin(2 * np.pi * frequency * t + random.uniform(0, 6))
+            ground[:, axis] += (
+                7 * random.normal() * np.sin(2 * np.pi * frequency * t + random.uniform(0, 6))
+            )
     ground[:, 2] = 2.8 * np.sin(10 * np.pi * t)
     made = stack()
     rows, _ = made.advance(ground)
     moved = np.ptp(rows[:, ENERGY + 2])
-    friction, impact, contact = np.diff(rows[:, ENERGY + 4:ENERGY + 7], axis=0).T
+    friction, impact, contact = np.diff(rows[:, ENERGY + 4 : ENERGY + 7], axis=0).T
     assert impact.sum() < -1.0 and closure(rows) < 1e-11
     assert impact.max() <= 1e-12 * moved and friction.max() <= 1e-12 * moved
     assert contact.max() < 1e-7 * moved and (friction + impact + contact).max() < 1e-7 * moved
 
 
 def test_a_block_that_slides_over_an_edge_and_back_stands_on_the_points_that_never_left():
-    """Its outer points come back to where the others have sunk in: let in there, they would be pushed up and make energy. They stay open until it lifts off."""
+    """Its outer points come back to where the others have sunk in: let in there, they would be
+    pushed up and make energy. They stay open until it lifts off.
+    """
     block = box(0.4, 0.4, 0.2, gives=1e-6, per_side=5)
-    made = engine([part("low", block, (0, 0, 0)), part("up", block, (0, 0, 0.2))], [joint(0, GROUND, block), joint(1, 0, block, friction=0.1)], observed=1)
+    made = engine(
+        [part("low", block, (0, 0, 0)), part("up", block, (0, 0, 0.2))],
+        [joint(0, GROUND, block), joint(1, 0, block, friction=0.1)],
+        observed=1,
+    )
     stood = made.motion.forces[25:, 2].copy()
     t = np.arange(1, 1201) * 1e-3
     ground = np.zeros((1200, 3))
@@ -86,7 +110,9 @@ def test_a_block_that_slides_over_an_edge_and_back_stands_on_the_points_that_nev
     rows, _ = made.advance(ground)
     assert 0.005 < np.abs(rows[:, 1] - rows[0, 1]).max() < 0.1
     back = np.zeros((1200, 3))
-    back[:, 0] = np.sign(rows[-1, 1] - rows[0, 1]) * 4.0 * (t < 0.1) * np.abs(np.sin(np.pi * t / 0.1))
+    back[:, 0] = (
+        np.sign(rows[-1, 1] - rows[0, 1]) * 4.0 * (t < 0.1) * np.abs(np.sin(np.pi * t / 0.1))
+    )
     rows_back, _ = made.advance(back)
     forces = made.motion.forces[25:, 2].reshape(5, 5)
     # out by the row of one side, back and out by that of the other
@@ -105,9 +131,13 @@ def test_a_structure_rocks_the_same_wherever_it_stands():
     np.testing.assert_allclose(there[:, 1:4], here[:, 1:4], rtol=0, atol=1e-7)
 
 
-@pytest.mark.parametrize("columns, push, uplifts", [(2, 0.95, False), (2, 1.1, True), (4, 0.95, False), (4, 1.1, True)])
+@pytest.mark.parametrize(
+    "columns, push, uplifts", [(2, 0.95, False), (2, 1.1, True), (4, 0.95, False), (4, 1.1, True)]
+)
 def test_a_frame_uplifts_when_the_ground_accelerates_by_g_tan_alpha(columns, push, uplifts):
-    """Makris and Vassiliou (2013): columns of slenderness alpha under a slab uplift together at g tan(alpha), whatever the slab's mass."""
+    """Makris and Vassiliou (2013): columns of slenderness alpha under a slab uplift together at g
+    tan(alpha), whatever the slab's mass.
+    """
     made, *_ = frame(columns)
     ground = np.zeros((400, 3))
     # slowly, lest the elastic points ring
@@ -117,9 +147,11 @@ def test_a_frame_uplifts_when_the_ground_accelerates_by_g_tan_alpha(columns, pus
 
 
 def test_a_frame_rocks_at_the_frequency_of_its_theory():
-    """Makris and Vassiliou (2013): the frame rocks as a column with p_hat = p sqrt((1 + 2 g) / (1 + 3 g)), g the slab's mass over that of the columns.
+    """Makris and Vassiliou (2013): the frame rocks as a column with p_hat = p sqrt((1 + 2 g) / (1 +
+    3 g)), g the slab's mass over that of the columns.
 
-    theta'' = -p_hat^2 sin(alpha - theta): quarter period of small rocking acosh(1 / (1 - theta / alpha)) / p_hat.
+    theta'' = -p_hat^2 sin(alpha - theta): quarter period of small rocking acosh(1 / (1 - theta /
+    alpha)) / p_hat.
     """
     made, slab, column = frame(2, dt=5e-4)
     alpha, R = np.arctan(0.2 / 1.2), np.hypot(0.2, 1.2) / 2
@@ -130,7 +162,7 @@ def test_a_frame_rocks_at_the_frequency_of_its_theory():
     tilt = rows[1700:, WIDTH + 3]
     top = np.argmax(tilt[:1000])
     quarter = np.arccosh(1 / (1 - tilt[top] / alpha)) / p_hat
-    back = top + np.argmin(tilt[top:top + int(1.2 * quarter / 5e-4)])
+    back = top + np.argmin(tilt[top : top + int(1.2 * quarter / 5e-4)])
     assert (back - top) * 5e-4 == pytest.approx(quarter, rel=0.02)
 
 
@@ -146,11 +178,22 @@ def test_momentum_is_conserved_where_nothing_is_held():
     """Two blocks that collide in free flight: their common momentum and angular momentum stay."""
     one = box(0.3, 0.4, 0.5)
     lower = part("lower", one, (0, 0, 10.0), spin=(0.3, -0.2, 0.1))
-    upper = replace(part("upper", one, (0.05, 0.08, 10.6), velocity=(0.1, 0.0, -1.5)), rotation=rotation_matrix(np.array([0.1, 0.05, 0.3])))
+    upper = replace(
+        part("upper", one, (0.05, 0.08, 10.6), velocity=(0.1, 0.0, -1.5)),
+        rotation=rotation_matrix(np.array([0.1, 0.05, 0.3])),
+    )
     made = engine([lower, upper], [joint(0, GROUND, one), joint(1, 0, one)], stands=False)
 
     def moments():
-        frames, spins = made.motion.frames, [R @ body["inertia"] @ w for R, body, w in zip(made.motion.rotation, made.structure.bodies.body, made.motion.frames["spin"])]
+        frames, spins = (
+            made.motion.frames,
+            [
+                R @ body["inertia"] @ w
+                for R, body, w in zip(
+                    made.motion.rotation, made.structure.bodies.body, made.motion.frames["spin"]
+                )
+            ],
+        )
         momentum = one.mass * frames["velocity"]
         return momentum.sum(axis=0), (np.cross(frames["center"], momentum) + spins).sum(axis=0)
 
@@ -165,8 +208,22 @@ def test_momentum_is_conserved_where_nothing_is_held():
 
 
 def tie(**settings):
-    values = dict(name="tie", kind="spring", a=0, arm_a=np.array([0.0, 0, 0.4]), b=GROUND, arm_b=np.array([0.0, 0, 3.0]), stiffness=2e4, damping=0.0, prestress=0.0,
-                  slack=0.0, pushes=True, pulls=True, yield_n=np.inf, breaking_n=np.inf)
+    values = dict(
+        name="tie",
+        kind="spring",
+        a=0,
+        arm_a=np.array([0.0, 0, 0.4]),
+        b=GROUND,
+        arm_b=np.array([0.0, 0, 3.0]),
+        stiffness=2e4,
+        damping=0.0,
+        prestress=0.0,
+        slack=0.0,
+        pushes=True,
+        pulls=True,
+        yield_n=np.inf,
+        breaking_n=np.inf,
+    )
     return Link(**{**values, **settings})
 
 
@@ -183,37 +240,71 @@ def test_a_tendon_that_is_tight_presses_the_block_down():
     assert made.motion.forces[:, 2].sum() == pytest.approx(block.mass * G + 500.0, rel=1e-6)
 
 
-@pytest.mark.parametrize("settings", [{}, dict(slack=0.005), dict(pushes=False, slack=0.002), dict(damping=300.0), dict(yield_n=200.0), dict(breaking_n=100.0)])
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {},
+        dict(slack=0.005),
+        dict(pushes=False, slack=0.002),
+        dict(damping=300.0),
+        dict(yield_n=200.0),
+        dict(breaking_n=100.0),
+    ],
+)
 def test_energy_of_links_is_accounted_for(settings):
     made, rows = tied(tie(**settings))
     assert rows[:, 4].max() > 0.01 and closure(rows) < 1e-11
     lost = rows[-1, ENERGY + 10]
     dissipates = bool({"damping", "yield_n", "breaking_n"} & set(settings))
     assert (lost < -1e-3) == dissipates and lost <= 1e-12
-    assert made.motion.ties["broken"][0] == ("breaking_n" in settings) and (made.motion.ties["flowed"][0] != 0) == ("yield_n" in settings)
+    assert made.motion.ties["broken"][0] == ("breaking_n" in settings) and (
+        made.motion.ties["flowed"][0] != 0
+    ) == ("yield_n" in settings)
     # nothing else is damped here, and nothing of it is booked elsewhere
-    assert rows[-1, ENERGY + 8] == 0.0 and made.motion.ties["work"].sum() == pytest.approx(-lost, rel=1e-12, abs=1e-15)
+    assert rows[-1, ENERGY + 8] == 0.0 and made.motion.ties["work"].sum() == pytest.approx(
+        -lost, rel=1e-12, abs=1e-15
+    )
 
 
 def test_a_mass_that_a_yielding_spring_stops_has_lost_all_but_what_the_spring_then_gives_back():
-    """Without friction, along x at the height of the centre of mass: F_y times the plastic way is m v^2 / 2 less F_y^2 / 2 k."""
+    """Without friction, along x at the height of the centre of mass: F_y times the plastic way is m
+    v^2 / 2 less F_y^2 / 2 k.
+    """
     block, speed, stiffness, yields = box(0.3, 0.3, 0.8), 0.5, 1e5, 1e3
-    spring = tie(arm_a=np.zeros(3), arm_b=np.array([-2.0, 0, 0.4]), stiffness=stiffness, yield_n=yields)
-    made = engine([part("block", block, (0, 0, 0), velocity=(speed, 0.0, 0.0))], [joint(0, GROUND, block, friction=0.0)], [spring])
+    spring = tie(
+        arm_a=np.zeros(3), arm_b=np.array([-2.0, 0, 0.4]), stiffness=stiffness, yield_n=yields
+    )
+    made = engine(
+        [part("block", block, (0, 0, 0), velocity=(speed, 0.0, 0.0))],
+        [joint(0, GROUND, block, friction=0.0)],
+        [spring],
+    )
     rows, _ = made.advance(np.zeros((300, 3)))
     plastic = (block.mass * speed**2 / 2 - yields**2 / (2 * stiffness)) / yields
     tension, elongation, yielded, work, broken = rows[:, -5:].T
-    assert work[-1] == pytest.approx(yields * plastic, rel=1e-4) and yielded[-1] == pytest.approx(plastic, rel=1e-4) and rows[-1, ENERGY + 10] == pytest.approx(-work[-1], rel=1e-12)
-    assert elongation.max() == pytest.approx(plastic + yields / stiffness, rel=1e-4) and tension.max() == pytest.approx(yields, rel=1e-12) and not broken.any()
+    assert (
+        work[-1] == pytest.approx(yields * plastic, rel=1e-4)
+        and yielded[-1] == pytest.approx(plastic, rel=1e-4)
+        and rows[-1, ENERGY + 10] == pytest.approx(-work[-1], rel=1e-12)
+    )
+    assert (
+        elongation.max() == pytest.approx(plastic + yields / stiffness, rel=1e-4)
+        and tension.max() == pytest.approx(yields, rel=1e-12)
+        and not broken.any()
+    )
     assert np.abs(rows[:, WIDTH - 1]).max() < 1e-12 * block.mass * speed**2 / 2
 
 
 def test_a_tendon_that_a_lean_has_stretched_is_loaded_from_the_start():
-    """A block that leans about its edge, tied to the ground by a tendon through its foot: k e^2 / 2, which contact must not make."""
+    """A block that leans about its edge, tied to the ground by a tendon through its foot: k e^2 /
+    2, which contact must not make.
+    """
     breadth, tilt, stiffness = 0.3, 0.05, 2e5
     block, turn = box(breadth, breadth, 0.8), rotation_matrix(np.array([0, tilt, 0]))
     toe = np.array([breadth / 2, 0, 0])
-    leaning = replace(part("block", block, (0, 0, 0)), center=toe + turn @ (block.center - toe), rotation=turn)
+    leaning = replace(
+        part("block", block, (0, 0, 0)), center=toe + turn @ (block.center - toe), rotation=turn
+    )
     tendon = tie(kind="tendon", arm_b=np.array([0.0, 0, 0.0]), stiffness=stiffness, pushes=False)
     made = engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [tendon])
     made.motion = of_parts(made, [leaning], False)
@@ -222,16 +313,27 @@ def test_a_tendon_that_a_lean_has_stretched_is_loaded_from_the_start():
     stretched = np.linalg.norm(top) - 0.8
     assert made.row()[ENERGY + 1] == pytest.approx(stiffness * stretched**2 / 2, rel=1e-9)
     rows, _ = made.advance(np.zeros((150, 3)))
-    assert rows[:, ENERGY + 6].max() < 1e-6 * rows[0, ENERGY:ENERGY + 3].sum() and closure(rows) < 1e-11
+    assert (
+        rows[:, ENERGY + 6].max() < 1e-6 * rows[0, ENERGY : ENERGY + 3].sum()
+        and closure(rows) < 1e-11
+    )
 
 
-@pytest.mark.parametrize("settings, much", [(dict(stiffness=1e9), "1e\\+09 N/m"), (dict(damping=1e7), "20000 N/m and 1e\\+07 N s/m")])
+@pytest.mark.parametrize(
+    "settings, much",
+    [(dict(stiffness=1e9), "1e\\+09 N/m"), (dict(damping=1e7), "20000 N/m and 1e\\+07 N s/m")],
+)
 def test_a_link_too_stiff_for_the_step_is_refused_by_name(settings, much):
     with pytest.raises(ValueError, match=f"links.tie: {much} .* needs steps of at most") as refused:
         tied(tie(**settings))
     longest = float(str(refused.value).split()[-2])
     block = box(0.3, 0.3, 0.8)
-    engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [tie(**settings)], dt=0.98 * longest)
+    engine(
+        [part("block", block, (0, 0, 0))],
+        [joint(0, GROUND, block)],
+        [tie(**settings)],
+        dt=0.98 * longest,
+    )
 
 
 def test_many_links_are_refused_where_one_of_them_would_do():
@@ -239,7 +341,9 @@ def test_many_links_are_refused_where_one_of_them_would_do():
     block = box(0.3, 0.3, 0.8)
     one = tie(stiffness=0.9 * 4 * block.mass / 1e-3**2 / 4, arm_a=np.zeros(3))
     tied(one, steps=5)
-    with pytest.raises(ValueError, match="links.tie: .* with the links beside it, needs steps of at most 0.00026 s"):
+    with pytest.raises(
+        ValueError, match="links.tie: .* with the links beside it, needs steps of at most 0.00026 s"
+    ):
         engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [one] * 16)
 
 
@@ -250,6 +354,8 @@ def test_a_block_comes_to_rest_on_links_however_stiff(stiffness, prestress, end)
     block = box(0.3, 0.3, 0.8)
     link = tie(stiffness=stiffness, prestress=prestress, arm_b=np.array(end))
     made = engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [link], dt=1e-4)
-    assert made.motion.forces[:, 2].sum() == pytest.approx(block.mass * G + prestress, rel=0.2 if stiffness > 1e7 else 5e-3)
+    assert made.motion.forces[:, 2].sum() == pytest.approx(
+        block.mass * G + prestress, rel=0.2 if stiffness > 1e7 else 5e-3
+    )
     rows, _ = made.advance(np.zeros((50, 3)))
     assert np.abs(rows[:, 1:4] - rows[0, 1:4]).max() < 1e-11

@@ -8,9 +8,14 @@ from fecolumn.case import case_from_tables
 from fecolumn.reduced import states
 from fecolumn.simulation import run
 
-ROCKING = {"column": {"shape": "block", "length_m": 0.4, "width_m": 0.4, "height_m": 1.2}, "material": {"youngs_modulus_pa": 50e9, "density_kg_m3": 2700},
-           "mesh": {"fine_size_m": 0.1, "coarse_size_m": 0.2, "base_size_m": 0.2}, "initial": {"tilt_rad": 0.05},
-           "integration": {"engine": "reduced", "duration_s": 0.25}, "output": {"states_every_s": 0.02, "checkpoint_every_s": 1e5}}
+ROCKING = {
+    "column": {"shape": "block", "length_m": 0.4, "width_m": 0.4, "height_m": 1.2},
+    "material": {"youngs_modulus_pa": 50e9, "density_kg_m3": 2700},
+    "mesh": {"fine_size_m": 0.1, "coarse_size_m": 0.2, "base_size_m": 0.2},
+    "initial": {"tilt_rad": 0.05},
+    "integration": {"engine": "reduced", "duration_s": 0.25},
+    "output": {"states_every_s": 0.02, "checkpoint_every_s": 1e5},
+}
 
 
 def _kept(folder) -> dict[str, np.ndarray]:
@@ -27,15 +32,24 @@ def rocking(tmp_path_factory):
 
 def test_states_are_kept_at_their_interval_and_at_the_end(rocking):
     kept = _kept(rocking)
-    assert kept["time"] == pytest.approx([*np.arange(0, 0.25, 0.02), 0.25]) and kept["modal"].shape == (14, len(kept["frequencies"]))
+    assert kept["time"] == pytest.approx([*np.arange(0, 0.25, 0.02), 0.25]) and kept[
+        "modal"
+    ].shape == (14, len(kept["frequencies"]))
     assert kept["points"].sum() == len(kept["force"]) and (kept["force"][:, 2] > 0).all()
 
 
 def test_states_of_an_interrupted_analysis_are_those_of_one_that_was_not(rocking, tmp_path):
     asked = []
     with pytest.raises(KeyboardInterrupt):
-        run(case_from_tables(ROCKING, "case"), tmp_path / "run", quiet=True, stop=lambda: asked.append(1) or len(asked) > 6)
-    assert (tmp_path / "run" / "checkpoint.npz").is_file() and not (tmp_path / "run" / states.NAME).exists()
+        run(
+            case_from_tables(ROCKING, "case"),
+            tmp_path / "run",
+            quiet=True,
+            stop=lambda: asked.append(1) or len(asked) > 6,
+        )
+    assert (tmp_path / "run" / "checkpoint.npz").is_file() and not (
+        tmp_path / "run" / states.NAME
+    ).exists()
     run(case_from_tables(ROCKING, "case"), tmp_path / "run", quiet=True)
     whole, parts = _kept(rocking), _kept(tmp_path / "run")
     assert all(np.array_equal(whole[name], parts[name]) for name in whole)
@@ -53,8 +67,14 @@ def test_states_that_would_fill_the_disk_are_thinned_out_evenly(rocking, tmp_pat
 def test_states_change_nothing_of_the_motion_and_are_not_asked_of_the_case_id(rocking, tmp_path):
     without = case_from_tables(ROCKING | {"output": {"states_every_s": 0.0}}, "case")
     run(without, tmp_path / "run", quiet=True)
-    assert not (tmp_path / "run" / states.NAME).exists() and without.id == case_from_tables(ROCKING, "case").id
-    with h5py.File(rocking / "history.h5") as one, h5py.File(tmp_path / "run" / "history.h5") as other:
+    assert (
+        not (tmp_path / "run" / states.NAME).exists()
+        and without.id == case_from_tables(ROCKING, "case").id
+    )
+    with (
+        h5py.File(rocking / "history.h5") as one,
+        h5py.File(tmp_path / "run" / "history.h5") as other,
+    ):
         assert np.array_equal(one["u_top"][()], other["u_top"][()])
 
 

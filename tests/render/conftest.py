@@ -16,9 +16,13 @@ def block(tmp_path_factory):
 @pytest.fixture(scope="session")
 def gate(tmp_path_factory):
     """Two columns that rock below a lintel."""
-    return rocking_structures.analysed(tmp_path_factory.mktemp("gate") / "run", rocking_structures.GATE, rocking_structures.TILTED)
+    return rocking_structures.analysed(
+        tmp_path_factory.mktemp("gate") / "run", rocking_structures.GATE, rocking_structures.TILTED
+    )
 
 
 @pytest.fixture(scope="session")
 def building(tmp_path_factory):
-    return rocking_structures.analysed(tmp_path_factory.mktemp("building") / "run", rocking_structures.BUILDING)
+    return rocking_structures.analysed(
+        tmp_path_factory.mktemp("building") / "run", rocking_structures.BUILDING
+    )

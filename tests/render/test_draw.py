@@ -1,4 +1,6 @@
-"""Movies, stills and the sequence figure: whole files of the length asked for, that show the motion; and what is refused."""
+"""Movies, stills and the sequence figure: whole files of the length asked for, that show the
+motion; and what is refused.
+"""
 
 import resource
 import shutil
@@ -21,55 +23,103 @@ def _pictures(file):
     import av
 
     with av.open(str(file)) as container:
-        return [frame.to_ndarray(format="rgb24").astype(float) for frame in container.decode(video=0)]
+        return [
+            frame.to_ndarray(format="rgb24").astype(float) for frame in container.decode(video=0)
+        ]
 
 
 def test_movie_of_a_history_has_a_picture_for_each_instant_and_moves(block):
     (file,) = render(block, Wish(only="movie", **SMALL), quiet=True)
     pictures = _pictures(file)
-    assert file == block / "render" / "motion.mp4" and len(pictures) == 3 and pictures[0].shape == (240, 360, 3)
+    assert (
+        file == block / "render" / "motion.mp4"
+        and len(pictures) == 3
+        and pictures[0].shape == (240, 360, 3)
+    )
     scene = [picture[20:210, :140] for picture in pictures]  # column and base alone
     assert all(np.abs(one - other).mean() > 0.5 for one, other in zip(scene, scene[1:]))
     assert np.ptp(scene[0]) > 100
 
 
 def test_movie_of_fields_is_as_slow_as_asked_and_comes_as_gif(drum):
-    (file,) = render(drum, Wish(only="movie", gif=True, exaggerate="auto", view="foot", start=0.08, end=0.24, size=(360, 240), fps=12.5), quiet=True)
-    assert file.name == "motion.gif" and file.read_bytes().startswith(b"GIF89a") and len(_pictures(file)) == 3
+    (file,) = render(
+        drum,
+        Wish(
+            only="movie",
+            gif=True,
+            exaggerate="auto",
+            view="foot",
+            start=0.08,
+            end=0.24,
+            size=(360, 240),
+            fps=12.5,
+        ),
+        quiet=True,
+    )
+    assert (
+        file.name == "motion.gif"
+        and file.read_bytes().startswith(b"GIF89a")
+        and len(_pictures(file)) == 3
+    )
     (file,) = render(drum, Wish(only="movie", start=0.0, end=0.2, speed=0.5, **SMALL), quiet=True)
     assert len(_pictures(file)) == 5
 
 
 def test_stills_and_sequence_of_the_instants_asked_for(drum):
     files = render(drum, Wish(only="pictures", instants=(0.0, 0.11)), quiet=True)
-    assert [file.name for file in files] == ["sequence.pdf", "sequence.png", "still_0.000s.png", "still_0.120s.png"]  # the fields' instants
-    assert files[0].read_bytes().startswith(b"%PDF") and all(file.stat().st_size > 10_000 for file in files)
+    assert [file.name for file in files] == [
+        "sequence.pdf",
+        "sequence.png",
+        "still_0.000s.png",
+        "still_0.120s.png",
+    ]  # the fields' instants
+    assert files[0].read_bytes().startswith(b"%PDF") and all(
+        file.stat().st_size > 10_000 for file in files
+    )
 
 
 def test_every_view_looks_elsewhere_and_shows_the_column(block):
     result = read_result(block)
     seen = {view: camera.camera(result, view, result.poses.time, 1.5) for view in command.VIEWS}
     assert tuple(camera.VIEWS) == command.VIEWS
-    assert seen["plan"].toward == pytest.approx([0, 0, 1]) and seen["plan"].right == pytest.approx([1, 0, 0])
+    assert seen["plan"].toward == pytest.approx([0, 0, 1]) and seen["plan"].right == pytest.approx(
+        [1, 0, 0]
+    )
     assert abs(seen["lean"].toward[0]) < 1e-6  # it leans towards x
     points = result.poses.move(result.solid.mesh.body.points, slice(None)).reshape(-1, 3)
     for view in set(command.VIEWS) - {"foot"}:
         there = points - seen[view].focus
-        assert np.abs(there @ seen[view].up).max() < seen[view].half_height and np.abs(there @ seen[view].right).max() < 1.5 * seen[view].half_height
+        assert (
+            np.abs(there @ seen[view].up).max() < seen[view].half_height
+            and np.abs(there @ seen[view].right).max() < 1.5 * seen[view].half_height
+        )
 
 
 def test_instants_are_chosen_at_peaks_within_the_time_shown(block):
     times = chosen_instants(read_result(block), 0.0, 0.2)
-    assert 0 < len(times) <= 5 and (np.diff(times) > 0).all() and times[0] == 0.0  # released from its largest tilt
+    assert (
+        0 < len(times) <= 5 and (np.diff(times) > 0).all() and times[0] == 0.0
+    )  # released from its largest tilt
 
 
-@pytest.mark.parametrize("options, told", [
-    (["--instants", "0.1,9"], "--instants = 9.0: must lie between 0 and 0.2 s"), (["--instants", "0.1,x"], "--instants = 'x': must be times"),
-    (["--start", "0.1", "--end", "0.1"], "--end = 0.1: must be later than the begin, 0.1 s"), (["--fps", "500"], "--fps = 500.0: must lie between 1 and 60"),
-    (["--size", "1280"], "--size = '1280': must be two numbers"), (["--size", "400x400"], "--size = '400x400': must be 1.4 to 3 times as wide"),
-    (["--exaggerate", "20"], "--exaggerate = 20.0: needs fields or states at least every 0.06 s, and there are none"),
-    (["--color", "stress"], "--color = 'stress': needs fields or states"), (["--exaggerate", "0.1"], "--exaggerate = 0.1: must be auto, or lie between"),
-    (["--paraview"], "--paraview: needs fields or states")])
+@pytest.mark.parametrize(
+    "options, told",
+    [
+        (["--instants", "0.1,9"], "--instants = 9.0: must lie between 0 and 0.2 s"),
+        (["--instants", "0.1,x"], "--instants = 'x': must be times"),
+        (["--start", "0.1", "--end", "0.1"], "--end = 0.1: must be later than the begin, 0.1 s"),
+        (["--fps", "500"], "--fps = 500.0: must lie between 1 and 60"),
+        (["--size", "1280"], "--size = '1280': must be two numbers"),
+        (["--size", "400x400"], "--size = '400x400': must be 1.4 to 3 times as wide"),
+        (
+            ["--exaggerate", "20"],
+            "--exaggerate = 20.0: needs fields or states at least every 0.06 s, and there are none",
+        ),
+        (["--color", "stress"], "--color = 'stress': needs fields or states"),
+        (["--exaggerate", "0.1"], "--exaggerate = 0.1: must be auto, or lie between"),
+        (["--paraview"], "--paraview: needs fields or states"),
+    ],
+)
 def test_what_cannot_be_drawn_is_one_line_with_what_can(block, capsys, options, told):
     assert main(["render", str(block), *options]) == 2
     error = capsys.readouterr().err
@@ -132,10 +182,20 @@ def test_displacement_colours_the_points_of_a_tube_that_has_as_many_points_as_fa
     from fecolumn.render.frames import Frames
     from fecolumn.render.scene import Scene
 
-    tube = BLOCK | {"column": {"outer_diameter_m": 0.2, "wall_m": 0.02, "height_m": 0.6}, "mesh": {"fine_size_m": 0.02, "coarse_size_m": 0.06, "base_size_m": 0.2}}
-    result = read_result(analysed(tube | {"integration": {"engine": "rigid", "duration_s": 0.02}}, tmp_path / "run"))
+    tube = BLOCK | {
+        "column": {"outer_diameter_m": 0.2, "wall_m": 0.02, "height_m": 0.6},
+        "mesh": {"fine_size_m": 0.02, "coarse_size_m": 0.06, "base_size_m": 0.2},
+    }
+    result = read_result(
+        analysed(tube | {"integration": {"engine": "rigid", "duration_s": 0.02}}, tmp_path / "run")
+    )
     surface = result.solid.column
-    assert len(surface.points) == len(surface.faces)  # of a torus, what a tube's surface is; both have a value for each
+    assert len(surface.points) == len(
+        surface.faces
+    )  # of a torus, what a tube's surface is; both have a value for each
     frames = Frames(result, np.array([0.0]), 0.04)
     with Scene(frames, camera.camera(result, "lean", frames.times, 1.0), (128, 128)) as scene:
-        assert scene._column.point_data["colour"] == pytest.approx(frames.frame(0).colour) and "colour" not in scene._column.cell_data
+        assert (
+            scene._column.point_data["colour"] == pytest.approx(frames.frame(0).colour)
+            and "colour" not in scene._column.cell_data
+        )

@@ -1,4 +1,6 @@
-"""ParaView opens the fields as a time series whose names have their units, and the script sets up the view."""
+"""ParaView opens the fields as a time series whose names have their units, and the script sets up
+the view.
+"""
 
 import os
 import shutil
@@ -19,7 +21,9 @@ def test_fields_are_a_time_series_with_units_in_their_names(drum):
     assert reader.time_values == pytest.approx(np.arange(0, 0.25, 0.04))
     reader.set_active_time_value(reader.time_values[-1])
     grid = reader.read()
-    assert set(grid.point_data) == {"displacement [m]", "contact pressure [Pa]"} and set(grid.cell_data) == {"von Mises stress [Pa]", "part"}
+    assert set(grid.point_data) == {"displacement [m]", "contact pressure [Pa]"} and set(
+        grid.cell_data
+    ) == {"von Mises stress [Pa]", "part"}
     assert 0.01 < np.linalg.norm(grid.point_data["displacement [m]"], axis=1).max() < 1.6
 
 
@@ -27,38 +31,72 @@ def test_script_is_of_this_analysis_and_finds_its_fields_from_where_it_is(drum):
     assert main(["render", str(drum), "--paraview"]) == 0
     text = (drum / "render" / "view.py").read_text()
     compile(text, "view.py", "exec")
-    assert "@" not in text and str(drum) not in text and 'os.pardir, "fields", "fields.xdmf"' in text
+    assert (
+        "@" not in text and str(drum) not in text and 'os.pardir, "fields", "fields.xdmf"' in text
+    )
     assert (drum / "render" / ".." / "fields" / "fields.xdmf").is_file()
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not (shutil.which("pvbatch") and shutil.which("xvfb-run")), reason=f"ParaView is not installed: {PACKAGES}")
+@pytest.mark.skipif(
+    not (shutil.which("pvbatch") and shutil.which("xvfb-run")),
+    reason=f"ParaView is not installed: {PACKAGES}",
+)
 @pytest.mark.parametrize("source", ["files", "states"])
 def test_pvbatch_draws_the_instant_asked_for(drum, source, tmp_path):
-    """The drum upright in the middle, in colours of its stress, its scale beside it; from the fields it wrote, and from those made of its states."""
+    """The drum upright in the middle, in colours of its stress, its scale beside it; from the
+    fields it wrote, and from those made of its states.
+    """
     from PIL import Image
 
-    folder = shutil.copytree(drum, tmp_path / "run", ignore=shutil.ignore_patterns("render", *(["fields"] if source == "states" else [])))
+    folder = shutil.copytree(
+        drum,
+        tmp_path / "run",
+        ignore=shutil.ignore_patterns("render", *(["fields"] if source == "states" else [])),
+    )
     assert main(["render", str(folder), "--paraview", "-q"]) == 0
     pictures = []
     for time in ("0", "0.2"):
         file = tmp_path / f"{time}.png"
-        # a display number of this process' own: two servers that start at once may take the same one
-        screen = ["xvfb-run", "-a", "-n", str(1000 + os.getpid() % 8000), "-s", "-screen 0 1280x1024x24"]
-        done = subprocess.run([*screen, "pvbatch", folder / "render" / "view.py", file, time], capture_output=True, text=True, timeout=300, env=_debians_python())
+        # a display number of this process' own: two servers that start at once may take the same
+        # one
+        screen = [
+            "xvfb-run",
+            "-a",
+            "-n",
+            str(1000 + os.getpid() % 8000),
+            "-s",
+            "-screen 0 1280x1024x24",
+        ]
+        done = subprocess.run(
+            [*screen, "pvbatch", folder / "render" / "view.py", file, time],
+            capture_output=True,
+            text=True,
+            timeout=300,
+            env=_debians_python(),
+        )
         assert done.returncode == 0 and file.is_file(), done.stderr[-2000:]
         pictures.append(np.asarray(Image.open(file).convert("RGB"), float))
     for picture in pictures:
         assert picture.shape == (720, 1280, 3)
         coloured = np.ptp(picture, axis=2) > 40  # neither white nor the grey of edges and words
-        assert 0.03 < coloured.mean() < 0.6 and np.abs(picture[:40, :200] - 255).max() > 100  # the time stands in a corner
+        assert (
+            0.03 < coloured.mean() < 0.6 and np.abs(picture[:40, :200] - 255).max() > 100
+        )  # the time stands in a corner
         rows, columns = np.nonzero(coloured[:, 300:980])
         assert np.ptp(rows) > 0.6 * 720
-    seen = [len(np.unique((picture[100:, 300:980] // 16).reshape(-1, 3), axis=0)) for picture in pictures]
+    seen = [
+        len(np.unique((picture[100:, 300:980] // 16).reshape(-1, 3), axis=0))
+        for picture in pictures
+    ]
     assert 2 * seen[0] < seen[1]  # released without stress, then in all colours of it
     assert np.abs(pictures[0] - pictures[1]).mean() > 0.5
 
 
 def _debians_python() -> dict:
     """The environment without this one's Python: pvbatch has Debian's."""
-    return {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV")}
+    return {
+        name: value
+        for name, value in os.environ.items()
+        if name not in ("PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV")
+    }

@@ -13,16 +13,30 @@ from fecolumn.render.pressure_centre import pressure_centre
 from fecolumn.render.result import read_result
 
 
-@pytest.mark.parametrize("top", [[0.0, 0.0, 1.6], [0.1, -0.05, 1.6]], ids=["upright axis", "leaning axis"])
+@pytest.mark.parametrize(
+    "top", [[0.0, 0.0, 1.6], [0.1, -0.05, 1.6]], ids=["upright axis", "leaning axis"]
+)
 def test_a_rigid_motion_comes_back_from_what_the_history_keeps_of_it(top):
     rng, top, foot = np.random.default_rng(0), np.array(top), np.array([0.02, 0.01, 0.0])
-    tilt, lean, twist = rng.uniform(1e-3, 0.4, 50), rng.uniform(-np.pi, np.pi, 50), rng.uniform(-2, 2, 50)
+    tilt, lean, twist = (
+        rng.uniform(1e-3, 0.4, 50),
+        rng.uniform(-np.pi, np.pi, 50),
+        rng.uniform(-2, 2, 50),
+    )
     across = np.column_stack([-np.sin(lean), np.cos(lean), 0 * lean])
-    rotation = (Rotation.from_rotvec(across * tilt[:, None]) * Rotation.from_rotvec(twist[:, None] * [0.0, 0.0, 1.0])).as_matrix()
+    rotation = (
+        Rotation.from_rotvec(across * tilt[:, None])
+        * Rotation.from_rotvec(twist[:, None] * [0.0, 0.0, 1.0])
+    ).as_matrix()
     at = foot + rng.uniform(-0.1, 0.1, (50, 3))
     exact = Poses(np.arange(50.0), rotation, at, foot)
-    history = {"time": exact.time, "u_top": exact.move(top[None], slice(None))[:, 0] - top, "slide": (at - foot)[:, :2],
-               "tilt": np.array([tilt_angle(R) for R in rotation]), "twist": np.array([twist_angle(R) for R in rotation])}
+    history = {
+        "time": exact.time,
+        "u_top": exact.move(top[None], slice(None))[:, 0] - top,
+        "slide": (at - foot)[:, :2],
+        "tilt": np.array([tilt_angle(R) for R in rotation]),
+        "twist": np.array([twist_angle(R) for R in rotation]),
+    }
     found = poses(history, foot, top)
     points = rng.uniform(-1, 1, (20, 3))
     assert np.abs(found.move(points, slice(None)) - exact.move(points, slice(None))).max() < 1e-10
@@ -30,15 +44,22 @@ def test_a_rigid_motion_comes_back_from_what_the_history_keeps_of_it(top):
 
 def test_between_two_rows_a_column_turns_steadily():
     quarter = Rotation.from_rotvec([[0, 0, 0], [0, 0, np.pi / 2]]).as_matrix()
-    middle = Poses(np.array([0.0, 1.0]), quarter, np.array([[0.0, 0, 0], [1.0, 0, 0]]), np.zeros(3)).at(np.array([0.5]))
-    assert middle.foot[0] == pytest.approx([0.5, 0, 0]) and twist_angle(middle.rotation[0]) == pytest.approx(np.pi / 4)
+    middle = Poses(
+        np.array([0.0, 1.0]), quarter, np.array([[0.0, 0, 0], [1.0, 0, 0]]), np.zeros(3)
+    ).at(np.array([0.5]))
+    assert middle.foot[0] == pytest.approx([0.5, 0, 0]) and twist_angle(
+        middle.rotation[0]
+    ) == pytest.approx(np.pi / 4)
 
 
 def _farthest(folder) -> float:
     """Largest distance of a point of the rigid column from that of the fields, over the height."""
     result = read_result(folder)
     body, found = result.solid.mesh.body.points, result.poses.at(result.fields.time)
-    apart = [np.abs(found.move(body, k) - body - result.fields.read(k).displacement[:len(body)]).max() for k in range(len(result.fields.time))]
+    apart = [
+        np.abs(found.move(body, k) - body - result.fields.read(k).displacement[: len(body)]).max()
+        for k in range(len(result.fields.time))
+    ]
     return max(apart) / result.solid.height
 
 
@@ -47,13 +68,21 @@ def test_poses_agree_with_the_fields_of_the_reduced_engine(drum):
 
 
 def test_poses_agree_with_the_fields_of_the_full_engine(tmp_path):
-    tables = DRUM | {"integration": {"engine": "full", "duration_s": 0.02, "dt_s": 1e-3}, "output": {"fields_every_s": 0.01}}
+    tables = DRUM | {
+        "integration": {"engine": "full", "duration_s": 0.02, "dt_s": 1e-3},
+        "output": {"fields_every_s": 0.01},
+    }
     assert _farthest(analysed(tables, tmp_path / "run")) < 1e-3
 
 
 def test_a_block_that_is_shaken_steadily_presses_off_its_middle():
-    """Standing under an acceleration a of its base along x, centre of mass at height h: the reaction passes through (-a h / g, 0)."""
-    time, mass = np.linspace(0, 1, 101), MassProperties(1.0, 100.0, np.array([0.0, 0.0, 0.6]), np.eye(3))
+    """Standing under an acceleration a of its base along x, centre of mass at height h: the
+    reaction passes through (-a h / g, 0).
+    """
+    time, mass = (
+        np.linspace(0, 1, 101),
+        MassProperties(1.0, 100.0, np.array([0.0, 0.0, 0.6]), np.eye(3)),
+    )
     at_rest = Poses(time, np.tile(np.eye(3), (101, 1, 1)), np.zeros((101, 3)), np.zeros(3))
     ground = np.tile([1.5, -0.5, 0.0], (101, 1))
     centre = pressure_centre(at_rest, ground, mass, np.array([0.5]), 0.1)[0]
@@ -61,9 +90,20 @@ def test_a_block_that_is_shaken_steadily_presses_off_its_middle():
 
 
 def test_nothing_presses_in_flight():
-    time, mass = np.linspace(0, 0.1, 101), MassProperties(1.0, 100.0, np.array([0.0, 0.0, 0.6]), np.eye(3))
+    time, mass = (
+        np.linspace(0, 0.1, 101),
+        MassProperties(1.0, 100.0, np.array([0.0, 0.0, 0.6]), np.eye(3)),
+    )
     falls = np.column_stack([0 * time, 0 * time, 1.0 - GRAVITY * time**2 / 2])
-    assert np.isnan(pressure_centre(Poses(time, np.tile(np.eye(3), (101, 1, 1)), falls, np.zeros(3)), np.zeros((101, 3)), mass, np.array([0.05]), 0.02)).all()
+    assert np.isnan(
+        pressure_centre(
+            Poses(time, np.tile(np.eye(3), (101, 1, 1)), falls, np.zeros(3)),
+            np.zeros((101, 3)),
+            mass,
+            np.array([0.05]),
+            0.02,
+        )
+    ).all()
 
 
 def test_a_wobbling_drum_presses_where_its_fields_have_the_pressure(drum):

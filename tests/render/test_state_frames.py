@@ -1,4 +1,6 @@
-"""What a reduced or rigid analysis keeps of its states gives deformation, stress and contact pressure without field files."""
+"""What a reduced or rigid analysis keeps of its states gives deformation, stress and contact
+pressure without field files.
+"""
 
 import shutil
 
@@ -20,11 +22,20 @@ def stateful_block(tmp_path_factory):
 
 
 def _largest(folder, name) -> tuple[float, float]:
-    """Largest difference of a field made from states to that in the files, and the field's largest value."""
+    """Largest difference of a field made from states to that in the files, and the field's largest
+    value.
+    """
     result = read_result(folder)
-    assert len(result.states.time) == len(result.fields.time) and result.states.time == pytest.approx(result.fields.time, abs=1e-6)
-    pairs = [(getattr(result.fields.read(k), name), getattr(result.states.read(k), name)) for k in range(len(result.fields.time))]
-    return max(np.abs(one - other).max() for one, other in pairs), max(np.abs(one).max() for one, _ in pairs)
+    assert len(result.states.time) == len(
+        result.fields.time
+    ) and result.states.time == pytest.approx(result.fields.time, abs=1e-6)
+    pairs = [
+        (getattr(result.fields.read(k), name), getattr(result.states.read(k), name))
+        for k in range(len(result.fields.time))
+    ]
+    return max(np.abs(one - other).max() for one, other in pairs), max(
+        np.abs(one).max() for one, _ in pairs
+    )
 
 
 @pytest.mark.parametrize("name", ["displacement", "stress", "pressure"])
@@ -47,9 +58,13 @@ def test_pictures_without_field_files_show_stress_and_pressure(stateful_block):
     pressure = frames.frame(1).pressure  # it stands on one edge: 4 of 16 faces of 0.1 x 0.1 m carry
     weight = 0.4**2 * 1.2 * 2700 * 9.80665
     assert np.count_nonzero(pressure) == 4 and 0.8 * weight < pressure.sum() * 0.1**2 < 1.1 * weight
-    files = render(stateful_block, Wish(only="pictures", instants=(0.0, 0.08), exaggerate="auto"), quiet=True)
+    files = render(
+        stateful_block, Wish(only="pictures", instants=(0.0, 0.08), exaggerate="auto"), quiet=True
+    )
     assert {file.name for file in files} >= {"sequence.png", "still_0.000s.png", "still_0.080s.png"}
-    assert not Frames(result, np.linspace(0, 0.2, 6), 0.04, colour="displacement").from_fields  # which the history gives at once
+    assert not Frames(
+        result, np.linspace(0, 0.2, 6), 0.04, colour="displacement"
+    ).from_fields  # which the history gives at once
 
 
 def test_paraview_opens_what_the_states_give(stateful_block):
@@ -62,7 +77,9 @@ def test_paraview_opens_what_the_states_give(stateful_block):
 
 
 def test_states_of_other_modes_are_refused_and_the_history_still_drawn(drum, tmp_path):
-    folder = shutil.copytree(drum, tmp_path / "run", ignore=shutil.ignore_patterns("fields", "render"))
+    folder = shutil.copytree(
+        drum, tmp_path / "run", ignore=shutil.ignore_patterns("fields", "render")
+    )
     with h5py.File(folder / "states.h5", "r+") as file:
         file["signature"][0] *= -1  # a mode of the other sign, as another machine's may be
     with pytest.raises(InputError, match="of other modes .*--color displacement"):
@@ -78,7 +95,9 @@ def test_damaged_states_are_told(drum, tmp_path):
 
 
 def test_states_are_few_numbers(drum):
-    """Of a drum on its rim: a frame, 100 modes and the points that carry, in less than 2 kB; as much as a coarse mesh alone has of displacements in a hundredth of it."""
+    """Of a drum on its rim: a frame, 100 modes and the points that carry, in less than 2 kB; as
+    much as a coarse mesh alone has of displacements in a hundredth of it.
+    """
     states = (drum / "states.h5").stat().st_size
     assert states < 2000 * (7 + 2)  # states, and what the file itself and its modes take
     assert DRUM["output"] == {"fields_every_s": 0.04}  # and they were kept without being asked for

@@ -18,22 +18,35 @@ def _pictures(file):
     import av
 
     with av.open(str(file)) as container:
-        return [frame.to_ndarray(format="rgb24").astype(float) for frame in container.decode(video=0)]
+        return [
+            frame.to_ndarray(format="rgb24").astype(float) for frame in container.decode(video=0)
+        ]
 
 
 def test_movie_of_a_gate_shows_its_motion_and_the_pressure_on_its_joints(gate):
     (file,) = render(gate, Wish(only="movie", speed=0.25, exaggerate="auto", **SMALL), quiet=True)
     pictures = _pictures(file)
     assert len(pictures) == 5 and pictures[0].shape == (240, 360, 3)
-    for part in (np.s_[20:210, :140], np.s_[110:190, 290:]):  # the structure, and the joints in plan
-        assert np.ptp(pictures[0][part]) > 100 and np.abs(pictures[0][part] - pictures[-1][part]).mean() > 0.5
+    for part in (
+        np.s_[20:210, :140],
+        np.s_[110:190, 290:],
+    ):  # the structure, and the joints in plan
+        assert (
+            np.ptp(pictures[0][part]) > 100
+            and np.abs(pictures[0][part] - pictures[-1][part]).mean() > 0.5
+        )
 
 
 def test_between_two_states_bodies_move_steadily(gate):
     result = read_result(gate)
     a, b = result.states.time[2:4]
-    before, between, after = result.frames_at(np.array([a, (a + b) / 2, b]), 0.01, 1.0, "displacement")
-    assert np.abs(between.column - (before.column + after.column) / 2).max() < 1e-2 * np.abs(after.column - before.column).max()
+    before, between, after = result.frames_at(
+        np.array([a, (a + b) / 2, b]), 0.01, 1.0, "displacement"
+    )
+    assert (
+        np.abs(between.column - (before.column + after.column) / 2).max()
+        < 1e-2 * np.abs(after.column - before.column).max()
+    )
     assert np.abs(after.column - before.column).max() > 1e-3
 
 
@@ -48,9 +61,15 @@ def test_stills_and_sequence_of_a_building_without_stress(building):
 
 def test_exaggeration_leaves_the_slab_of_a_building_where_it_is(building):
     result = read_result(building)
-    true, drawn = (result.frames_at(np.array([0.05]), 0.04, factor, "displacement").frame(0).column for factor in (1.0, 50.0))
+    true, drawn = (
+        result.frames_at(np.array([0.05]), 0.04, factor, "displacement").frame(0).column
+        for factor in (1.0, 50.0)
+    )
     slab = len(true) - 16
-    assert np.array_equal(true[:slab], drawn[:slab]) and np.abs(drawn[slab:] - true[slab:]).max() > 0.02
+    assert (
+        np.array_equal(true[:slab], drawn[:slab])
+        and np.abs(drawn[slab:] - true[slab:]).max() > 0.02
+    )
 
 
 def test_paraview_opens_a_structure_as_a_time_series(gate, building):
@@ -62,34 +81,60 @@ def test_paraview_opens_a_structure_as_a_time_series(gate, building):
         assert reader.time_values == pytest.approx(np.arange(0, 0.11, 0.02))
         reader.set_active_time_value(reader.time_values[-1])
         grid = reader.read()
-        assert len(np.unique(grid.cell_data["body"])) == cells and np.isfinite(grid.cell_data["von Mises stress [Pa]"]).all()
-        assert grid.point_data["contact pressure [Pa]"].max() > 1e3 and np.linalg.norm(grid.point_data["displacement [m]"], axis=1).max() > 1e-3
+        assert (
+            len(np.unique(grid.cell_data["body"])) == cells
+            and np.isfinite(grid.cell_data["von Mises stress [Pa]"]).all()
+        )
+        assert (
+            grid.point_data["contact pressure [Pa]"].max() > 1e3
+            and np.linalg.norm(grid.point_data["displacement [m]"], axis=1).max() > 1e-3
+        )
 
 
 def test_fields_that_an_analysis_wrote_are_drawn_as_its_states_are(gate, tmp_path):
     """As the full-order engine writes them: here from the states, so that both must show the same."""
     render(gate, Wish(paraview=True), quiet=True)
-    folder = shutil.copytree(gate, tmp_path / "run", ignore=shutil.ignore_patterns("render", "states.h5"))
+    folder = shutil.copytree(
+        gate, tmp_path / "run", ignore=shutil.ignore_patterns("render", "states.h5")
+    )
     shutil.copytree(gate / "render" / "fields", folder / "fields")
     states, fields = read_result(gate), read_result(folder)
     assert fields.states.time == pytest.approx(states.states.time)
-    one, other = (result.frames_at(np.array([0.02, 0.06]), 0.04, 1.0, "") for result in (states, fields))
+    one, other = (
+        result.frames_at(np.array([0.02, 0.06]), 0.04, 1.0, "") for result in (states, fields)
+    )
     for k in range(2):
         assert np.abs(one.frame(k).column - other.frame(k).column).max() < 1e-6
         assert other.frame(k).colour == pytest.approx(one.frame(k).colour, rel=1e-4, abs=1.0)
-        assert np.nan_to_num(other.frame(k).centres) == pytest.approx(np.nan_to_num(one.frame(k).centres), abs=0.02)
+        assert np.nan_to_num(other.frame(k).centres) == pytest.approx(
+            np.nan_to_num(one.frame(k).centres), abs=0.02
+        )
 
 
 def test_the_top_of_a_body_that_is_named_is_followed(gate):
     result = read_result(gate, "column 2")
-    assert result.top_title == "top of column 2" and np.array_equal(result.way, result.history["mark/column 2.top/displacement"])
-    low, high = result.shown("foot", result.time).min(axis=0), result.shown("foot", result.time).max(axis=0)
+    assert result.top_title == "top of column 2" and np.array_equal(
+        result.way, result.history["mark/column 2.top/displacement"]
+    )
+    low, high = (
+        result.shown("foot", result.time).min(axis=0),
+        result.shown("foot", result.time).max(axis=0),
+    )
     assert low[0] > 0 and high[2] < 0.5  # the foot of column 2 alone
 
 
-@pytest.mark.parametrize("options, told", [
-    (["--body", "colum 2"], "--body = 'colum 2': no such body; did you mean column 2?; there are column 1, column 2, lintel"),
-    (["--start", "0.05", "--end", "3"], "--end = 3.0: must lie between 0 and 0.1 s"), (["--exaggerate", "0"], "--exaggerate = 0.0: must be auto")])
+@pytest.mark.parametrize(
+    "options, told",
+    [
+        (
+            ["--body", "colum 2"],
+            "--body = 'colum 2': no such body; did you mean column 2?; there are "
+            "column 1, column 2, lintel",
+        ),
+        (["--start", "0.05", "--end", "3"], "--end = 3.0: must lie between 0 and 0.1 s"),
+        (["--exaggerate", "0"], "--exaggerate = 0.0: must be auto"),
+    ],
+)
 def test_what_cannot_be_drawn_of_a_structure_is_one_line(gate, capsys, options, told):
     assert main(["render", str(gate), *options]) == 2
     error = capsys.readouterr().err
@@ -109,7 +154,10 @@ def test_folders_without_states_or_with_others_say_what_to_do(gate, tmp_path):
         render(copy, Wish(only="pictures", instants=(0.0,)), quiet=True)
     with h5py.File(copy / "states.h5", "r+") as file:
         file.attrs["bodies"] = ["column 1", "column 2", "beam"]
-    with pytest.raises(InputError, match="has the states of column 1, column 2, beam, not of column 1, column 2, lintel"):
+    with pytest.raises(
+        InputError,
+        match="has the states of column 1, column 2, beam, not of column 1, column 2, lintel",
+    ):
         read_result(copy)
     (copy / "states.h5").write_bytes(b"no hdf5")
     with pytest.raises(InputError, match="states.h5: not the states of an analysis"):

@@ -1,4 +1,6 @@
-"""States of a structure give back where its bodies are, how they deform and what presses on their faces."""
+"""States of a structure give back where its bodies are, how they deform and what presses on their
+faces.
+"""
 
 import h5py
 import numpy as np
@@ -17,7 +19,13 @@ COLUMN_KG, LINTEL_KG = 0.2 * 0.4 * 0.8 * 2700, 1.3 * 0.44 * 0.2 * 2700
 @pytest.fixture(scope="module")
 def standing(tmp_path_factory):
     """The gate at rest, its tendon gone."""
-    return read_result(analysed(tmp_path_factory.mktemp("standing") / "run", GATE, dict(links=dict(tendon=False), integration=dict(duration_s=0.02))))
+    return read_result(
+        analysed(
+            tmp_path_factory.mktemp("standing") / "run",
+            GATE,
+            dict(links=dict(tendon=False), integration=dict(duration_s=0.02)),
+        )
+    )
 
 
 def _forces(result, state):
@@ -29,22 +37,34 @@ def _forces(result, state):
 
 def test_contact_forces_of_a_standing_gate_carry_the_weight_of_each_body(standing):
     forces = _forces(standing, standing.states.state(0))
-    assert np.array(forces) == pytest.approx(GRAVITY * np.array([[0, 0, COLUMN_KG]] * 2 + [[0, 0, LINTEL_KG]]), abs=1e-3)
+    assert np.array(forces) == pytest.approx(
+        GRAVITY * np.array([[0, 0, COLUMN_KG]] * 2 + [[0, 0, LINTEL_KG]]), abs=1e-3
+    )
 
 
 def test_pressure_on_the_faces_carries_what_stands_on_them(standing):
     pressures, centres = standing.states.drawn.pressures(standing.states.state(0))
-    carried = {(contact.interface, contact.slave): (pressure @ contact.areas, centre)
-               for contact, pressure, centre in zip(standing.solid.contacts, pressures, centres)}
-    assert carried["feet", "column 1"][0] == pytest.approx(GRAVITY * (COLUMN_KG + LINTEL_KG / 2), rel=1e-5)
+    carried = {
+        (contact.interface, contact.slave): (pressure @ contact.areas, centre)
+        for contact, pressure, centre in zip(standing.solid.contacts, pressures, centres)
+    }
+    assert carried["feet", "column 1"][0] == pytest.approx(
+        GRAVITY * (COLUMN_KG + LINTEL_KG / 2), rel=1e-5
+    )
     assert carried["heads", "column 2"][0] == pytest.approx(GRAVITY * LINTEL_KG / 2, rel=1e-5)
     # the lintel sags: it presses on the inner edges of the columns
     assert carried["heads", "column 1"][1][0] > 0 > carried["heads", "column 2"][1][0]
 
 
 def test_deformed_meshes_of_a_standing_gate_touch_where_they_press(standing):
-    """Modes and static response together: on the rigid ground the feet stay level to a thousandth of what the columns shorten, and heads and lintel meet."""
-    fields, state, contacts = standing.states.drawn, standing.states.state(0), standing.solid.contacts
+    """Modes and static response together: on the rigid ground the feet stay level to a thousandth
+    of what the columns shorten, and heads and lintel meet.
+    """
+    fields, state, contacts = (
+        standing.states.drawn,
+        standing.states.state(0),
+        standing.solid.contacts,
+    )
     placed = standing.solid.positions(state.center, state.rotation, fields.local(state)[0])
     shortening = 0.8 * GRAVITY * LINTEL_KG / 2 / (0.08 * 50e9)
     for contact, pressure in zip(contacts, fields.pressures(state)[0]):
@@ -52,19 +72,31 @@ def test_deformed_meshes_of_a_standing_gate_touch_where_they_press(standing):
             continue  # the other side of a joint carries where its body has slid
         feet = placed[contact.points][pressure[contact.nearest] > 0]
         level = 0.0 if contact.on_ground else 0.8
-        assert len(feet) >= 3 and np.abs(feet[:, 2] - level).max() < (1e-3 if contact.on_ground else 5) * shortening
-    lintel = placed[standing.solid.first[2]:]
-    under = lintel[np.abs(standing.solid.points[standing.solid.first[2]:, 2] - 0.8) < 1e-9]
-    head = next(contact for contact in contacts if (contact.interface, contact.slave) == ("heads", "column 1"))
-    pressed = placed[head.points][fields.pressures(state)[0][contacts.index(head)][head.nearest] > 0]
+        assert (
+            len(feet) >= 3
+            and np.abs(feet[:, 2] - level).max() < (1e-3 if contact.on_ground else 5) * shortening
+        )
+    lintel = placed[standing.solid.first[2] :]
+    under = lintel[np.abs(standing.solid.points[standing.solid.first[2] :, 2] - 0.8) < 1e-9]
+    head = next(
+        contact
+        for contact in contacts
+        if (contact.interface, contact.slave) == ("heads", "column 1")
+    )
+    pressed = placed[head.points][
+        fields.pressures(state)[0][contacts.index(head)][head.nearest] > 0
+    ]
     gaps = griddata(under[:, :2], under[:, 2], pressed[:, :2]) - pressed[:, 2]
     assert np.abs(gaps).max() < 0.1 * shortening
 
 
 def test_stress_of_a_standing_column_is_what_it_carries_over_its_section(standing):
     _, _, stress = standing.states.drawn.local(standing.states.state(0))
-    of_column = stress[standing.solid.first_cell[0]:standing.solid.first_cell[1]]
-    assert np.median(of_column) == pytest.approx(GRAVITY * (LINTEL_KG + COLUMN_KG) / 2 / 0.08, rel=0.6) and not np.isnan(stress).any()
+    of_column = stress[standing.solid.first_cell[0] : standing.solid.first_cell[1]]
+    assert (
+        np.median(of_column) == pytest.approx(GRAVITY * (LINTEL_KG + COLUMN_KG) / 2 / 0.08, rel=0.6)
+        and not np.isnan(stress).any()
+    )
 
 
 def test_states_place_the_tops_where_the_history_has_them(gate):
@@ -75,7 +107,9 @@ def test_states_place_the_tops_where_the_history_has_them(gate):
         for number, part in enumerate(result.solid.structure.parts):
             arm = part.model.marks["top"][0]
             moved = state.center[number] + state.rotation[number] @ arm - part.center - arm
-            assert moved == pytest.approx(result.history[f"mark/{part.name}.top/displacement"][row], abs=1e-5)
+            assert moved == pytest.approx(
+                result.history[f"mark/{part.name}.top/displacement"][row], abs=1e-5
+            )
         placed = result.solid.positions(state.center, state.rotation, fields.local(state)[0])
         assert placed[:, 2].min() > -1e-6  # the rigid ground is never entered
 
@@ -90,8 +124,10 @@ def test_floors_of_a_building_sway_as_the_history_says(building):
         moved = result.solid.positions(state.center, state.rotation, local) - result.solid.points
         for floor in range(2):
             of_floor = slice(first + 8 * floor + 4, first + 8 * (floor + 1))  # its upper face
-            assert moved[of_floor].mean(axis=0) == pytest.approx(result.history[f"mark/building.floor {floor + 1}/displacement"][row], abs=5e-5)
-        drift = bent[first:first + 8].mean(axis=0)[:2]
+            assert moved[of_floor].mean(axis=0) == pytest.approx(
+                result.history[f"mark/building.floor {floor + 1}/displacement"][row], abs=5e-5
+            )
+        drift = bent[first : first + 8].mean(axis=0)[:2]
         assert drift == pytest.approx(result.history["storey/building 1/drift"][row], abs=5e-5)
         swayed.append(np.linalg.norm(drift))
     assert max(swayed) > 2e-3  # a hundred times what the comparisons allow is seen
@@ -108,8 +144,19 @@ def test_states_of_an_interrupted_structure_are_those_of_one_that_was_not(gate, 
 
 
 def test_a_broken_tendon_is_kept_as_broken_and_not_drawn(tmp_path):
-    pushed = dict(column=dict(velocity_m_s=[0.5, 0.0, 0.0], spin_rad_s=[0.0, 1.25, 0.0]), lintel=dict(velocity_m_s=[1.0, 0.0, 0.0]))
-    folder = analysed(tmp_path / "run", GATE, dict(initial=pushed, links=dict(tendon=dict(breaking_n=400.0)), integration=dict(duration_s=0.1)))
+    pushed = dict(
+        column=dict(velocity_m_s=[0.5, 0.0, 0.0], spin_rad_s=[0.0, 1.25, 0.0]),
+        lintel=dict(velocity_m_s=[1.0, 0.0, 0.0]),
+    )
+    folder = analysed(
+        tmp_path / "run",
+        GATE,
+        dict(
+            initial=pushed,
+            links=dict(tendon=dict(breaking_n=400.0)),
+            integration=dict(duration_s=0.1),
+        ),
+    )
     result = read_result(folder)
     broken = [bool(result.states.state(k).broken[0]) for k in range(len(result.states.time))]
     assert not broken[0] and broken[-1]

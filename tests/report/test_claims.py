@@ -21,20 +21,30 @@ def claims(folder, motions=115, axes=AXES, **options):
 
 @pytest.fixture(scope="module")
 def chaotic(tmp_path_factory):
-    """Peaks of a motion scatter over the settings, nothing else; a coarse step makes them larger; no damping costs a tenth more."""
-    return claims(tmp_path_factory.mktemp("claims") / "study", scatter=0.3, effect=lambda v: 1.5 if v[DT] > 0.01 else 1.0,
-                  cost=lambda v: 2e-4 * (1 + 0.3 * (v[ALPHA] + 0.333)))
+    """Peaks of a motion scatter over the settings, nothing else; a coarse step makes them larger;
+    no damping costs a tenth more.
+    """
+    return claims(
+        tmp_path_factory.mktemp("claims") / "study",
+        scatter=0.3,
+        effect=lambda v: 1.5 if v[DT] > 0.01 else 1.0,
+        cost=lambda v: 2e-4 * (1 + 0.3 * (v[ALPHA] + 0.333)),
+    )
 
 
 def test_chaos_without_trend_supports_the_paper(chaotic):
-    assert {key: chaotic[key].verdict for key in ("a1", "a2, α", "b1", "b2", "c", "d1", "d2")} == dict.fromkeys(
-        ("a1", "a2, α", "b1", "b2", "c", "d1", "d2"), SUPPORTED)
+    assert {
+        key: chaotic[key].verdict for key in ("a1", "a2, α", "b1", "b2", "c", "d1", "d2")
+    } == dict.fromkeys(("a1", "a2, α", "b1", "b2", "c", "d1", "d2"), SUPPORTED)
     assert "Not significant is not equal" in chaotic["c"].ours
 
 
 def test_a_trend_of_the_coarse_step_alone_is_told_as_such(chaotic):
     assert chaotic["a2, Δt"].verdict == NOT_SUPPORTED
-    assert "Here ours disagrees" in chaotic["a2, Δt"].ours and "the trend is that of the coarse step" in chaotic["a2, Δt"].ours
+    assert (
+        "Here ours disagrees" in chaotic["a2, Δt"].ours
+        and "the trend is that of the coarse step" in chaotic["a2, Δt"].ours
+    )
 
 
 def test_a_strong_effect_of_alpha_is_found(tmp_path):
@@ -71,25 +81,54 @@ def test_one_small_step_alone_cannot_tell_whether_steps_matter(tmp_path):
 
 
 def test_claims_on_alpha_say_what_the_scheme_builds_in(chaotic, tmp_path):
-    assert all(("alpha is kept from contact" in claim.ours) == (key in ("a2, α", "c")) for key, claim in chaotic.items())
+    assert all(
+        ("alpha is kept from contact" in claim.ours) == (key in ("a2, α", "c"))
+        for key, claim in chaotic.items()
+    )
     literal = tmp_path / "literal.toml"
-    literal.write_text(f'extends = "{SPECIMEN}"\n[contact]\nimpact = "none"\n[integration]\nengine = "full"\n')
-    assert all("alpha is kept" not in claim.ours for claim in claims(tmp_path / "study", motions=12, case=literal).values())
+    literal.write_text(
+        f'extends = "{SPECIMEN}"\n[contact]\nimpact = "none"\n[integration]\nengine = "full"\n'
+    )
+    assert all(
+        "alpha is kept" not in claim.ours
+        for claim in claims(tmp_path / "study", motions=12, case=literal).values()
+    )
 
 
 def test_claims_say_how_many_motions_they_need(chaotic, tmp_path):
     """The paper's margin is what its 115 motions show: 115 are enough, 40 are not."""
     found = claims(tmp_path, motions=40, scatter=0.6)
-    assert "With 40 motions a KS distance below 0.30 cannot be told from 0: the claim of no difference beyond 0.18 needs about N = 115." in found["c"].ours
+    assert (
+        "With 40 motions a KS distance below 0.30 cannot be told from 0: the claim of "
+        "no difference beyond 0.18 needs about N = 115." in found["c"].ours
+    )
     assert "needs about N" not in chaotic["c"].ours
 
 
 def test_the_report_warns_of_every_question_for_which_its_motions_are_few(tmp_path):
-    """Of the least difference claimed among four pairs, and of none beyond 0.10: told from 0 at sqrt(ln(2 x 4 / 0.05) / 30) = 0.41 and sqrt(ln 40 / 30) = 0.35."""
+    """Of the least difference claimed among four pairs, and of none beyond 0.10: told from 0 at
+    sqrt(ln(2 x 4 / 0.05) / 30) = 0.41 and sqrt(ln 40 / 30) = 0.35.
+    """
     axes = {DT: [0.02, 1e-3, 1e-4], "contact.friction_coefficient": [0.3, 0.5]}
-    pairs = read_pairs(read_sweep(write_synthetic(tmp_path, axes, 30, scatter=0.1, effect=lambda v: 1.6 if v[DT] > 0.01 else 1.0)))
+    pairs = read_pairs(
+        read_sweep(
+            write_synthetic(
+                tmp_path, axes, 30, scatter=0.1, effect=lambda v: 1.6 if v[DT] > 0.01 else 1.0
+            )
+        )
+    )
     told = [paragraph.text for paragraph in shortfalls(pairs) if paragraph.warning]
-    assert any("Δt (with a time step above 1 ms)" in text and "among 4 comparisons" in text for text in told)
-    assert any("μ: with 30 motions a KS distance below 0.35 cannot be told from 0" in text and "needs about N = 369" in text for text in told)
+    assert any(
+        "Δt (with a time step above 1 ms)" in text and "among 4 comparisons" in text
+        for text in told
+    )
+    assert any(
+        "μ: with 30 motions a KS distance below 0.35 cannot be told from 0" in text
+        and "needs about N = 369" in text
+        for text in told
+    )
     rows = {(row[0], row[1]): row for row in families(pairs).rows}
-    assert rows["contact.friction_coefficient", "all"][-2:] == (pytest.approx(math.sqrt(math.log(40 * 3) / 30)), 369)
+    assert rows["contact.friction_coefficient", "all"][-2:] == (
+        pytest.approx(math.sqrt(math.log(40 * 3) / 30)),
+        369,
+    )

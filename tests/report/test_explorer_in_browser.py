@@ -1,4 +1,6 @@
-"""The explorer as a reader uses it: the page of a real study opened from its file in Chromium, by keyboard and by mouse."""
+"""The explorer as a reader uses it: the page of a real study opened from its file in Chromium, by
+keyboard and by mouse.
+"""
 
 import importlib.util
 import json
@@ -13,8 +15,14 @@ from fecolumn.cli import main
 from fecolumn.report.page import write_report
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-MISSING = "" if CHROMIUM and DRIVER and importlib.util.find_spec("selenium") else (
-    "needs Debian's chromium and chromium-driver, and selenium: ./containers/run pytest installs them")
+MISSING = (
+    ""
+    if CHROMIUM and DRIVER and importlib.util.find_spec("selenium")
+    else (
+        "needs Debian's chromium and chromium-driver, and selenium: ./containers/run "
+        "pytest installs them"
+    )
+)
 if not MISSING:
     from selenium import webdriver
     from selenium.webdriver.common.action_chains import ActionChains
@@ -45,16 +53,30 @@ free_vibration_s = 1.0
 "motion.source" = ["motion0.csv", "motion1.csv", "motion2.csv", "motion3.csv", "motion4.csv"]
 """
 # Chromium asks the network for nothing, and takes a container's small /dev/shm
-OPTIONS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-           "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage")
+OPTIONS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--disable-dev-shm-usage",
+)
 
 
 @pytest.fixture(scope="module")
 def address(tmp_path_factory):
-    """The page of a study of five pulses, the first so weak that the block stands, the last so strong that it overturns."""
+    """The page of a study of five pulses, the first so weak that the block stands, the last so
+    strong that it overturns.
+    """
     folder = tmp_path_factory.mktemp("browser")
     for number, scale in enumerate((0.16, 0.2, 0.25, 0.3, 3.0)):
-        rows = "".join(f"{0.005 * k:.4f},{scale if k < 12 else -scale:.3f},{0.05 * scale * (k % 7):.4f}\n" for k in range(24))
+        rows = "".join(
+            f"{0.005 * k:.4f},{scale if k < 12 else -scale:.3f},{0.05 * scale * (k % 7):.4f}\n"
+            for k in range(24)
+        )
         (folder / f"motion{number}.csv").write_text("time [s],ax [g],ay [g]\n" + rows)
     (folder / "study.toml").write_text(STUDY)
     assert main(["study", str(folder / "study.toml"), "-o", str(folder / "out"), "-j", "1"]) == 0
@@ -68,7 +90,9 @@ def browser():
     options = webdriver.ChromeOptions()
     options.binary_location = CHROMIUM
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:  # Chromium's last child may still write
+    with tempfile.TemporaryDirectory(
+        ignore_cleanup_errors=True
+    ) as profile:  # Chromium's last child may still write
         for option in (*OPTIONS, f"--user-data-dir={profile}"):
             options.add_argument(option)
         window = webdriver.Chrome(options, webdriver.ChromeService(DRIVER))
@@ -81,9 +105,14 @@ class Reader:
 
     def __init__(self, window, address: str, width: int, height: int):
         self.window = window
-        window.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500})
+        window.execute_cdp_cmd(
+            "Emulation.setDeviceMetricsOverride",
+            {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500},
+        )
         window.get(address)
-        self.data = json.loads(self.script("return document.getElementById('explorer-data').textContent"))
+        self.data = json.loads(
+            self.script("return document.getElementById('explorer-data').textContent")
+        )
 
     def script(self, words: str):
         return self.window.execute_script(words)
@@ -104,11 +133,18 @@ class Reader:
 
     def lines(self, name: str) -> list[str]:
         """Points of the lines of a chart that are not black (foot and critical displacement are)."""
-        return [one.get_attribute("points") for one in self.part(name).find_elements("css selector", "polyline") if one.get_attribute("stroke") != "#000000"]
+        return [
+            one.get_attribute("points")
+            for one in self.part(name).find_elements("css selector", "polyline")
+            if one.get_attribute("stroke") != "#000000"
+        ]
 
     def edges(self) -> tuple[float, float]:
         """Range marked, as the page says it [mm]; infinite for what was lost."""
-        return tuple(float("inf") if "mm" not in text else float(text.split()[0]) for text in (self.part("from-text").text, self.part("to-text").text))
+        return tuple(
+            float("inf") if "mm" not in text else float(text.split()[0])
+            for text in (self.part("from-text").text, self.part("to-text").text)
+        )
 
     def in_range(self) -> set[str]:
         """Motions with a peak in the range in any setting that is drawn, from the data alone."""
@@ -122,14 +158,26 @@ class Reader:
 
     def fits(self) -> bool:
         """No part of the explorer sticks out, and the page need not be scrolled sideways."""
-        outside = self.script("return [...document.querySelectorAll('#explorer-panel > *, #explorer-panel svg')].filter((one) => one.getBoundingClientRect().right"
-                              " > document.documentElement.clientWidth + 1).length")
-        return outside == 0 and self.script("return document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+        outside = self.script(
+            "return [...document.querySelectorAll('#explorer-panel > *, "
+            "#explorer-panel svg')].filter((one) => one.getBoundingClientRect().right"
+            " > document.documentElement.clientWidth + 1).length"
+        )
+        return outside == 0 and self.script(
+            "return document.documentElement.scrollWidth <= document.documentElement.clientWidth"
+        )
 
     def faults(self) -> list:
         """Errors of the console, and what was asked for besides the page."""
-        asked = self.script("return performance.getEntriesByType('resource').map((one) => one.name).filter((name) => !name.startsWith('data:'))")
-        return [entry for entry in self.window.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] + asked
+        asked = self.script(
+            "return performance.getEntriesByType('resource').map((one) => "
+            "one.name).filter((name) => !name.startsWith('data:'))"
+        )
+        return [
+            entry
+            for entry in self.window.get_log("browser")
+            if entry["level"] in ("SEVERE", "WARNING")
+        ] + asked
 
 
 @pytest.mark.parametrize("width, height", [(1200, 900), (390, 844)])
@@ -158,9 +206,23 @@ def test_a_reader_with_a_keyboard_finds_the_histories_of_a_motion(browser, addre
     assert not page.part("top").is_displayed()
     chosen = page.window.switch_to.active_element.text
     page.press(Keys.ENTER)
-    assert page.part("motion").text.startswith(chosen) and page.window.switch_to.active_element.get_attribute("aria-pressed") == "true"
-    assert all(page.part(name).is_displayed() and len(page.lines(name)) == 2 and min(map(len, page.lines(name))) > 200 for name in ("top", "tilt", "plan"))
-    for name, unit in (("cdf", "[mm]"), ("top", "[mm]"), ("top", "[s]"), ("tilt", "[°]"), ("plan", "[mm]")):
+    assert (
+        page.part("motion").text.startswith(chosen)
+        and page.window.switch_to.active_element.get_attribute("aria-pressed") == "true"
+    )
+    assert all(
+        page.part(name).is_displayed()
+        and len(page.lines(name)) == 2
+        and min(map(len, page.lines(name))) > 200
+        for name in ("top", "tilt", "plan")
+    )
+    for name, unit in (
+        ("cdf", "[mm]"),
+        ("top", "[mm]"),
+        ("top", "[s]"),
+        ("tilt", "[°]"),
+        ("plan", "[mm]"),
+    ):
         assert unit in page.part(name).text
     assert page.fits() and page.faults() == []
 
@@ -170,19 +232,37 @@ def test_a_reader_with_a_mouse_marks_what_overturned_and_sees_where_it_ended(bro
     plot = page.part("cdf")
     page.script("document.getElementById('explorer-cdf').scrollIntoView({block: 'center'})")
     half = plot.size["width"] / 2
-    ActionChains(browser).move_to_element_with_offset(plot, half - 60, 0).click_and_hold().move_to_element_with_offset(plot, half - 16, 5).release().perform()
+    ActionChains(browser).move_to_element_with_offset(
+        plot, half - 60, 0
+    ).click_and_hold().move_to_element_with_offset(plot, half - 16, 5).release().perform()
     low, high = page.edges()
-    assert 0 < low < page.data["end_mm"] and high == float("inf") and set(page.motions()) == page.in_range() != set()
-    lost = next(button for button in page.part("list").find_elements("css selector", "button") if button.text == page.data["motions"][-1])
+    assert (
+        0 < low < page.data["end_mm"]
+        and high == float("inf")
+        and set(page.motions()) == page.in_range() != set()
+    )
+    lost = next(
+        button
+        for button in page.part("list").find_elements("css selector", "button")
+        if button.text == page.data["motions"][-1]
+    )
     lost.click()
-    assert page.part("top").find_elements("css selector", "path.end") and page.part("plan").find_elements("css selector", "path.end")
+    assert page.part("top").find_elements("css selector", "path.end") and page.part(
+        "plan"
+    ).find_elements("css selector", "path.end")
     assert "A cross: overturned, followed up to" in page.part("marks").text
-    followed = [float(text) for text in page.part("top").text.split() if text.isdigit()]  # ticks, of time and of displacement
+    followed = [
+        float(text) for text in page.part("top").text.split() if text.isdigit()
+    ]  # ticks, of time and of displacement
     assert max(followed) < 1.3 * max(page.data["end_mm"], page.data["critical_mm"])
     drawn = page.lines("top")
     page.window.find_element("css selector", "#explorer-quantity option[value='1']").click()
-    assert page.lines("top") != drawn and re.search(r"u\s*x \[mm\]", page.part("top").text.replace("\n", " "))
-    ActionChains(browser).move_to_element_with_offset(plot, 0, 0).click().perform()  # without a drag: all again
+    assert page.lines("top") != drawn and re.search(
+        r"u\s*x \[mm\]", page.part("top").text.replace("\n", " ")
+    )
+    ActionChains(browser).move_to_element_with_offset(
+        plot, 0, 0
+    ).click().perform()  # without a drag: all again
     assert len(page.motions()) == 5 and page.faults() == []
 
 

@@ -7,7 +7,7 @@ import pytest
 from synthetic_study import write_synthetic
 
 from fecolumn.cli import main
-from fecolumn.statistics.fragility import lognormal, logit
+from fecolumn.statistics.fragility import logit, lognormal
 
 
 def rows(file):
@@ -17,24 +17,37 @@ def rows(file):
 
 @pytest.fixture
 def table(tmp_path):
-    """120 runs of 30 records at four scales, whose chance to fall rises with pgv and falls with pga."""
+    """120 runs of 30 records at four scales, whose chance to fall rises with pgv and falls with
+    pga.
+    """
     rng = np.random.default_rng(3)
     record = np.repeat(np.arange(30), 4)
     pgv = np.tile([0.2, 0.4, 0.8, 1.6], 30) * rng.lognormal(0, 0.2, 30)[record]
     pga = pgv * 10 * rng.lognormal(0, 0.5, 120)
     fallen = rng.random(120) < 1 / (1 + np.exp(-(2.0 + 3.0 * np.log(pgv) - 1.0 * np.log(pga / 10))))
     file = tmp_path / "runs.csv"
-    file.write_text("# of a test\nrecord,pgv_m_s,pga_m_s2,overturned,u_max_mm\n"
-                    + "".join(f"r{r},{v:.8g},{a:.8g},{int(over)},10\n" for r, v, a, over in zip(record, pgv, pga, fallen)))
+    file.write_text(
+        "# of a test\nrecord,pgv_m_s,pga_m_s2,overturned,u_max_mm\n"
+        + "".join(
+            f"r{r},{v:.8g},{a:.8g},{int(over)},10\n"
+            for r, v, a, over in zip(record, pgv, pga, fallen)
+        )
+    )
     return file, np.round(pgv, 8), np.round(pga, 8), fallen, record
 
 
-def test_one_measure_gives_the_lognormal_curve_with_intervals_that_count_records(tmp_path, table, capsys):
+def test_one_measure_gives_the_lognormal_curve_with_intervals_that_count_records(
+    tmp_path, table, capsys
+):
     file, pgv, _, fallen, record = table
     assert main(["fragility", str(file), "--im", "pgv_m_s", "-o", str(tmp_path / "out")]) == 0
-    row, = rows(tmp_path / "out" / "fragility.csv")
+    (row,) = rows(tmp_path / "out" / "fragility.csv")
     fit, naive = lognormal(pgv, fallen, record), lognormal(pgv, fallen)
-    assert float(row["median_pgv_m_s"]) == pytest.approx(fit.median, rel=1e-4) and row["records"] == "30" and row["n"] == "120"
+    assert (
+        float(row["median_pgv_m_s"]) == pytest.approx(fit.median, rel=1e-4)
+        and row["records"] == "30"
+        and row["n"] == "120"
+    )
     assert [float(row["low"]), float(row["high"])] == pytest.approx(fit.median_interval(), rel=1e-4)
     assert fit.median_interval() != pytest.approx(naive.median_interval(), rel=1e-3)
     assert (tmp_path / "out" / "fragility.png").stat().st_size > 5000
@@ -42,10 +55,26 @@ def test_one_measure_gives_the_lognormal_curve_with_intervals_that_count_records
 
 def test_two_measures_give_coefficients_and_contours(tmp_path, table):
     file, pgv, pga, fallen, record = table
-    assert main(["fragility", str(file), "--im", "pgv_m_s", "--im", "pga_m_s2", "-o", str(tmp_path / "out")]) == 0
-    row, = rows(tmp_path / "out" / "fragility.csv")
+    assert (
+        main(
+            [
+                "fragility",
+                str(file),
+                "--im",
+                "pgv_m_s",
+                "--im",
+                "pga_m_s2",
+                "-o",
+                str(tmp_path / "out"),
+            ]
+        )
+        == 0
+    )
+    (row,) = rows(tmp_path / "out" / "fragility.csv")
     fit = logit(np.column_stack([pgv, pga]), fallen, record)
-    assert [float(row[name]) for name in ("c0", "c_pgv_m_s", "c_pga_m_s2")] == pytest.approx(fit.coefficients, rel=1e-3)
+    assert [float(row[name]) for name in ("c0", "c_pgv_m_s", "c_pga_m_s2")] == pytest.approx(
+        fit.coefficients, rel=1e-3
+    )
     assert fit.coefficients[1] > 0 > fit.coefficients[2] and float(row["p_pgv_m_s"]) < 1e-6
     assert (tmp_path / "out" / "fragility.png").stat().st_size > 5000
 
@@ -58,29 +87,66 @@ def test_band_over_two_measures_is_wider_where_records_repeat_alike(table):
     assert doubled.coefficients == pytest.approx(one.coefficients, rel=1e-6)
     # every run twice tells nothing more
     assert doubled.covariance == pytest.approx(one.covariance, rel=1e-6)
-    assert doubled.probability([[0.5, 5.0]]).upper == pytest.approx(one.probability([[0.5, 5.0]]).upper, rel=1e-6)
+    assert doubled.probability([[0.5, 5.0]]).upper == pytest.approx(
+        one.probability([[0.5, 5.0]]).upper, rel=1e-6
+    )
 
 
 def test_study_gives_a_curve_for_each_setting(tmp_path, capsys):
     peaks = np.linspace(0.5, 5.0, 30)
     pulses = tmp_path / "p30.h5"
-    assert main(["motions", "make", "pulses", "symmetric_ricker", "--amplitudes", *map(str, peaks), "--periods", "0.5", "-o", str(pulses)]) == 0
-    out = write_synthetic(tmp_path / "s", {"motion.scale": [0.5, 1.0, 2.0], "contact.friction_coefficient": [0.3, 0.8]}, 0,
-                          sources=[f"{pulses}#{number}" for number in range(1, 31)], effect=lambda values: values["motion.scale"])
+    assert (
+        main(
+            [
+                "motions",
+                "make",
+                "pulses",
+                "symmetric_ricker",
+                "--amplitudes",
+                *map(str, peaks),
+                "--periods",
+                "0.5",
+                "-o",
+                str(pulses),
+            ]
+        )
+        == 0
+    )
+    out = write_synthetic(
+        tmp_path / "s",
+        {"motion.scale": [0.5, 1.0, 2.0], "contact.friction_coefficient": [0.3, 0.8]},
+        0,
+        sources=[f"{pulses}#{number}" for number in range(1, 31)],
+        effect=lambda values: values["motion.scale"],
+    )
     assert main(["fragility", str(out), "--im", "pga_m_s2", "-o", str(tmp_path / "out")]) == 0
     found = rows(tmp_path / "out" / "fragility.csv")
     assert len(found) == 2 and all(row["n"] == "90" and row["records"] == "30" for row in found)
     assert {"0.3", "0.8"} == {row["setting"].split()[-1] for row in found}
 
 
-@pytest.mark.parametrize("text, options, said", [
-    ("pgv,overturned\n1,0\n2,1\n3,0\n4,1\n5,x\n", [], "line 6, overturned = 'x'"),
-    ("pgv,overturned\n1,0\n-2,1\n", ["--im", "pgv"], "line 3, pgv = '-2': must be a number greater than 0"),
-    ("pgv,fell\n1,0\n", [], "must have one column overturned"),
-    ("a,b,c,overturned\n1,2,3,0\n2,3,5,1\n", [], "choose one or two of a, b, c"),
-    ("pgv,overturned\n1,0\n2,0\n3,1\n4,1\n", [], "bound no fragility"),
-    ("pgv,overturned\n1,0\n2,1\n", ["--im", "pgv", "--im", "pgv"], "must be one measure, or two different ones")])
+@pytest.mark.parametrize(
+    "text, options, said",
+    [
+        ("pgv,overturned\n1,0\n2,1\n3,0\n4,1\n5,x\n", [], "line 6, overturned = 'x'"),
+        (
+            "pgv,overturned\n1,0\n-2,1\n",
+            ["--im", "pgv"],
+            "line 3, pgv = '-2': must be a number greater than 0",
+        ),
+        ("pgv,fell\n1,0\n", [], "must have one column overturned"),
+        ("a,b,c,overturned\n1,2,3,0\n2,3,5,1\n", [], "choose one or two of a, b, c"),
+        ("pgv,overturned\n1,0\n2,0\n3,1\n4,1\n", [], "bound no fragility"),
+        (
+            "pgv,overturned\n1,0\n2,1\n",
+            ["--im", "pgv", "--im", "pgv"],
+            "must be one measure, or two different ones",
+        ),
+    ],
+)
 def test_table_that_cannot_be_used_is_refused_in_a_line(tmp_path, capsys, text, options, said):
     (tmp_path / "runs.csv").write_text(text)
-    assert main(["fragility", str(tmp_path / "runs.csv"), *options, "-o", str(tmp_path / "out")]) == 2
+    assert (
+        main(["fragility", str(tmp_path / "runs.csv"), *options, "-o", str(tmp_path / "out")]) == 2
+    )
     assert said in capsys.readouterr().err

@@ -19,7 +19,23 @@ PEAKS = np.linspace(0.5, 5.0, 30)
 def pulses(tmp_path_factory):
     """Thirty pulses of rising peak in one file."""
     file = tmp_path_factory.mktemp("pulses") / "p30.h5"
-    assert main(["motions", "make", "pulses", "symmetric_ricker", "--amplitudes", *map(str, PEAKS), "--periods", "0.5", "-o", str(file)]) == 0
+    assert (
+        main(
+            [
+                "motions",
+                "make",
+                "pulses",
+                "symmetric_ricker",
+                "--amplitudes",
+                *map(str, PEAKS),
+                "--periods",
+                "0.5",
+                "-o",
+                str(file),
+            ]
+        )
+        == 0
+    )
     return [f"{file}#{number}" for number in range(1, len(PEAKS) + 1)]
 
 
@@ -29,16 +45,26 @@ def rows_of(out):
 
 
 def test_fragility_is_that_of_the_motions_over_all_scales(tmp_path, pulses):
-    out = write_synthetic(tmp_path, {"motion.scale": [0.5, 1.0, 2.0], "contact.friction_coefficient": [0.3, 0.8]}, 0, sources=pulses,
-                          effect=lambda values: values["motion.scale"])
+    out = write_synthetic(
+        tmp_path,
+        {"motion.scale": [0.5, 1.0, 2.0], "contact.friction_coefficient": [0.3, 0.8]},
+        0,
+        sources=pulses,
+        effect=lambda values: values["motion.scale"],
+    )
     page = page_alone(out)
     assert "Fragility" in page.text and "at all its scales" in page.text
     rows = rows_of(out)
     assert len(rows) == 2 and all(int(row["n"]) == 90 for row in rows)
     from fecolumn.study.store import read_study
 
-    done = [row for row in read_study(out).rows if row["axes"]["contact.friction_coefficient"] == 0.3]
-    pgv = [row["axes"]["motion.scale"] * peak_values(read_member(row["axes"]["motion.source"]))[1] for row in done]
+    done = [
+        row for row in read_study(out).rows if row["axes"]["contact.friction_coefficient"] == 0.3
+    ]
+    pgv = [
+        row["axes"]["motion.scale"] * peak_values(read_member(row["axes"]["motion.source"]))[1]
+        for row in done
+    ]
     fit = lognormal(pgv, [row["summary"]["overturned"] for row in done])
     assert float(rows[0]["pgv_median_m_s"]) == pytest.approx(fit.median, rel=1e-6)
     assert float(rows[0]["beta"]) == pytest.approx(fit.beta, rel=1e-6)

@@ -19,13 +19,37 @@ SCALES, FRICTION = [0.25, 0.5, 1.0, 2.0, 4.0], "contact.friction_coefficient"
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
-    """Twenty pulses at five scales and two coefficients of friction; peaks grow with the scale, without scatter of their own."""
+    """Twenty pulses at five scales and two coefficients of friction; peaks grow with the scale,
+    without scatter of their own.
+    """
     folder = tmp_path_factory.mktemp("ida")
     peaks = np.linspace(0.5, 5.0, 20)
-    assert main(["motions", "make", "pulses", "symmetric_ricker", "--amplitudes", *map(str, peaks), "--periods", "0.5", "-o", str(folder / "p20.h5")]) == 0
+    assert (
+        main(
+            [
+                "motions",
+                "make",
+                "pulses",
+                "symmetric_ricker",
+                "--amplitudes",
+                *map(str, peaks),
+                "--periods",
+                "0.5",
+                "-o",
+                str(folder / "p20.h5"),
+            ]
+        )
+        == 0
+    )
     sources = [f"{folder / 'p20.h5'}#{number}" for number in range(1, 21)]
-    return write_synthetic(folder / "study", {"motion.scale": SCALES, FRICTION: [0.3, 0.8]}, 0, sources=sources, scatter=0.0,
-                           effect=lambda values: values["motion.scale"] * (0.5 + values[FRICTION]))
+    return write_synthetic(
+        folder / "study",
+        {"motion.scale": SCALES, FRICTION: [0.3, 0.8]},
+        0,
+        sources=sources,
+        scatter=0.0,
+        effect=lambda values: values["motion.scale"] * (0.5 + values[FRICTION]),
+    )
 
 
 @pytest.fixture(scope="module")
@@ -39,29 +63,52 @@ def table(study, name):
 
 
 def test_section_has_curves_laws_and_tables(study, page):
-    assert "Incremental dynamic analysis" in page.text and "each of 20 motions scaled to 5 levels" in page.text
+    assert (
+        "Incremental dynamic analysis" in page.text
+        and "each of 20 motions scaled to 5 levels" in page.text
+    )
     assert "No motion lets the column stand again" in page.text
-    assert {"figure-ida", "figure-first_overturning", "table-first_overturnings", "table-ida_motions"} <= set(page.ids)
-    assert all((study / "report" / "figures" / f"ida.{kind}").stat().st_size > 1000 for kind in ("png", "pdf", "svg"))
+    assert {
+        "figure-ida",
+        "figure-first_overturning",
+        "table-first_overturnings",
+        "table-ida_motions",
+    } <= set(page.ids)
+    assert all(
+        (study / "report" / "figures" / f"ida.{kind}").stat().st_size > 1000
+        for kind in ("png", "pdf", "svg")
+    )
     assert not re.search(r"\bnan\b|\bNone\b|\binf\b|\[\[|\]\]", page.text)
 
 
 def test_first_overturning_of_every_motion_is_that_of_its_summaries(study, page):
-    runs = [(setting.values, motion, run) for setting in read_sweep(study).done for motion, run in setting.runs.items()]
+    runs = [
+        (setting.values, motion, run)
+        for setting in read_sweep(study).done
+        for motion, run in setting.runs.items()
+    ]
     rows = table(study, "ida_motions")
     assert len(rows) == 40
     for row in rows:
-        own = {values["motion.scale"]: run["overturned"] for values, motion, run in runs
-               if values[FRICTION] == float(row[FRICTION]) and motion.strip("[]'") == row["motion"]}
+        own = {
+            values["motion.scale"]: run["overturned"]
+            for values, motion, run in runs
+            if values[FRICTION] == float(row[FRICTION]) and motion.strip("[]'") == row["motion"]
+        }
         fallen = [scale for scale, over in own.items() if over]
         if fallen:
-            assert float(row["pgv_overturned_m_s"]) / float(row["pgv_stood_m_s"] or "inf") in (0.0, 2.0)
+            assert float(row["pgv_overturned_m_s"]) / float(row["pgv_stood_m_s"] or "inf") in (
+                0.0,
+                2.0,
+            )
         assert bool(row["pgv_overturned_m_s"]) == bool(fallen)
 
 
 def test_a_column_that_slips_less_overturns_at_less_and_each_motion_counts_once(study, page):
     rows = table(study, "first_overturnings")
-    assert [int(row["motions"]) for row in rows] == [20, 20] and [int(row["runs"]) for row in rows] == [100, 100]
+    assert [int(row["motions"]) for row in rows] == [20, 20] and [
+        int(row["runs"]) for row in rows
+    ] == [100, 100]
     medians = [float(row["pgv_median_m_s"]) for row in rows]
     assert medians[0] / medians[1] == pytest.approx(1.3 / 0.8, rel=0.3)
     for row in rows:
@@ -71,7 +118,9 @@ def test_a_column_that_slips_less_overturns_at_less_and_each_motion_counts_once(
 def test_fragility_over_the_scales_knows_that_its_runs_repeat_twenty_motions(study, page):
     row = table(study, "fragilities")[0]
     sweep = read_sweep(study)
-    runs = Intensities(sweep.folder).of_runs([setting for setting in sweep.done if setting.values[FRICTION] == 0.3])
+    runs = Intensities(sweep.folder).of_runs(
+        [setting for setting in sweep.done if setting.values[FRICTION] == 0.3]
+    )
     alone = lognormal(runs.measures[:, 0], runs.overturned).median_interval()
     assert int(row["n"]) == 100 and int(row["records"]) == 20
     assert float(row["pgv_high"]) / float(row["pgv_low"]) > 1.15 * alone[1] / alone[0]

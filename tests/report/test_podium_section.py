@@ -1,4 +1,6 @@
-"""The two laws of impact of a podium in the report: tables, figures, and the claims of their paper judged."""
+"""The two laws of impact of a podium in the report: tables, figures, and the claims of their paper
+judged.
+"""
 
 import math
 import random
@@ -20,51 +22,122 @@ AXES = {"podium.impact": ["CRV", "CAV"], "podium.storeys": [3, 9]}
 
 
 def peaks(values, summary):
-    """Same tilts under both laws; shears a third larger under CAV for three storeys, and more dispersed."""
+    """Same tilts under both laws; shears a third larger under CAV for three storeys, and more
+    dispersed.
+    """
     common = random.Random(str(values["motion.source"]))
-    tilt, shear, own = common.uniform(0.01, 0.9), common.lognormvariate(0, 0.3), random.Random(str(values))
-    larger = {3: 1.33, 9: 1.1}[values.get("podium.storeys", 3)] if values.get("podium.impact") == "CAV" else 1.0
+    tilt, shear, own = (
+        common.uniform(0.01, 0.9),
+        common.lognormvariate(0, 0.3),
+        random.Random(str(values)),
+    )
+    larger = (
+        {3: 1.33, 9: 1.1}[values.get("podium.storeys", 3)]
+        if values.get("podium.impact") == "CAV"
+        else 1.0
+    )
     storeys = values.get("podium.storeys", 3)
     scatter = {3: 0.1, 9: 0.01}[storeys]
-    return {"engine": "podium", "iterations": None, "contact_iterations": None, "overturned": False, "u_max_m": tilt, "peaks": {"tilt over alpha [-]": tilt, "base shear over V_st [-]": shear * larger * math.exp(own.gauss(0, scatter))}}
+    return {
+        "engine": "podium",
+        "iterations": None,
+        "contact_iterations": None,
+        "overturned": False,
+        "u_max_m": tilt,
+        "peaks": {
+            "tilt over alpha [-]": tilt,
+            "base shear over V_st [-]": shear * larger * math.exp(own.gauss(0, scatter)),
+        },
+    }
 
 
 def study(tmp_path, axes, motions):
     tmp_path.mkdir(exist_ok=True)
     (tmp_path / "podium.toml").write_text(PODIUM)
-    return write_synthetic(tmp_path / "study", axes, motions, also=peaks, case=tmp_path / "podium.toml")
+    return write_synthetic(
+        tmp_path / "study", axes, motions, also=peaks, case=tmp_path / "podium.toml"
+    )
 
 
 def test_claims_of_the_podium_paper_are_judged(tmp_path):
     section = podium(read_sweep(study(tmp_path, AXES, 60)), Gallery(tmp_path, False, ()))
-    blocks = {block.name if hasattr(block, "name") else block.kind: block for block in section.blocks}
+    blocks = {
+        block.name if hasattr(block, "name") else block.kind: block for block in section.blocks
+    }
     assert {claim.key: claim.verdict for claim in blocks["claims"].claims} == dict(
-        p1="undecided", p2="supported", p3="supported", p5="undecided", p6="undecided", p7="supported", p8="not supported")
-    rows = [dict(zip([name for column in blocks["laws"].columns for name in column.names], row)) for row in blocks["laws"].rows]
-    assert [row["storeys"] for row in rows] == [3, 9] and 1.25 < rows[0]["median_ratio"] < 1.45 and rows[0]["distance_tilt"] == 0
+        p1="undecided",
+        p2="supported",
+        p3="supported",
+        p5="undecided",
+        p6="undecided",
+        p7="supported",
+        p8="not supported",
+    )
+    rows = [
+        dict(zip([name for column in blocks["laws"].columns for name in column.names], row))
+        for row in blocks["laws"].rows
+    ]
+    assert (
+        [row["storeys"] for row in rows] == [3, 9]
+        and 1.25 < rows[0]["median_ratio"] < 1.45
+        and rows[0]["distance_tilt"] == 0
+    )
     assert (tmp_path / "tilts.svg").exists() and (tmp_path / "shears.svg").exists()
 
 
 def test_page_of_two_laws_names_what_was_analysed_and_whose_claims_are_judged(tmp_path):
     page = write_report(study(tmp_path, {"podium.impact": ["CRV", "CAV"]}, 6), files=())
     text = page.read_text()
-    assert "Two laws of impact" in text and "run through a building on a rocking storey" in text and "findings of Bantilas, Kavvadias and Vasiliadis put to it" in text
-    assert (page.parent / "tables" / "laws.csv").exists() and (page.parent / "tables" / "claims.csv").exists()
-    assert "the largest displacement of the roof of the building" in text and "of the column" not in text
-    assert sum(run["iterations"] is None for setting in read_sweep(tmp_path / "study" / "out").done for run in setting.runs.values()) == 12
+    assert (
+        "Two laws of impact" in text
+        and "run through a building on a rocking storey" in text
+        and "findings of Bantilas, Kavvadias and Vasiliadis put to it" in text
+    )
+    assert (page.parent / "tables" / "laws.csv").exists() and (
+        page.parent / "tables" / "claims.csv"
+    ).exists()
+    assert (
+        "the largest displacement of the roof of the building" in text
+        and "of the column" not in text
+    )
+    assert (
+        sum(
+            run["iterations"] is None
+            for setting in read_sweep(tmp_path / "study" / "out").done
+            for run in setting.runs.values()
+        )
+        == 12
+    )
     assert "itera\N{SOFT HYPHEN}tions a step" not in text  # a model in closed form has none
 
 
 def test_a_study_of_one_law_or_of_more_than_the_building_has_no_such_section(tmp_path):
-    for number, axes in enumerate(({"podium.storeys": [3, 9]}, AXES | {"integration.dt_s": [0.01, 0.005]})):
+    for number, axes in enumerate(
+        ({"podium.storeys": [3, 9]}, AXES | {"integration.dt_s": [0.01, 0.005]})
+    ):
         assert podium(read_sweep(study(tmp_path / str(number), axes, 5)), None) is None
 
 
 def test_engines_are_compared_for_each_ensemble_file(tmp_path):
     for name in ("near", "far"):
         (tmp_path / f"{name}.h5").write_text(name)
-    sources = [f"{tmp_path}/{name}.h5#{number}" for name in ("near", "far") for number in range(1, 11)]
-    out = write_synthetic(tmp_path / "study", {"integration.engine": ["rigid", "housner"]}, 20, sources=sources,
-                          also=lambda values, summary: {"engine": values["integration.engine"]})
-    table = next(block for block in models(read_sweep(out), Gallery(tmp_path, False, ())).blocks if block.kind == "table")
-    assert [row[:3] for row in table.rows] == [(name, engine, n) for name, n in (("all", 20), ("near", 10), ("far", 10)) for engine in ("rigid", "housner")]
+    sources = [
+        f"{tmp_path}/{name}.h5#{number}" for name in ("near", "far") for number in range(1, 11)
+    ]
+    out = write_synthetic(
+        tmp_path / "study",
+        {"integration.engine": ["rigid", "housner"]},
+        20,
+        sources=sources,
+        also=lambda values, summary: {"engine": values["integration.engine"]},
+    )
+    table = next(
+        block
+        for block in models(read_sweep(out), Gallery(tmp_path, False, ())).blocks
+        if block.kind == "table"
+    )
+    assert [row[:3] for row in table.rows] == [
+        (name, engine, n)
+        for name, n in (("all", 20), ("near", 10), ("far", 10))
+        for engine in ("rigid", "housner")
+    ]

@@ -8,7 +8,9 @@ from fecolumn.study.sample import read_sample
 
 
 def test_displacement_at_which_an_overturned_run_stopped_is_no_peak(tmp_path):
-    """Without a cap in the case nothing is known of what overturned but that it went further than all that stood."""
+    """Without a cap in the case nothing is known of what overturned but that it went further than
+    all that stood.
+    """
     folder = write_synthetic(tmp_path, {DT: [1e-3]}, 40)
     sweep, sample = read_sweep(folder), read_sample(str(folder))
     u, overturned = sweep.done[0].peaks()

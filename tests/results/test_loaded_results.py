@@ -14,8 +14,13 @@ from fecolumn.results.analysis import AnalysisResult
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from synthetic_study import ALPHA, write_synthetic  # noqa: E402
 
-DRUM = {"title": "Drum", "column": {"shape": "solid", "outer_diameter_m": 0.5, "height_m": 1.6}, "material": {"youngs_modulus_pa": 50e9, "density_kg_m3": 2700.0},
-        "initial": {"tilt_rad": 0.02}, "integration": {"engine": "rigid", "duration_s": 0.1}}
+DRUM = {
+    "title": "Drum",
+    "column": {"shape": "solid", "outer_diameter_m": 0.5, "height_m": 1.6},
+    "material": {"youngs_modulus_pa": 50e9, "density_kg_m3": 2700.0},
+    "initial": {"tilt_rad": 0.02},
+    "integration": {"engine": "rigid", "duration_s": 0.1},
+}
 
 
 @pytest.fixture(scope="module")
@@ -32,14 +37,27 @@ def analysis(drum, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
-    return fecolumn.load(write_synthetic(tmp_path_factory.mktemp("study"), {ALPHA: [0.0, -0.2]}, 6, unfinished=(3,)))
+    return fecolumn.load(
+        write_synthetic(tmp_path_factory.mktemp("study"), {ALPHA: [0.0, -0.2]}, 6, unfinished=(3,))
+    )
 
 
 def test_replaced_case_is_the_one_a_file_would_give(drum):
-    thinner = {**DRUM, "column": {**DRUM["column"], "outer_diameter_m": 0.4}, "contact": {"friction_coefficient": 0.5}}
+    thinner = {
+        **DRUM,
+        "column": {**DRUM["column"], "outer_diameter_m": 0.4},
+        "contact": {"friction_coefficient": 0.5},
+    }
     wanted = fecolumn.case_from_tables(thinner, "drum")
-    assert drum.replace({"column.outer_diameter_m": 0.4, "contact.friction_coefficient": 0.5}) == wanted
-    assert drum.replace(column={"outer_diameter_m": 0.4}, contact={"friction_coefficient": 0.5}).mesh == wanted.mesh != drum.mesh
+    assert (
+        drum.replace({"column.outer_diameter_m": 0.4, "contact.friction_coefficient": 0.5})
+        == wanted
+    )
+    assert (
+        drum.replace(column={"outer_diameter_m": 0.4}, contact={"friction_coefficient": 0.5}).mesh
+        == wanted.mesh
+        != drum.mesh
+    )
     assert drum.replace() == drum
 
 
@@ -48,7 +66,13 @@ def test_size_that_a_case_states_stays_in_another_column(drum):
     assert own.replace({"column.outer_diameter_m": 0.4}).mesh.fine_size_m == 0.06
 
 
-@pytest.mark.parametrize("change, key", [({"contact.friction_coefficient": -1}, "contact.friction_coefficient"), ({"contact.friction": 1}, "contact.friction")])
+@pytest.mark.parametrize(
+    "change, key",
+    [
+        ({"contact.friction_coefficient": -1}, "contact.friction_coefficient"),
+        ({"contact.friction": 1}, "contact.friction"),
+    ],
+)
 def test_replacing_with_what_no_file_may_say_is_refused(drum, change, key):
     with pytest.raises(InputError) as caught:
         drum.replace(change)
@@ -57,7 +81,11 @@ def test_replacing_with_what_no_file_may_say_is_refused(drum, change, key):
 
 def test_history_has_arrays_with_units(analysis):
     steps = len(analysis.time)
-    assert analysis["u_top"].shape == (steps, 3) and analysis.units["u_top"] == "m" and analysis.units["energy/kinetic"] == "J"
+    assert (
+        analysis["u_top"].shape == (steps, 3)
+        and analysis.units["u_top"] == "m"
+        and analysis.units["energy/kinetic"] == "J"
+    )
     assert analysis.time[-1] == pytest.approx(0.1)
     assert analysis["tilt"][0] == pytest.approx(0.02, rel=1e-2)
     assert abs(analysis.energy["closure"]).max() < 1e-9
@@ -72,9 +100,16 @@ def test_energy_of_a_history_of_an_earlier_version_has_the_terms_that_it_lacks(a
     with h5py.File(tmp_path / "old" / "history.h5", "a") as file:
         del file["energy/links"]
     old = AnalysisResult(tmp_path / "old")
-    assert list(old.energy) == list(analysis.energy) and not old.energy["links"].any() and old.energy["links"].shape == old.time.shape
+    assert (
+        list(old.energy) == list(analysis.energy)
+        and not old.energy["links"].any()
+        and old.energy["links"].shape == old.time.shape
+    )
     np.testing.assert_array_equal(old.energy["kinetic"], analysis.energy["kinetic"])
-    assert old.plot.energy()._repr_png_().startswith(b"\x89PNG") and not old.compare(analysis).energy["links"].difference.any()
+    assert (
+        old.plot.energy()._repr_png_().startswith(b"\x89PNG")
+        and not old.compare(analysis).energy["links"].difference.any()
+    )
 
 
 def test_columns_are_named_with_component_and_unit(analysis):
@@ -117,7 +152,9 @@ def test_frames_hold_the_history(analysis):
 
 def test_analysis_can_be_rendered(analysis):
     files = analysis.render(only="pictures", instants=(0.05,))
-    assert {"sequence.png", "sequence.pdf"} <= {file.name for file in files} and all(file.stat().st_size > 1000 for file in files)
+    assert {"sequence.png", "sequence.pdf"} <= {file.name for file in files} and all(
+        file.stat().st_size > 1000 for file in files
+    )
 
 
 def test_folder_of_nothing_is_refused(tmp_path):
@@ -158,17 +195,27 @@ def test_axis_or_value_that_a_study_does_not_have_is_refused(study):
 
 def test_array_is_a_motion(drum, tmp_path):
     time = np.arange(0, 1, 0.01)
-    source = fecolumn.motion_file(tmp_path / "sine.csv", np.column_stack([np.sin(9 * time), np.cos(9 * time)]), 0.01)
+    source = fecolumn.motion_file(
+        tmp_path / "sine.csv", np.column_stack([np.sin(9 * time), np.cos(9 * time)]), 0.01
+    )
     case = drum.replace({"initial": None, "integration.duration_s": 0.0, "motion.source": source})
     motion = fecolumn.load_motion(case.motion, 0.01, "case")
-    np.testing.assert_allclose(motion.acceleration[:len(time), :2], np.column_stack([np.sin(9 * time), np.cos(9 * time)]), atol=1e-12)
+    np.testing.assert_allclose(
+        motion.acceleration[: len(time), :2],
+        np.column_stack([np.sin(9 * time), np.cos(9 * time)]),
+        atol=1e-12,
+    )
 
 
-@pytest.mark.parametrize("acceleration", [np.zeros(1), np.zeros((5, 4)), np.array([0.0, np.nan, 1.0])])
+@pytest.mark.parametrize(
+    "acceleration", [np.zeros(1), np.zeros((5, 4)), np.array([0.0, np.nan, 1.0])]
+)
 def test_array_that_is_no_motion_is_refused(acceleration, tmp_path):
     with pytest.raises(InputError, match="acceleration"):
         fecolumn.motion_file(tmp_path / "a.csv", acceleration, 0.01)
 
 
 def test_names_of_the_package_exist():
-    assert all(hasattr(fecolumn, name) for name in fecolumn.__all__) and set(fecolumn.__all__) <= set(dir(fecolumn))
+    assert all(hasattr(fecolumn, name) for name in fecolumn.__all__) and set(
+        fecolumn.__all__
+    ) <= set(dir(fecolumn))

@@ -20,7 +20,9 @@ def test_the_last_impulse_overturns_and_a_little_less_does_not(impulses):
     for share, falls in ((0.998, False), (1.002, True)):
         impulse = share * least_impulse(ALPHA, P, KEPT, impulses)
         motion = critical_motion(ALPHA, P, KEPT, impulse, impulses, 1e-4)
-        found = rock_one(motion.acceleration[:, [0, 2]], motion.dt, row_of_block(ALPHA, P, KEPT), free_s=20.0)[2]
+        found = rock_one(
+            motion.acceleration[:, [0, 2]], motion.dt, row_of_block(ALPHA, P, KEPT), free_s=20.0
+        )[2]
         assert math.isinf(found[PEAK]) == falls, share
         if falls:
             assert found[IMPACTS] == impulses - 1 and (found[FALL] > 0 or found[PEAK] > 1)
@@ -35,4 +37,6 @@ def test_many_impulses_below_the_limit_never_overturn_and_above_it_do():
 
 def test_larger_blocks_of_one_slenderness_need_larger_impulses():
     """dV goes with 1/p: with the square root of the size."""
-    assert least_impulse(ALPHA, P / 2, KEPT, 3) == pytest.approx(2 * least_impulse(ALPHA, P, KEPT, 3))
+    assert least_impulse(ALPHA, P / 2, KEPT, 3) == pytest.approx(
+        2 * least_impulse(ALPHA, P, KEPT, 3)
+    )

@@ -10,7 +10,12 @@ from fecolumn.case import GRAVITY
 from fecolumn.motions.pulses import Pulse, sample
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.block import Block, BlockSection
-from fecolumn.rocking.impact import (body_restitution, housner_restitution, one_sided_restitution, rectangular_restitution)
+from fecolumn.rocking.impact import (
+    body_restitution,
+    housner_restitution,
+    one_sided_restitution,
+    rectangular_restitution,
+)
 from fecolumn.schema import InputError
 
 TALL = dict(width_m=0.4, height_m=1.2, density_kg_m3=2700.0)
@@ -29,12 +34,28 @@ def shaken(seed=1, peak=5.0, duration=6.0, dt=2e-3):
     rng, n = np.random.default_rng(seed), round(duration / dt)
     window = np.hanning(40) / np.hanning(40).sum()
     noise = np.column_stack([np.convolve(rng.normal(size=n), window, "same") for _ in range(3)])
-    return GroundMotion(noise * [peak, peak, peak / 3] / np.abs(noise).max(axis=0), dt, "noise", "made up")
+    return GroundMotion(
+        noise * [peak, peak, peak / 3] / np.abs(noise).max(axis=0), dt, "noise", "made up"
+    )
 
 
-HELD = [dict(), dict(spring_n_m=2e4), dict(bed_n_m2=3e4, bed_from_m=0.2), dict(tendon_n_m=4e5, tendon_prestress_n=2e3),
-        dict(roof_mass_kg=120.0, roof_eccentricity_m=0.1), dict(roof_thrust_n=200.0), dict(sides=1), dict(restitution=0.8),
-        dict(spring_n_m=1e4, tendon_n_m=1e5, roof_mass_kg=60.0, roof_eccentricity_m=-0.15, roof_thrust_n=-100.0)]
+HELD = [
+    dict(),
+    dict(spring_n_m=2e4),
+    dict(bed_n_m2=3e4, bed_from_m=0.2),
+    dict(tendon_n_m=4e5, tendon_prestress_n=2e3),
+    dict(roof_mass_kg=120.0, roof_eccentricity_m=0.1),
+    dict(roof_thrust_n=200.0),
+    dict(sides=1),
+    dict(restitution=0.8),
+    dict(
+        spring_n_m=1e4,
+        tendon_n_m=1e5,
+        roof_mass_kg=60.0,
+        roof_eccentricity_m=-0.15,
+        roof_thrust_n=-100.0,
+    ),
+]
 
 
 @pytest.mark.parametrize("keys", HELD, ids=str)
@@ -53,10 +74,16 @@ def test_density_of_a_free_block_changes_no_motion():
 
 @pytest.mark.parametrize("alpha, radius", [(0.1, 0.5), (0.3, 2.0)])
 def test_slenderness_and_half_diagonal_make_the_block_of_that_width_and_height(alpha, radius):
-    found = Block.of_section(BlockSection(slenderness_rad=alpha, half_diagonal_m=radius), "block.toml").describe()
-    assert found["slenderness alpha"][0] == pytest.approx(alpha) and found["R"][0] == pytest.approx(radius)
+    found = Block.of_section(
+        BlockSection(slenderness_rad=alpha, half_diagonal_m=radius), "block.toml"
+    ).describe()
+    assert found["slenderness alpha"][0] == pytest.approx(alpha) and found["R"][0] == pytest.approx(
+        radius
+    )
     assert found["frequency parameter p"][0] == pytest.approx(math.sqrt(3 * GRAVITY / (4 * radius)))
-    assert found["restitution of the angular velocity"][0] == pytest.approx(housner_restitution(alpha))
+    assert found["restitution of the angular velocity"][0] == pytest.approx(
+        housner_restitution(alpha)
+    )
     assert found["uplift at"][0] == pytest.approx(math.tan(alpha))
 
 
@@ -72,25 +99,44 @@ def test_restoring_moment_is_the_slope_of_the_potential(keys):
 def test_spring_bed_and_tendon_hold_with_the_force_of_their_stretch():
     """Virtual work, dU = F du, with the lengths drawn from the geometry by hand."""
     b, h, lean, d = 0.2, 1.2, 0.3, 1e-6
+
     def at(phi, inside, up):  # displacement of a point, edge at the origin, body leaning over it
-        return inside - inside * math.cos(phi) + up * math.sin(phi), inside * math.sin(phi) + up * math.cos(phi) - up
+        return inside - inside * math.cos(phi) + up * math.sin(phi), inside * math.sin(
+            phi
+        ) + up * math.cos(phi) - up
 
     def energy(phi):
         top = at(phi, b, h)[0]
         gap = math.hypot(*at(phi, b, 0.0))
-        bed = quad(lambda y: 0.5 * 3e4 * at(phi, b, y)[0]**2, 0.2, h)[0]
+        bed = quad(lambda y: 0.5 * 3e4 * at(phi, b, y)[0] ** 2, 0.2, h)[0]
         return 0.5 * 2e4 * top**2 + bed + 0.5 * 4e5 * gap**2 + 2e3 * gap - 200.0 * top
 
-    free, held = block(), block(spring_n_m=2e4, bed_n_m2=3e4, bed_from_m=0.2, tendon_n_m=4e5, tendon_prestress_n=2e3, roof_thrust_n=200.0)
+    free, held = (
+        block(),
+        block(
+            spring_n_m=2e4,
+            bed_n_m2=3e4,
+            bed_from_m=0.2,
+            tendon_n_m=4e5,
+            tendon_prestress_n=2e3,
+            roof_thrust_n=200.0,
+        ),
+    )
     moment = [float(one.planes[0].rocker.restoring(lean, 1)) for one in (free, held)]
-    assert moment[1] - moment[0] == pytest.approx((energy(lean + d) - energy(lean - d)) / (2 * d), rel=1e-7)
+    assert moment[1] - moment[0] == pytest.approx(
+        (energy(lean + d) - energy(lean - d)) / (2 * d), rel=1e-7
+    )
 
 
 def test_roof_mass_on_the_axis_raises_the_centre_and_adds_its_inertia():
-    """Eqs 5 and 6 of the masonry review, halves there: h_Gc = (m + 2 m_r) h/(m + m_r), I_0c = 4/3 m R^2 + m_r R_r^2."""
+    """Eqs 5 and 6 of the masonry review, halves there: h_Gc = (m + 2 m_r) h/(m + m_r), I_0c = 4/3 m
+    R^2 + m_r R_r^2.
+    """
     plane, m, roof = block(roof_mass_kg=500.0).planes[0], 2700 * 0.48, 500.0
     assert plane.height == pytest.approx((m + 2 * roof) * 0.6 / (m + roof))
-    assert plane.inertia[0] == pytest.approx(4 / 3 * m * (0.2**2 + 0.6**2) + roof * (0.2**2 + 1.2**2))
+    assert plane.inertia[0] == pytest.approx(
+        4 / 3 * m * (0.2**2 + 0.6**2) + roof * (0.2**2 + 1.2**2)
+    )
 
 
 def test_eccentric_roof_makes_the_block_fall_to_its_side_and_other_impacts():
@@ -107,7 +153,9 @@ def test_eccentric_roof_makes_the_block_fall_to_its_side_and_other_impacts():
 def test_restitution_of_lipscombe_and_pellegrinos_blocks(mu, printed):
     assert rectangular_restitution(mu) == pytest.approx(printed, abs=0.006)
     assert rectangular_restitution(mu) == pytest.approx(housner_restitution(math.atan(1 / mu)))
-    assert body_restitution(1.0, (1 + mu**2) / 3, (-1, mu), (1, mu)) == pytest.approx(rectangular_restitution(mu))
+    assert body_restitution(1.0, (1 + mu**2) / 3, (-1, mu), (1, mu)) == pytest.approx(
+        rectangular_restitution(mu)
+    )
 
 
 def test_block_stops_at_its_first_impact_where_it_is_squat():
@@ -129,7 +177,9 @@ def test_vertical_acceleration_lowers_the_uplift():
     for vertical in (-0.3, 0.0, 0.3):
         ground = np.column_stack([along, 0 * along, 0 * along + vertical * GRAVITY])
         found = block().respond(GroundMotion(ground, 1e-3, "", ""))
-        assert along[np.argmax(found.tilt > 0) - 1] == pytest.approx((1 + vertical) * GRAVITY / 3, abs=2 * (along[1] - along[0]))
+        assert along[np.argmax(found.tilt > 0) - 1] == pytest.approx(
+            (1 + vertical) * GRAVITY / 3, abs=2 * (along[1] - along[0])
+        )
 
 
 def test_one_sided_block_leans_to_its_side_alone_and_rebounds():
@@ -137,7 +187,7 @@ def test_one_sided_block_leans_to_its_side_alone_and_rebounds():
     assert (found.coordinates["theta_x"] >= 0).all() and len(found.impact_times) > 3
     first = np.argmax(found.time > found.impact_times[0])
     lost = found.energy["impact"][first] / found.energy["gravity"][0]
-    assert 1 + lost == pytest.approx(one_sided_restitution(math.atan2(0.4, 1.2))**2, rel=1e-6)
+    assert 1 + lost == pytest.approx(one_sided_restitution(math.atan2(0.4, 1.2)) ** 2, rel=1e-6)
 
 
 def test_friction_is_demanded_as_the_rectangular_block_of_zhang_and_makris():
@@ -151,8 +201,17 @@ def test_friction_is_demanded_as_the_rectangular_block_of_zhang_and_makris():
     theta, rate = states.states[:, 1], states.states[:, 2]
     rocks = np.abs(theta) > 1e-3
     lever = alpha * np.sign(theta) - theta
-    above = ground * (5 - 3 * np.cos(2 * lever)) - 3 * np.sin(2 * lever) + 6 * rate**2 / p2 * np.sin(lever)
-    below = 5 - 3 * ground * np.sin(2 * lever) + 3 * np.cos(2 * lever) - 6 * rate**2 / p2 * np.cos(lever)
+    above = (
+        ground * (5 - 3 * np.cos(2 * lever))
+        - 3 * np.sin(2 * lever)
+        + 6 * rate**2 / p2 * np.sin(lever)
+    )
+    below = (
+        5
+        - 3 * ground * np.sin(2 * lever)
+        + 3 * np.cos(2 * lever)
+        - 6 * rate**2 / p2 * np.cos(lever)
+    )
     force = states.base_force(motion.acceleration[:, [0, 2]])
     assert rocks.sum() > 500
     assert (force[:, 0] / force[:, 1])[rocks] == pytest.approx((above / below)[rocks], rel=1e-9)
@@ -163,10 +222,14 @@ def test_sliding_is_told_with_its_time_and_only_where_friction_does_not_suffice(
     # Eq. 17: friction demanded as a jump of acceleration sets the block to rocking
     alpha = math.atan2(0.4, 1.2)
     push = 0.75 * (0.5 / math.tan(alpha) - 1)
-    needed = (0.5 - push * math.cos(alpha) * math.sin(alpha)) / (1 + push * math.sin(alpha)**2)
+    needed = (0.5 - push * math.cos(alpha) * math.sin(alpha)) / (1 + push * math.sin(alpha) ** 2)
     assert 0.3 < needed < 0.5
     slides = block(friction_coefficient=0.9 * needed).respond(motion)
-    assert len(slides.notes) == 1 and "from 0.50" in slides.notes[0] and f"there is {0.9 * needed:g}" in slides.notes[0]
+    assert (
+        len(slides.notes) == 1
+        and "from 0.50" in slides.notes[0]
+        and f"there is {0.9 * needed:g}" in slides.notes[0]
+    )
     assert not block(friction_coefficient=5.0).respond(motion).notes
     assert slides.peaks["friction demanded along x [-]"] > needed * (1 - 1e-2)
 
@@ -182,17 +245,28 @@ def test_block_with_a_depth_rocks_in_both_planes_as_if_alone():
     motion = shaken(2)
     both = block(depth_m=0.5).respond(motion)
     alone = block().respond(GroundMotion(motion.acceleration * [1, 0, 1], motion.dt, "", ""))
-    across = block(width_m=0.5).respond(GroundMotion(motion.acceleration[:, [1, 0, 2]] * [1, 0, 1], motion.dt, "", ""))
+    across = block(width_m=0.5).respond(
+        GroundMotion(motion.acceleration[:, [1, 0, 2]] * [1, 0, 1], motion.dt, "", "")
+    )
     assert both.coordinates["theta_x"] == pytest.approx(alone.coordinates["theta_x"], abs=1e-12)
     assert both.coordinates["theta_y"] == pytest.approx(across.coordinates["theta_x"], abs=1e-12)
     assert both.tilt == pytest.approx(np.hypot(alone.tilt, across.tilt))
 
 
-@pytest.mark.parametrize("keys, said", [
-    (dict(width_m=None), "state block.width_m and block.height_m, or"), (dict(slenderness_rad=0.2), "state block.width_m and"),
-    (dict(spring_n_m=1.0, spring_height_m=2.0), "block.spring_height_m = 2.0: must be at most 1.2 m"),
-    (dict(roof_mass_kg=1.0, roof_eccentricity_m=0.3), "must lie on the top, within 0.2 m"),
-    (dict(roof_thrust_n=1e5), "overturns the block by itself towards +x"), (dict(sides=1, depth_m=1.0), "must be left out where block.sides = 1")])
+@pytest.mark.parametrize(
+    "keys, said",
+    [
+        (dict(width_m=None), "state block.width_m and block.height_m, or"),
+        (dict(slenderness_rad=0.2), "state block.width_m and"),
+        (
+            dict(spring_n_m=1.0, spring_height_m=2.0),
+            "block.spring_height_m = 2.0: must be at most 1.2 m",
+        ),
+        (dict(roof_mass_kg=1.0, roof_eccentricity_m=0.3), "must lie on the top, within 0.2 m"),
+        (dict(roof_thrust_n=1e5), "overturns the block by itself towards +x"),
+        (dict(sides=1, depth_m=1.0), "must be left out where block.sides = 1"),
+    ],
+)
 def test_impossible_block_is_refused_with_file_key_and_range(keys, said):
     with pytest.raises(InputError) as told:
         block(**keys)

@@ -26,7 +26,28 @@ integration.duration_s = 2.0
 @pytest.fixture
 def ensemble(tmp_path):
     """Four one-sine pulses of 0.3 to 1.2 g in an ensemble file."""
-    assert main(["motions", "make", "pulses", "one_sine", "--amplitudes", "2.9", "5", "8", "14", "--periods", "0.8", "--dt", "0.005", "-o", str(tmp_path / "p.h5")]) == 0
+    assert (
+        main(
+            [
+                "motions",
+                "make",
+                "pulses",
+                "one_sine",
+                "--amplitudes",
+                "2.9",
+                "5",
+                "8",
+                "14",
+                "--periods",
+                "0.8",
+                "--dt",
+                "0.005",
+                "-o",
+                str(tmp_path / "p.h5"),
+            ]
+        )
+        == 0
+    )
     return tmp_path / "p.h5"
 
 
@@ -37,47 +58,90 @@ def rows(file):
 
 def test_free_rocking_of_a_frame_writes_table_history_and_figure(tmp_path, capsys):
     (tmp_path / "frame.toml").write_text(FRAME)
-    assert main(["rocking", "rocking_frame", str(tmp_path / "frame.toml"), "-o", str(tmp_path / "out")]) == 0
-    assert {"parameters.csv", "responses.csv", "history.csv", "history.png", "history.pdf"} <= {path.name for path in (tmp_path / "out").iterdir()}
+    assert (
+        main(
+            ["rocking", "rocking_frame", str(tmp_path / "frame.toml"), "-o", str(tmp_path / "out")]
+        )
+        == 0
+    )
+    assert {"parameters.csv", "responses.csv", "history.csv", "history.png", "history.pdf"} <= {
+        path.name for path in (tmp_path / "out").iterdir()
+    }
     history = rows(tmp_path / "out" / "history.csv")
-    assert float(history[0]["theta_x [rad]"]) == pytest.approx(0.05) and float(history[-1]["time [s]"]) == pytest.approx(2.0)
-    parameters = {row["parameter"]: float(row["value"]) for row in rows(tmp_path / "out" / "parameters.csv")}
-    assert parameters["frequency parameter p"] == pytest.approx(1.023, abs=1e-3) and parameters["mass ratio gamma"] == 4
+    assert float(history[0]["theta_x [rad]"]) == pytest.approx(0.05) and float(
+        history[-1]["time [s]"]
+    ) == pytest.approx(2.0)
+    parameters = {
+        row["parameter"]: float(row["value"]) for row in rows(tmp_path / "out" / "parameters.csv")
+    }
+    assert (
+        parameters["frequency parameter p"] == pytest.approx(1.023, abs=1e-3)
+        and parameters["mass ratio gamma"] == 4
+    )
     assert "mass ratio gamma" in capsys.readouterr().out
 
 
 def test_ensemble_counts_what_overturns_as_the_motions_grow(tmp_path, ensemble, capsys):
     (tmp_path / "block.toml").write_text(BLOCK + f'motion.source = "{ensemble}#*"\n')
-    assert main(["rocking", "housner", str(tmp_path / "block.toml"), "-o", str(tmp_path / "out")]) == 0
+    assert (
+        main(["rocking", "housner", str(tmp_path / "block.toml"), "-o", str(tmp_path / "out")]) == 0
+    )
     outcomes = [row["outcome"] for row in rows(tmp_path / "out" / "responses.csv")]
-    assert outcomes[0] == "safe" and outcomes[-1] == "overturned" and outcomes == sorted(outcomes, reverse=True)
+    assert (
+        outcomes[0] == "safe"
+        and outcomes[-1] == "overturned"
+        and outcomes == sorted(outcomes, reverse=True)
+    )
     assert f"4 motions: {outcomes.count('overturned')} overturned" in capsys.readouterr().out
     assert (tmp_path / "out" / "cdf.png").exists()
 
 
 def test_case_of_finite_elements_serves_as_it_is(tmp_path, ensemble, capsys):
-    (tmp_path / "drum.toml").write_text(f'column.shape = "solid"\ncolumn.outer_diameter_m = 0.5\ncolumn.height_m = 1.6\nmotion.source = "{ensemble}#2"\n')
-    assert main(["rocking", "housner", str(tmp_path / "drum.toml"), "-o", str(tmp_path / "out")]) == 0
+    (tmp_path / "drum.toml").write_text(
+        'column.shape = "solid"\ncolumn.outer_diameter_m = 0.5\ncolumn.height_m = '
+        f'1.6\nmotion.source = "{ensemble}#2"\n'
+    )
+    assert (
+        main(["rocking", "housner", str(tmp_path / "drum.toml"), "-o", str(tmp_path / "out")]) == 0
+    )
     assert "slenderness alpha along x" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("text, said", [
-    (BLOCK, "integration.duration_s = 0: must be greater than 0 s where the case has no motion"),
-    (BLOCK + "block.colour = 1\nintegration.duration_s = 1.0\n", "block.colour"),
-    (BLOCK + "walls = 2\n", "walls: unknown key; a case of the model housner has title, block, integration, initial, overturn, output, motion"),
-    ("title = \"x\"\n", "block: missing: the model housner is made from [block]"),
-    (BLOCK + "motion.source = \"lick:3-2\"\n", "must be two rising numbers from 1 to 115"),
-    (BLOCK + "motion.source = \"none.csv\"\n", "no such file")])
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        (
+            BLOCK,
+            "integration.duration_s = 0: must be greater than 0 s where the case has no motion",
+        ),
+        (BLOCK + "block.colour = 1\nintegration.duration_s = 1.0\n", "block.colour"),
+        (
+            BLOCK + "walls = 2\n",
+            "walls: unknown key; a case of the model housner has title, block, "
+            "integration, initial, overturn, output, motion",
+        ),
+        ('title = "x"\n', "block: missing: the model housner is made from [block]"),
+        (BLOCK + 'motion.source = "lick:3-2"\n', "must be two rising numbers from 1 to 115"),
+        (BLOCK + 'motion.source = "none.csv"\n', "no such file"),
+    ],
+)
 def test_what_is_wrong_with_a_model_case_is_told_in_a_line(tmp_path, capsys, text, said):
     (tmp_path / "block.toml").write_text(text)
-    assert main(["rocking", "housner", str(tmp_path / "block.toml"), "-o", str(tmp_path / "out")]) == 2
+    assert (
+        main(["rocking", "housner", str(tmp_path / "block.toml"), "-o", str(tmp_path / "out")]) == 2
+    )
     told = capsys.readouterr().err
     assert said in told and "block.toml" in told and len(told.strip().splitlines()) == 1
 
 
 def test_spectra_are_of_free_symmetric_blocks_alone(tmp_path, capsys):
-    (tmp_path / "block.toml").write_text(BLOCK + "block.spring_n_m = 10\nintegration.duration_s = 1.0\n")
-    assert main(["rocking", "spectrum", str(tmp_path / "block.toml"), "-o", str(tmp_path / "out")]) == 2
+    (tmp_path / "block.toml").write_text(
+        BLOCK + "block.spring_n_m = 10\nintegration.duration_s = 1.0\n"
+    )
+    assert (
+        main(["rocking", "spectrum", str(tmp_path / "block.toml"), "-o", str(tmp_path / "out")])
+        == 2
+    )
     assert "must be a free symmetric block" in capsys.readouterr().err
 
 
@@ -86,8 +150,13 @@ def test_figures_of_overturning_show_bands_and_the_design_chart(tmp_path):
     from fecolumn.rocking.spectra_table import spectra_table
 
     found = spectra_table(math.radians(10), 0.95477, ("one_sine",), (2.0, 4.0))
-    assert {frequency for _, frequency, _ in found} == {2.0, 4.0} and {band.impacts for _, _, band in found} >= {0, 1}
-    for file in (*overturning_figure(found, math.radians(10), tmp_path / "a"), *slenderness_figure(tmp_path / "b")):
+    assert {frequency for _, frequency, _ in found} == {2.0, 4.0} and {
+        band.impacts for _, _, band in found
+    } >= {0, 1}
+    for file in (
+        *overturning_figure(found, math.radians(10), tmp_path / "a"),
+        *slenderness_figure(tmp_path / "b"),
+    ):
         assert file.stat().st_size > 5000
 
 
@@ -98,5 +167,7 @@ def test_keys_of_the_models_are_listed(capsys):
 
 
 def test_help_waits_for_no_library():
-    code = "import sys; from fecolumn.cli import _parser; _parser(); sys.exit('numpy' in sys.modules)"
+    code = (
+        "import sys; from fecolumn.cli import _parser; _parser(); sys.exit('numpy' in sys.modules)"
+    )
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0

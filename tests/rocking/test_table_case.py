@@ -1,4 +1,6 @@
-"""A rocking model's own table in runs and studies: integration.engine = "podium" and its like, alone or beside bodies."""
+"""A rocking model's own table in runs and studies: integration.engine = "podium" and its like,
+alone or beside bodies.
+"""
 
 import json
 import tomllib
@@ -24,13 +26,20 @@ integration.dt_s = 0.005
 """
 PULSE = 'motion.source = "pulse.csv"\nmotion.units = "g"\n'
 FRAME = Path(__file__).parents[2] / "meshes" / "wobbling_frame.toml"
-MODEL = {"wobbling_frame": dict(slenderness_rad=0.1359, half_diagonal_m=0.7315, column_mass_kg=124.4, slab_mass_kg=9621.0)}
+MODEL = {
+    "wobbling_frame": dict(
+        slenderness_rad=0.1359, half_diagonal_m=0.7315, column_mass_kg=124.4, slab_mass_kg=9621.0
+    )
+}
 
 
 @pytest.fixture
 def folder(tmp_path):
     """A folder with podium.toml and a pulse that rocks it."""
-    (tmp_path / "pulse.csv").write_text("t,x\n" + "\n".join(f"{0.02 * i:.2f},{0.2 * (1 if i < 10 else -1) * (i < 20)}" for i in range(60)))
+    (tmp_path / "pulse.csv").write_text(
+        "t,x\n"
+        + "\n".join(f"{0.02 * i:.2f},{0.2 * (1 if i < 10 else -1) * (i < 20)}" for i in range(60))
+    )
     (tmp_path / "podium.toml").write_text(PODIUM + PULSE)
     return tmp_path
 
@@ -42,36 +51,72 @@ def test_tables_are_those_of_the_models():
 def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(folder, capsys):
     assert main(["run", str(folder / "podium.toml"), "-o", str(folder / "run"), "-q"]) == 0
     summary = json.loads((folder / "run" / "summary.json").read_text())
-    assert summary["engine"] == "podium" and summary["impacts"] > 0 and summary["energy_closure_rel"] < 1e-5
+    assert (
+        summary["engine"] == "podium"
+        and summary["impacts"] > 0
+        and summary["energy_closure_rel"] < 1e-5
+    )
     one = read_model_case("podium", folder / "podium.toml")
     _, response = one.response(one.sources[0])
-    assert response.u_max == pytest.approx(summary["u_max_m"]) and response.peaks == pytest.approx(summary["peaks"])
-    for command in (["mesh", str(folder / "podium.toml"), "-o", str(folder / "mesh")], ["render", str(folder / "run")]):
-        assert main(command) == 2 and "is a rocking model of rigid bodies" in capsys.readouterr().err
+    assert response.u_max == pytest.approx(summary["u_max_m"]) and response.peaks == pytest.approx(
+        summary["peaks"]
+    )
+    for command in (
+        ["mesh", str(folder / "podium.toml"), "-o", str(folder / "mesh")],
+        ["render", str(folder / "run")],
+    ):
+        assert (
+            main(command) == 2 and "is a rocking model of rigid bodies" in capsys.readouterr().err
+        )
     again, _ = read_folder_case(folder / "run")
     assert again.id == summary["case_id"] and again.podium.storeys == 3
 
 
 def test_case_id_knows_the_building_and_neither_title_nor_output(folder):
     case = read_case(folder / "podium.toml")
-    assert case.replace({"podium.impact": "CAV"}).id != case.id != case.replace({"podium.storeys": 4}).id
+    assert (
+        case.replace({"podium.impact": "CAV"}).id
+        != case.id
+        != case.replace({"podium.storeys": 4}).id
+    )
     assert case.replace({"title": "another", "output.history_every_s": 0.1}).id == case.id
 
 
 def test_studies_vary_the_keys_of_a_models_table(folder):
-    (folder / "study.toml").write_text('case = "podium.toml"\n[axes]\n"podium.impact" = ["CRV", "CAV"]\n"podium.period_s" = [0.3, 0.6]\n"motion.scale" = [0.7, 1.0]\n')
+    (folder / "study.toml").write_text(
+        'case = "podium.toml"\n[axes]\n"podium.impact" = ["CRV", '
+        '"CAV"]\n"podium.period_s" = [0.3, 0.6]\n"motion.scale" = [0.7, 1.0]\n'
+    )
     plan = read_plan(folder / "study.toml")
-    assert {one.case.integration.engine for one in plan.analyses} == {"podium"} and len(plan.analyses) == 8
+    assert {one.case.integration.engine for one in plan.analyses} == {"podium"} and len(
+        plan.analyses
+    ) == 8
     assert [one.case.podium.impact for one in plan.analyses] == 4 * ["CRV"] + 4 * ["CAV"]
 
 
-@pytest.mark.parametrize("text, said", [
-    ('integration.engine = "reduced"\n', "integration.engine = 'reduced': must be podium, as the case has [podium]"),
-    ("contact.friction_coefficient = 0.3\n", "contact: unknown key; a case of the model podium has title, podium, integration"),
-    ("output.fields_every_s = 0.1\n", "output.fields_every_s = 0.1: must be 0"),
-    ("initial.spin_rad_s = [0, 0, 1]\n", "initial.spin_rad_s = [0, 0, 1]: unknown key; known keys: tilt_rad, direction_deg"),
-    ("podium.storeys = 0\n", "podium.storeys = 0: must lie in [1, 200]"),
-    ("block.width_m = 0.5\n", "integration.engine: must be housner or podium, as the case has [block] and [podium]")])
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        (
+            'integration.engine = "reduced"\n',
+            "integration.engine = 'reduced': must be podium, as the case has [podium]",
+        ),
+        (
+            "contact.friction_coefficient = 0.3\n",
+            "contact: unknown key; a case of the model podium has title, podium, integration",
+        ),
+        ("output.fields_every_s = 0.1\n", "output.fields_every_s = 0.1: must be 0"),
+        (
+            "initial.spin_rad_s = [0, 0, 1]\n",
+            "initial.spin_rad_s = [0, 0, 1]: unknown key; known keys: tilt_rad, direction_deg",
+        ),
+        ("podium.storeys = 0\n", "podium.storeys = 0: must lie in [1, 200]"),
+        (
+            "block.width_m = 0.5\n",
+            "integration.engine: must be housner or podium, as the case has [block] and [podium]",
+        ),
+    ],
+)
 def test_what_does_not_fit_is_told_in_a_line(folder, text, said):
     (folder / "podium.toml").write_text(PODIUM + PULSE + text)
     with pytest.raises(InputError) as told:
@@ -80,22 +125,41 @@ def test_what_does_not_fit_is_told_in_a_line(folder, text, said):
 
 
 def test_a_column_has_no_building():
-    with pytest.raises(InputError, match=r"integration.engine = 'podium': needs a table of its own, \[podium\]; of a \[column\] there are housner and wobbling"):
-        case_from_tables(dict(column=dict(outer_diameter_m=0.1, wall_m=0.005, height_m=1.0), integration=dict(engine="podium")), "case.toml")
+    with pytest.raises(
+        InputError,
+        match=r"integration.engine = 'podium': needs a table of its own, \[podium\]; of a "
+        r"\[column\] there are housner and wobbling",
+    ):
+        case_from_tables(
+            dict(
+                column=dict(outer_diameter_m=0.1, wall_m=0.005, height_m=1.0),
+                integration=dict(engine="podium"),
+            ),
+            "case.toml",
+        )
 
 
 def test_the_same_frame_in_bodies_and_as_a_model_is_told_apart_by_the_engine(tmp_path):
     tables = tomllib.loads(FRAME.read_text())
     bodies = case_from_tables(tables, FRAME)
     both = merge(tables, MODEL)
-    assert case_from_tables(both, FRAME).id == bodies.id  # the model's table changes nothing of the bodies
-    model = case_from_tables(merge(both, {"integration": {"engine": "wobbling_frame"}, "initial": {"tilt_rad": 0.03}}), FRAME)
+    assert (
+        case_from_tables(both, FRAME).id == bodies.id
+    )  # the model's table changes nothing of the bodies
+    model = case_from_tables(
+        merge(both, {"integration": {"engine": "wobbling_frame"}, "initial": {"tilt_rad": 0.03}}),
+        FRAME,
+    )
     summary = run(model, tmp_path / "run", quiet=True)
-    assert summary["engine"] == "wobbling_frame" and summary["u_max_m"] == pytest.approx(0.043, rel=0.05)
+    assert summary["engine"] == "wobbling_frame" and summary["u_max_m"] == pytest.approx(
+        0.043, rel=0.05
+    )
 
 
 def test_functions_compiled_from_their_own_file_are_kept_for_the_next_tests(tmp_path, monkeypatch):
-    """The cache of the tests lives as long as they do; half a minute of compilation of podium, block and wobbling column need not."""
+    """The cache of the tests lives as long as they do; half a minute of compilation of podium,
+    block and wobbling column need not.
+    """
     monkeypatch.setenv("FECOLUMN_CACHE", str(tmp_path / "own"))
     monkeypatch.setenv("FECOLUMN_COMPILED", str(tmp_path / "kept"))
     _compiled.compiled_folder.cache_clear()

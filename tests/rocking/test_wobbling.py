@@ -1,4 +1,6 @@
-"""The wobbling column and frame: derivation, energy, planar limit, passing upright, standing, tendons, and what a user may state."""
+"""The wobbling column and frame: derivation, energy, planar limit, passing upright, standing,
+tendons, and what a user may state.
+"""
 
 import math
 
@@ -18,8 +20,13 @@ from fecolumn.schema import InputError
 from fecolumn.verification.result import Row
 from fecolumn.verification.wobbling_models import SPECIMEN, free, run
 
-COLUMNS = {"marble drum": dict(outer_diameter_m=0.5, height_m=1.6, density_kg_m3=2700), "steel tube": dict(outer_diameter_m=0.1016, wall_m=0.005, height_m=1.0, density_kg_m3=7850),
-           "glass test tube": dict(outer_diameter_m=0.02, wall_m=0.0015, height_m=0.15, density_kg_m3=2500)}
+COLUMNS = {
+    "marble drum": dict(outer_diameter_m=0.5, height_m=1.6, density_kg_m3=2700),
+    "steel tube": dict(outer_diameter_m=0.1016, wall_m=0.005, height_m=1.0, density_kg_m3=7850),
+    "glass test tube": dict(
+        outer_diameter_m=0.02, wall_m=0.0015, height_m=0.15, density_kg_m3=2500
+    ),
+}
 
 
 def column(name="marble drum", **keys):
@@ -28,8 +35,12 @@ def column(name="marble drum", **keys):
 
 def shaken(seed, peak, dt=2e-3, steps=3000, vertical=0.0):
     noise = np.random.default_rng(seed).normal(size=(steps, 3))
-    smooth = np.column_stack([np.convolve(noise[:, axis], np.hanning(80), "same") for axis in range(3)])
-    return GroundMotion(smooth / np.abs(smooth).max(axis=0) * [peak, peak, vertical], dt, "noise", "")
+    smooth = np.column_stack(
+        [np.convolve(noise[:, axis], np.hanning(80), "same") for axis in range(3)]
+    )
+    return GroundMotion(
+        smooth / np.abs(smooth).max(axis=0) * [peak, peak, vertical], dt, "noise", ""
+    )
 
 
 def test_the_committed_equations_are_those_that_sympy_derives():
@@ -41,9 +52,18 @@ def test_the_committed_equations_are_those_that_sympy_derives():
         assert text == committed
     derived, kept = {}, {}
     for source, found in ((text, derived), (committed, kept)):
-        exec(source.replace("from fecolumn._compiled import njit", "njit = lambda **_: lambda function: function"), found)
+        exec(
+            source.replace(
+                "from fecolumn._compiled import njit",
+                "njit = lambda **_: lambda function: function",
+            ),
+            found,
+        )
     body = np.array([0.1, 0.7, 1.5, 120.0, 2400.0, 20.0, 0.6, 1e6, 500.0, GRAVITY])
-    arguments = {"rates": (0.07, 0.6, -0.4, 3.0, 1.3, -0.8, 0.5), "force": (0.07, -0.4, 3.0, 1.3, -0.8, 0.5)}
+    arguments = {
+        "rates": (0.07, 0.6, -0.4, 3.0, 1.3, -0.8, 0.5),
+        "force": (0.07, -0.4, 3.0, 1.3, -0.8, 0.5),
+    }
     for name in ("rates", "force", "inertia", "potential", "moments", "shifts"):
         values = [found[name](body, *arguments.get(name, (0.07,))) for found in (derived, kept)]
         assert values[0] == pytest.approx(values[1], rel=1e-12)
@@ -60,24 +80,39 @@ def test_a_wrong_number_would_not_hold():
 @pytest.mark.parametrize("name", COLUMNS)
 def test_energy_closes_in_a_motion_of_three_components(name):
     model = column(name)
-    found = model.respond(shaken(3, 1.6 * GRAVITY * math.tan(model.slenderness), vertical=2.0), free_s=0.5)
+    found = model.respond(
+        shaken(3, 1.6 * GRAVITY * math.tan(model.slenderness), vertical=2.0), free_s=0.5
+    )
     assert found.tilt.max() > 1e-3 * model.slenderness
     assert np.abs(found.energy["closure"]).max() < 1e-9 * model.energy_to_overturn
 
 
 @pytest.mark.parametrize("stiffness", [0.0, 5e4])
 def test_in_a_plane_it_is_the_planar_column_without_loss(stiffness):
-    """In any direction it is the column of the same mass, inertia, rim and tendon that rocks with restitution 1."""
+    """In any direction it is the column of the same mass, inertia, rim and tendon that rocks with
+    restitution 1.
+    """
     model, angle, start = column("steel tube", tendon_n_m=stiffness), 0.7, 0.04
     motion = shaken(5, 0.8, steps=1000)
     along = motion.acceleration[:, :1] * [math.cos(angle), math.sin(angle), 0.0]
     found = model.respond(GroundMotion(along, motion.dt, "", ""), tilt=start, direction=angle)
     radius, centre, height, mass, _, across, *_ = model.body
     restraint = Restraint(tendons=((stiffness, 0.0, 2 * radius),)) if stiffness else Restraint()
-    plane = body_plane(0, mass, (radius, radius), centre, across, height, (radius, radius), restitution=1.0, restraints=(restraint, restraint))
+    plane = body_plane(
+        0,
+        mass,
+        (radius, radius),
+        centre,
+        across,
+        height,
+        (radius, radius),
+        restitution=1.0,
+        restraints=(restraint, restraint),
+    )
     exact = respond((plane,), motion, 0.0, 0.0, start, 0.0, 0.0)
     assert len(exact.impact_times) >= 2
-    # later what rounding leaves across the plane grows from swing to swing, and it rolls past upright beside the plane
+    # later what rounding leaves across the plane grows from swing to swing, and it rolls past
+    # upright beside the plane
     rows = exact.time < exact.impact_times[1]
     assert found.tilt[rows] == pytest.approx(exact.tilt[rows], abs=1e-6 * start)
     assert found.impact_times[:2] == pytest.approx(exact.impact_times[:2], rel=1e-6)
@@ -96,7 +131,13 @@ def test_a_small_spin_turns_the_plane_and_a_planar_motion_keeps_it():
 def test_it_stands_below_g_tan_alpha_and_lifts_off_above():
     model = column()
     for share, moves in ((0.99, False), (1.01, True)):
-        ramp = np.clip(np.arange(400) / 200, 0, 1)[:, None] * np.array([[0.6, 0.8, 0.0]]) * share * GRAVITY * math.tan(model.slenderness)
+        ramp = (
+            np.clip(np.arange(400) / 200, 0, 1)[:, None]
+            * np.array([[0.6, 0.8, 0.0]])
+            * share
+            * GRAVITY
+            * math.tan(model.slenderness)
+        )
         assert (model.respond(GroundMotion(ramp, 2e-3, "", "")).tilt.max() > 1e-6) == moves
 
 
@@ -117,7 +158,10 @@ def test_a_column_released_beyond_its_critical_tilt_overturns_and_within_it_not(
 
 
 def test_tendons_raise_the_critical_tilt_and_stiff_ones_always_right_the_frame():
-    frames = [WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN | {"tendon_n_m": stiffness}), "") for stiffness in (0.0, 1.72e6, 1e8)]
+    frames = [
+        WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN | {"tendon_n_m": stiffness}), "")
+        for stiffness in (0.0, 1.72e6, 1e8)
+    ]
     tilts = [frame.critical_tilt for frame in frames]
     assert tilts[0] == pytest.approx(0.1359) and tilts[0] < tilts[1] < tilts[2]
 
@@ -126,12 +170,18 @@ def test_pushover_of_the_frame_is_virtual_work_and_slender_at_small_displacement
     frame = WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN), "")
     u, force = frame.pushover(1e-5)
     assert force == pytest.approx(float(frame.planar.linear_pushover(u)), rel=0.1359**2)
-    displacement, force = np.array([frame.pushover(tilt) for tilt in np.linspace(0, frame.critical_tilt, 2001)]).T
+    displacement, force = np.array(
+        [frame.pushover(tilt) for tilt in np.linspace(0, frame.critical_tilt, 2001)]
+    ).T
     assert trapezoid(force, displacement) == pytest.approx(frame.energy_to_overturn, rel=1e-5)
 
 
 def test_of_a_case_it_has_mass_and_inertia_of_the_mesh_and_refuses_a_block():
-    tables = {"column": {"outer_diameter_m": 0.5, "height_m": 1.6, "shape": "solid"}, "material": {"density_kg_m3": 2700}, "integration": {"engine": "wobbling"}}
+    tables = {
+        "column": {"outer_diameter_m": 0.5, "height_m": 1.6, "shape": "solid"},
+        "material": {"density_kg_m3": 2700},
+        "integration": {"engine": "wobbling"},
+    }
     found, stated = Wobbling.of_case(case_from_tables(tables, "drum.toml"), "drum.toml"), column()
     assert found.body[:7] == pytest.approx(stated.body[:7], rel=1e-9)
     tables["column"] = {"length_m": 0.4, "width_m": 0.4, "height_m": 1.2, "shape": "block"}
@@ -139,8 +189,14 @@ def test_of_a_case_it_has_mass_and_inertia_of_the_mesh_and_refuses_a_block():
         Wobbling.of_case(case_from_tables(tables, "block.toml"), "block.toml")
 
 
-@pytest.mark.parametrize("keys, words", [(dict(outer_diameter_m=0.5), "wobbling.outer_diameter_m"), (dict(COLUMNS["steel tube"], wall_m=0.06), "wobbling.wall_m"),
-                                         (dict(COLUMNS["marble drum"], slenderness_rad=0.1), "half_diagonal_m")])
+@pytest.mark.parametrize(
+    "keys, words",
+    [
+        (dict(outer_diameter_m=0.5), "wobbling.outer_diameter_m"),
+        (dict(COLUMNS["steel tube"], wall_m=0.06), "wobbling.wall_m"),
+        (dict(COLUMNS["marble drum"], slenderness_rad=0.1), "half_diagonal_m"),
+    ],
+)
 def test_keys_that_do_not_fit_are_named(keys, words):
     with pytest.raises(InputError, match=words):
         Wobbling.of_section(WobblingSection(**keys), "column.toml")

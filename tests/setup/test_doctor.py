@@ -1,4 +1,6 @@
-"""The doctor names what is installed, and tells a trap from a fit machine without ever falling into it."""
+"""The doctor names what is installed, and tells a trap from a fit machine without ever falling into
+it.
+"""
 
 import subprocess
 import sys
@@ -18,7 +20,10 @@ def run_doctor(folder, *arguments):
 
 @pytest.fixture(scope="module")
 def findings():
-    return {finding.component: finding for finding in doctor.look_at_machine() + doctor.look_at_libraries()}
+    return {
+        finding.component: finding
+        for finding in doctor.look_at_machine() + doctor.look_at_libraries()
+    }
 
 
 def test_this_machine_is_fit_to_run(findings):

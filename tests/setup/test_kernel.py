@@ -23,15 +23,23 @@ print(eval("twice(" + sys.argv[1] + ")"))
 
 def test_processes_that_compile_a_function_for_other_types_at_once_keep_all_forms(tmp_path):
     (tmp_path / "twice.py").write_text(TWICE)
-    environment = os.environ | {"FECOLUMN_CACHE": str(tmp_path / "cache"), "PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])}
+    environment = os.environ | {
+        "FECOLUMN_CACHE": str(tmp_path / "cache"),
+        "PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path]),
+    }
 
     def started(value, code=SLOW):
-        return subprocess.Popen([sys.executable, "-c", code, value], env=environment, text=True, stdout=subprocess.PIPE)
+        return subprocess.Popen(
+            [sys.executable, "-c", code, value], env=environment, text=True, stdout=subprocess.PIPE
+        )
 
     def answers(processes):
         return [process.communicate(timeout=120)[0].strip() for process in processes]
 
     assert answers([started("1")]) == ["2"]
     assert answers([started("1.5"), started("1j")]) == ["3.0", "2j"]
-    kept = "from twice import twice; print(twice(1), twice(1.5), twice(1j), sum(twice.stats.cache_hits.values()))"
+    kept = (
+        "from twice import twice; print(twice(1), twice(1.5), twice(1j), "
+        "sum(twice.stats.cache_hits.values()))"
+    )
     assert answers([started("", kept)]) == ["2 3.0 2j 3"]

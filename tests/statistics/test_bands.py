@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from scipy.stats import binom, binomtest
 
-from fecolumn.statistics.bands import bootstrap_band, clopper_pearson, dkw, dkw_distance, greenwood, wilson
+from fecolumn.statistics.bands import (
+    bootstrap_band,
+    clopper_pearson,
+    dkw,
+    dkw_distance,
+    greenwood,
+    wilson,
+)
 from fecolumn.statistics.ecdf import ecdf
 
 
@@ -27,12 +34,20 @@ def test_wilson_and_clopper_pearson_are_scipys(n):
         np.testing.assert_allclose(upper, [interval.high for interval in expected], atol=1e-12)
 
 
-@pytest.mark.parametrize("band, floor, ceiling", [(greenwood, 0.90, 0.965), (wilson, 0.93, 0.97), (clopper_pearson, 0.95, 0.98)])
+@pytest.mark.parametrize(
+    "band, floor, ceiling",
+    [(greenwood, 0.90, 0.965), (wilson, 0.93, 0.97), (clopper_pearson, 0.95, 0.98)],
+)
 def test_pointwise_bands_cover_an_ensemble_of_115_as_they_say(band, floor, ceiling):
-    """Coverage summed over all outcomes: exact, no simulation. Greenwood's falls short of 95 % towards F = 0 and 1."""
+    """Coverage summed over all outcomes: exact, no simulation.
+
+    Greenwood's falls short of 95 % towards F = 0 and 1.
+    """
     n, k = 115, np.arange(116)
     lower, upper = band(k / n if band is greenwood else k, n)
-    coverage = [binom.pmf(k, n, p)[(lower <= p) & (p <= upper)].sum() for p in np.linspace(0.06, 0.94, 89)]
+    coverage = [
+        binom.pmf(k, n, p)[(lower <= p) & (p <= upper)].sum() for p in np.linspace(0.06, 0.94, 89)
+    ]
     assert floor < min(coverage) and np.mean(coverage) < ceiling
 
 
@@ -48,13 +63,18 @@ def test_dkw_has_massarts_constant():
 
 @pytest.mark.parametrize("share", [0.0, 0.4, 0.9])
 def test_simultaneous_band_holds_the_whole_curve_in_95_of_100_ensembles(share):
-    """Uniform u, the runs above 1 - share overturned. The band is exact for many runs and none overturned, safe otherwise."""
+    """Uniform u, the runs above 1 - share overturned.
+
+    The band is exact for many runs and none overturned, safe otherwise.
+    """
     rng, n, inside = np.random.default_rng(810), 115, []
     for _ in range(1500):
         u = rng.random(n)
         f = ecdf(u, u > 1 - share)
         lower, upper = dkw(f)
-        edges = np.append(f.x, 1 - share)  # F is continuous: the worst is at a step or just before it
+        edges = np.append(
+            f.x, 1 - share
+        )  # F is continuous: the worst is at a step or just before it
         before = np.concatenate([[0.0], upper]) if upper.size else [dkw_distance(n)]
         before[0] = dkw_distance(n)
         inside.append((lower <= f.x).all() and (edges <= before).all())
@@ -71,7 +91,9 @@ def test_bootstrap_band_is_greenwoods_for_many_runs_and_knows_overturned_ones():
     expected = greenwood([np.mean(u <= x) for x in grid], u.size)
     np.testing.assert_allclose(lower, expected[0], atol=0.002)
     np.testing.assert_allclose(upper, expected[1], atol=0.002)
-    assert bootstrap_band([0.1, 0.2], [False, True], [0.5, 9.0], seed=3)[1].max() == 1.0  # both runs drawn standing, at times
+    assert (
+        bootstrap_band([0.1, 0.2], [False, True], [0.5, 9.0], seed=3)[1].max() == 1.0
+    )  # both runs drawn standing, at times
     same = bootstrap_band(u, overturned, grid, 0.95, 100, 7)
     np.testing.assert_array_equal(same, bootstrap_band(u, overturned, grid, 0.95, 100, 7))
 

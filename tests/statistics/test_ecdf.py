@@ -9,7 +9,8 @@ from fecolumn.statistics.ensemble import summarize
 
 
 def test_five_runs_by_hand():
-    # F = 1/5, 3/5 (a tie), 4/5 and one overturned; band at 3/5: 0.6 +- 1.95996 sqrt(0.6 * 0.4 / 5) = 0.6 +- 0.42941
+    # F = 1/5, 3/5 (a tie), 4/5 and one overturned; band at 3/5: 0.6 +- 1.95996 sqrt(0.6 * 0.4 / 5)
+    # = 0.6 +- 0.42941
     f = ecdf([0.03, 0.01, 9.0, 0.03, 0.07], [False, False, True, False, False])
     np.testing.assert_array_equal(f.x, [0.01, 0.03, 0.07])
     np.testing.assert_allclose(f.cdf, [0.2, 0.6, 0.8], rtol=1e-15)
@@ -50,7 +51,11 @@ def test_band_is_kaplan_meiers_with_greenwoods_variance():
 
 def test_all_overturned_leaves_no_curve_and_no_percentile():
     f = ecdf([1.0, 1.0], [True, True])
-    assert f.x.size == 0 and f.overturned == 2 and percentile([1.0, 1.0], [True, True], 0.16) == math.inf
+    assert (
+        f.x.size == 0
+        and f.overturned == 2
+        and percentile([1.0, 1.0], [True, True], 0.16) == math.inf
+    )
 
 
 def test_nan_of_a_standing_run_is_refused_not_counted_as_overturned():
@@ -66,13 +71,16 @@ def test_percentiles_are_the_inverse_of_the_ecdf():
     assert [percentile(u, standing, q) for q in (0.16, 0.5, 0.84)] == [0.04, 0.13, 0.21]
     for q in (0.16, 0.5, 0.84):
         assert percentile(u, standing, q) == np.quantile(u, q, method="inverted_cdf")
-    assert percentile(np.arange(1, 101) / 100, np.zeros(100, bool), 0.07) == 0.07  # 0.07 * 100 > 7 in binary
+    assert (
+        percentile(np.arange(1, 101) / 100, np.zeros(100, bool), 0.07) == 0.07
+    )  # 0.07 * 100 > 7 in binary
     assert percentile(u, u > 0.2, 0.84) == math.inf and percentile(u, u > 0.2, 0.5) == 0.13
 
 
 def test_wilson_interval_of_the_published_ensemble():
-    # 50 of 115, z = 1.959964: (p + z2/2n +- z sqrt(p(1-p)/n + z2/4n2)) / (1 + z2/n) with z2 = 3.841459:
-    # centre (0.434783 + 0.016702) / 1.033404 = 0.436891; reach 1.959964 sqrt(0.002136927 + 0.00007262) / 1.033404 = 0.089152
+    # 50 of 115, z = 1.959964: (p + z2/2n +- z sqrt(p(1-p)/n + z2/4n2)) / (1 + z2/n) with z2 =
+    # 3.841459: centre (0.434783 + 0.016702) / 1.033404 = 0.436891; reach 1.959964 sqrt(0.002136927
+    # + 0.00007262) / 1.033404 = 0.089152
     low, high = proportion_interval(50, 115)
     assert low == pytest.approx(0.34774, abs=1e-5) and high == pytest.approx(0.52604, abs=1e-5)
 
@@ -83,8 +91,12 @@ def test_wilson_interval_of_no_overturn_stays_open():
 
 
 def test_exact_interval_is_made_of_beta_quantiles():
-    assert proportion_interval(3, 10, method="exact") == pytest.approx((beta.ppf(0.025, 3, 8), beta.ppf(0.975, 4, 7)), abs=1e-9)
-    assert proportion_interval(0, 10, method="exact") == pytest.approx((0, 1 - 0.025 ** 0.1), abs=1e-9)
+    assert proportion_interval(3, 10, method="exact") == pytest.approx(
+        (beta.ppf(0.025, 3, 8), beta.ppf(0.975, 4, 7)), abs=1e-9
+    )
+    assert proportion_interval(0, 10, method="exact") == pytest.approx(
+        (0, 1 - 0.025**0.1), abs=1e-9
+    )
 
 
 def test_normal_quantile():
@@ -92,6 +104,17 @@ def test_normal_quantile():
 
 
 def test_row_of_an_ensemble():
-    row = summarize([0.01, 0.02, 0.5, 0.03], [False, False, True, False], [1e-3, -4e-3, 2e-3, 0], [0.1, 0.3, 0.1, 0.3])
-    assert (row.n, row.overturned, row.p_overturn, row.u50_m, row.u84_m) == (4, 1, 0.25, 0.02, math.inf)
+    row = summarize(
+        [0.01, 0.02, 0.5, 0.03],
+        [False, False, True, False],
+        [1e-3, -4e-3, 2e-3, 0],
+        [0.1, 0.3, 0.1, 0.3],
+    )
+    assert (row.n, row.overturned, row.p_overturn, row.u50_m, row.u84_m) == (
+        4,
+        1,
+        0.25,
+        0.02,
+        math.inf,
+    )
     assert row.energy_closure_worst == 4e-3 and row.s_per_step == pytest.approx(0.2)

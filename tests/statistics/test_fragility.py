@@ -1,4 +1,6 @@
-"""Fragility curves give back the parameters their data were drawn with, within the errors they state."""
+"""Fragility curves give back the parameters their data were drawn with, within the errors they
+state.
+"""
 
 import math
 
@@ -27,15 +29,35 @@ def test_lognormal_is_the_maximum_of_the_likelihood():
         eta = np.log(im / q[0]) / q[1]
         return -norm.logcdf(np.where(overturned, eta, -eta)).sum()
 
-    found, other = lognormal(im, overturned), minimize(minus_loglik, [1.0, 0.5], method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-10})
-    assert (found.median, found.beta) == pytest.approx(other.x, rel=1e-5) and found.loglik == pytest.approx(-other.fun, abs=1e-8)
+    found, other = (
+        lognormal(im, overturned),
+        minimize(
+            minus_loglik, [1.0, 0.5], method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-10}
+        ),
+    )
+    assert (found.median, found.beta) == pytest.approx(
+        other.x, rel=1e-5
+    ) and found.loglik == pytest.approx(-other.fun, abs=1e-8)
 
 
 def minus_hessian(function, x, step=1e-4):
     """By central differences."""
     e = step * np.eye(len(x))
-    return -np.array([[(function(x + u + v) - function(x + u - v) - function(x - u + v) + function(x - u - v)) / (4 * step**2)
-                       for u in e] for v in e])
+    return -np.array(
+        [
+            [
+                (
+                    function(x + u + v)
+                    - function(x + u - v)
+                    - function(x - u + v)
+                    + function(x - u - v)
+                )
+                / (4 * step**2)
+                for u in e
+            ]
+            for v in e
+        ]
+    )
 
 
 def test_covariance_is_the_inverse_of_the_observed_information():
@@ -55,12 +77,16 @@ def test_covariance_with_censored_displacements_is_the_inverse_of_the_observed_i
 
     def loglik(q):
         mean = q[0] + q[1] * np.log(im)
-        return np.where(overturned, norm.logsf(math.log(0.25), mean, q[2]), norm.logpdf(np.log(u), mean, q[2])).sum()
+        return np.where(
+            overturned, norm.logsf(math.log(0.25), mean, q[2]), norm.logpdf(np.log(u), mean, q[2])
+        ).sum()
 
     fit = displacement(im, u, overturned, cap_m=0.25)
     best = np.append(fit.coefficients, fit.sigma)
     assert fit.loglik == pytest.approx(loglik(best), abs=1e-9) and overturned.sum() > 10
-    np.testing.assert_allclose(np.linalg.inv(fit.covariance), minus_hessian(loglik, best), rtol=1e-4, atol=1e-3)
+    np.testing.assert_allclose(
+        np.linalg.inv(fit.covariance), minus_hessian(loglik, best), rtol=1e-4, atol=1e-3
+    )
 
 
 def test_lognormal_parameters_lie_within_their_intervals_in_95_of_100_ensembles():
@@ -95,19 +121,27 @@ def test_bootstrap_agrees_with_the_hessian_for_independent_runs():
     im, overturned = stripes(np.random.default_rng(4), 80)
     fit, drawn = lognormal(im, overturned), bootstrap(im, overturned, resamples=400, seed=1)
     assert drawn.refused == 0
-    np.testing.assert_allclose(drawn.upper - drawn.lower, [np.subtract(*fit.median_interval()[::-1]), np.subtract(*fit.beta_interval()[::-1])], rtol=0.2)
+    np.testing.assert_allclose(
+        drawn.upper - drawn.lower,
+        [np.subtract(*fit.median_interval()[::-1]), np.subtract(*fit.beta_interval()[::-1])],
+        rtol=0.2,
+    )
     one, other = (bootstrap(im, overturned, logit, resamples=20, seed=5).parameters for _ in "ab")
     np.testing.assert_array_equal(one, other)
 
 
 def test_runs_of_one_motion_at_several_scales_know_less_than_their_number_says():
-    """40 motions, each with a capacity of its own, at eight scales: 320 runs, 40 pieces of knowledge."""
+    """40 motions, each with a capacity of its own, at eight scales: 320 runs, 40 pieces of
+    knowledge.
+    """
     rng = np.random.default_rng(5)
     capacity = MEDIAN * np.exp(BETA * rng.normal(size=40))
     im = np.tile(np.linspace(0.4, 2.6, 8), 40)
     motion = np.repeat(np.arange(40), 8)
     overturned = im > capacity[motion]
-    runs, motions = (bootstrap(im, overturned, groups=groups, resamples=300, seed=1) for groups in (None, motion))
+    runs, motions = (
+        bootstrap(im, overturned, groups=groups, resamples=300, seed=1) for groups in (None, motion)
+    )
     # mean of 40 capacities: ln median to +- 1.96 * 0.4 / sqrt(40) = 0.124
     assert np.log(motions.upper[0] / motions.lower[0]) / 2 == pytest.approx(0.124, rel=0.35)
     assert np.log(runs.upper[0] / runs.lower[0]) < 0.7 * np.log(motions.upper[0] / motions.lower[0])
@@ -120,7 +154,13 @@ def test_scores_of_whole_motions_make_the_covariance_that_is_documented(fit):
     x, own = np.column_stack([np.ones(im.size), np.log(im)]), fit(im, overturned, motion)
     log_p = norm.logcdf if fit is lognormal else lambda eta: -np.log1p(np.exp(-eta))
     sign = np.where(overturned, 1.0, -1.0)
-    score = np.stack([log_p(sign * (x @ (own.fit.params + e))) - log_p(sign * (x @ (own.fit.params - e))) for e in step * np.eye(2)], axis=1) / (2 * step)
+    score = np.stack(
+        [
+            log_p(sign * (x @ (own.fit.params + e))) - log_p(sign * (x @ (own.fit.params - e)))
+            for e in step * np.eye(2)
+        ],
+        axis=1,
+    ) / (2 * step)
     groups = np.array([score[motion == one].sum(axis=0) for one in range(10)])
     inverse = np.linalg.inv(-own.fit.model.hessian(own.fit.params))
     expected = 10 / 9 * inverse @ groups.T @ groups @ inverse
@@ -141,9 +181,16 @@ def test_diagnostics_name_the_run_that_pulls_at_the_curve():
     assert int(np.argmax(influence.cooks_distance[0])) == odd
 
 
-@pytest.mark.parametrize("im, overturned, reason", [
-    ([1, 2, 3], [0, 0, 0], "none of 3"), ([1, 2, 3], [1, 1, 1], "all of 3"), ([1, 2, 3, 4], [0, 0, 1, 1], "parts all runs"),
-    ([1, 2, 2, 3], [0, 0, 1, 1], "parts all runs"), ([2, 2, 2], [0, 1, 0], "do not vary")])
+@pytest.mark.parametrize(
+    "im, overturned, reason",
+    [
+        ([1, 2, 3], [0, 0, 0], "none of 3"),
+        ([1, 2, 3], [1, 1, 1], "all of 3"),
+        ([1, 2, 3, 4], [0, 0, 1, 1], "parts all runs"),
+        ([1, 2, 2, 3], [0, 0, 1, 1], "parts all runs"),
+        ([2, 2, 2], [0, 1, 0], "do not vary"),
+    ],
+)
 def test_data_without_a_maximum_are_refused_in_words(im, overturned, reason):
     for fit in (lognormal, logit):
         with pytest.raises(DegenerateData, match=reason):
@@ -189,9 +236,13 @@ def test_displacements_with_overturned_runs_censored_are_unbiased():
         found.append(estimate)
         inside.append(np.abs(estimate - truth) < 1.96 * np.sqrt(np.diag(fit.covariance)))
     np.testing.assert_allclose(np.mean(found, axis=0), truth, atol=0.02)
-    np.testing.assert_allclose(np.mean(inside, axis=0), 0.95, atol=3 * math.sqrt(0.05 * 0.95 / 400) + 0.01)
+    np.testing.assert_allclose(
+        np.mean(inside, axis=0), 0.95, atol=3 * math.sqrt(0.05 * 0.95 / 400) + 0.01
+    )
     im, u, overturned = draw(rng, 5000)
-    assert np.polyfit(np.log(im[~overturned]), np.log(u[~overturned]), 1)[0] < 1.3  # without the censored runs: biased
+    assert (
+        np.polyfit(np.log(im[~overturned]), np.log(u[~overturned]), 1)[0] < 1.3
+    )  # without the censored runs: biased
 
 
 def test_displacements_without_overturns_are_least_squares():
@@ -207,7 +258,10 @@ def test_exceedance_at_the_cap_is_the_share_that_overturns():
     im, u, overturned = draw(np.random.default_rng(10), 20000)
     near = np.abs(np.log(im / 2)) < 0.05
     band = displacement(im, u, overturned, cap_m=0.25).exceedance(0.25, [2.0])
-    assert band.p[0] == pytest.approx(overturned[near].mean(), abs=0.04) and band.lower[0] < band.p[0] < band.upper[0]
+    assert (
+        band.p[0] == pytest.approx(overturned[near].mean(), abs=0.04)
+        and band.lower[0] < band.p[0] < band.upper[0]
+    )
     with pytest.raises(ValueError, match="censored there"):
         displacement(im, u, overturned, cap_m=0.25).exceedance(0.3, [2.0])
 

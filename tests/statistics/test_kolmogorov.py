@@ -8,7 +8,9 @@ from fecolumn.statistics.kolmogorov import asymptotic_p, samples_of_p
 
 def test_it_is_the_limiting_distribution_at_the_corrected_distance():
     root = (30 * 20 / 50) ** 0.5
-    assert asymptotic_p(0.25, 30, 20) == pytest.approx(kstwobign.sf((root + 0.12 + 0.11 / root) * 0.25), rel=1e-9)
+    assert asymptotic_p(0.25, 30, 20) == pytest.approx(
+        kstwobign.sf((root + 0.12 + 0.11 / root) * 0.25), rel=1e-9
+    )
 
 
 def test_no_distance_has_p_1_and_a_whole_one_nearly_none():

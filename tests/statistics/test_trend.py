@@ -1,12 +1,11 @@
 import numpy as np
 import pytest
 
-from fecolumn.statistics.equivalence import distance_bound
+from fecolumn.statistics.equivalence import detectable_distance, distance_bound, motions_needed
 from fecolumn.statistics.holm import holm
-from fecolumn.statistics.equivalence import detectable_distance, motions_needed
 from fecolumn.statistics.sensitivity import sensitivity
-from fecolumn.statistics.two_sample import kolmogorov_smirnov
 from fecolumn.statistics.trend import trend
+from fecolumn.statistics.two_sample import kolmogorov_smirnov
 
 STANDING = np.zeros((5, 40), bool)
 
@@ -14,13 +13,18 @@ STANDING = np.zeros((5, 40), bool)
 def test_peaks_that_rise_at_each_level_have_tau_one():
     u = np.arange(1.0, 6)[:, None] + np.random.default_rng(1).uniform(0, 0.5, (1, 40))
     found = trend(u, STANDING)
-    assert found.tau == found.tau_low == found.tau_high == 1 and (found.rising, found.falling) == (40, 0)
+    assert found.tau == found.tau_low == found.tau_high == 1 and (found.rising, found.falling) == (
+        40,
+        0,
+    )
     assert found.p < 1e-6
 
 
 def test_overturning_is_the_largest_peak_and_ties_with_overturning():
     # stands, overturns, overturns: two of three pairs of levels rise
-    found = trend([[0.1] * 8, [0.05] * 8, [0.2] * 8], np.repeat([[False], [True], [True]], 8, axis=1))
+    found = trend(
+        [[0.1] * 8, [0.05] * 8, [0.2] * 8], np.repeat([[False], [True], [True]], 8, axis=1)
+    )
     assert found.tau == pytest.approx(2 / 3)
     assert trend([[0.1] * 8] * 3, np.ones((3, 8), bool)).tau == 0
 
@@ -54,7 +58,8 @@ def test_distance_of_two_settings_is_that_of_their_cdfs():
 
 @pytest.mark.parametrize("shift", [0.0, 0.3, 1.2])
 def test_bound_covers_the_true_distance(shift):
-    # standard normal against one shifted: the true largest distance is 2 Phi(shift/2) - 1, and peaks above 1 are overturns
+    # standard normal against one shifted: the true largest distance is 2 Phi(shift/2) - 1, and
+    # peaks above 1 are overturns
     from statistics import NormalDist
 
     rng, true, below = np.random.default_rng(3), 2 * NormalDist().cdf(shift / 2) - 1, 0
@@ -76,12 +81,17 @@ def test_an_axis_without_effect_stays_within_chance_and_one_with_effect_does_not
     higher = 2 * high
     effect = sensitivity(low, low > 3, higher, higher > 3)
     assert effect.distance > 1.5 * effect.chance and effect.distance_low > effect.chance
-    assert effect.change == pytest.approx((higher > 3).mean() - (low > 3).mean()) and effect.change_low > 0
+    assert (
+        effect.change == pytest.approx((higher > 3).mean() - (low > 3).mean())
+        and effect.change_low > 0
+    )
 
 
 @pytest.mark.parametrize("n, shift", [(6, 0.0), (20, 0.0), (20, 0.4), (40, 0.05)])
 def test_an_effect_lies_within_its_own_interval(n, shift):
-    """Samples drawn anew have larger largest distances than the data: their percentiles left the estimate out."""
+    """Samples drawn anew have larger largest distances than the data: their percentiles left the
+    estimate out.
+    """
     for seed in range(8):
         rng = np.random.default_rng(seed)
         common = rng.normal(size=n)
@@ -94,7 +104,11 @@ def test_an_effect_lies_within_its_own_interval(n, shift):
 def test_no_motion_that_flips_leaves_an_interval_of_the_change_open():
     u = np.linspace(0.1, 1, 8)[None]
     it = sensitivity(u, u > 2, u, u > 2)
-    assert it.distance == it.change == 0 and it.change_low < 0 < it.change_high and it.distance_high > 0.1
+    assert (
+        it.distance == it.change == 0
+        and it.change_low < 0 < it.change_high
+        and it.distance_high > 0.1
+    )
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.5, 1.5])

@@ -1,4 +1,6 @@
-"""Two-sample tests: scipy's where there are no ties, and p-values that mean what they say whatever share overturns."""
+"""Two-sample tests: scipy's where there are no ties, and p-values that mean what they say whatever
+share overturns.
+"""
 
 import itertools
 import math
@@ -9,7 +11,12 @@ import pytest
 from ensembles import assert_uniform, censor
 from scipy import stats
 
-from fecolumn.statistics.two_sample import anderson_darling, cramer_von_mises, kolmogorov_smirnov, paired_kolmogorov_smirnov
+from fecolumn.statistics.two_sample import (
+    anderson_darling,
+    cramer_von_mises,
+    kolmogorov_smirnov,
+    paired_kolmogorov_smirnov,
+)
 
 SHARES = pytest.mark.parametrize("share", [0.0, 0.4, 0.9])
 
@@ -39,7 +46,9 @@ def test_kolmogorov_smirnov_with_overturns_counts_all_orders():
     expected = np.mean(np.array(deals) >= distance((0, 1, 2, 4, 5)) - 1e-12)
     result = kolmogorov_smirnov(a, b)
     assert result.statistic == pytest.approx(0.6) and result.p == pytest.approx(expected, rel=1e-12)
-    assert result.p < stats.ks_2samp(a, b, method="exact").pvalue  # made for continuous variables: too large here
+    assert (
+        result.p < stats.ks_2samp(a, b, method="exact").pvalue
+    )  # made for continuous variables: too large here
 
 
 def test_statistics_without_overturns_are_scipys():
@@ -50,14 +59,18 @@ def test_statistics_without_overturns_are_scipys():
     # scipy shows (A2 - 1) / sigma, sigma a constant of the sizes
     assert np.ptp((np.array(ours) - 1) / theirs) < 1e-12
     a, b = samples(4)
-    assert cramer_von_mises(a, b, 9).statistic == pytest.approx(stats.cramervonmises_2samp(a, b).statistic, rel=1e-12)
+    assert cramer_von_mises(a, b, 9).statistic == pytest.approx(
+        stats.cramervonmises_2samp(a, b).statistic, rel=1e-12
+    )
 
 
 def test_anderson_darling_with_overturns_is_scipys_midrank_version():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         theirs = [stats.anderson_ksamp(samples(seed, share=0.5)).statistic for seed in (1, 2, 3)]
-    ours = [anderson_darling(*samples(seed, share=0.5), resamples=9).statistic for seed in (1, 2, 3)]
+    ours = [
+        anderson_darling(*samples(seed, share=0.5), resamples=9).statistic for seed in (1, 2, 3)
+    ]
     assert np.ptp((np.array(ours) - 1) / theirs) < 1e-12
 
 
@@ -67,12 +80,16 @@ def test_cramer_von_mises_is_the_mean_over_all_orders_of_overturned_runs():
     for _ in range(4000):
         x, y = (np.where(np.isinf(u), 100 + rng.random(u.size), u) for u in (a, b))
         orders.append(stats.cramervonmises_2samp(x, y, method="asymptotic").statistic)
-    assert cramer_von_mises(a, b, 9).statistic == pytest.approx(np.mean(orders), abs=4 * np.std(orders) / math.sqrt(4000))
+    assert cramer_von_mises(a, b, 9).statistic == pytest.approx(
+        np.mean(orders), abs=4 * np.std(orders) / math.sqrt(4000)
+    )
 
 
 def test_permutation_p_without_overturns_is_scipys():
     a, b = samples(3)
-    assert cramer_von_mises(a, b).p == pytest.approx(stats.cramervonmises_2samp(a, b, method="asymptotic").pvalue, abs=0.015)
+    assert cramer_von_mises(a, b).p == pytest.approx(
+        stats.cramervonmises_2samp(a, b, method="asymptotic").pvalue, abs=0.015
+    )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         expected = stats.anderson_ksamp([a, b]).significance_level
@@ -92,7 +109,9 @@ def test_p_is_uniform_where_the_settings_are_one(test, share):
 
 @SHARES
 def test_kolmogorov_smirnovs_p_never_promises_too_much_and_keeps_most_of_its_level(share):
-    """D has few values, so p jumps: P(p <= level) is at most the level; scipy's p for continuous variables falls far below."""
+    """D has few values, so p jumps: P(p <= level) is at most the level; scipy's p for continuous
+    variables falls far below.
+    """
     rng, ours, theirs = np.random.default_rng(12), [], []
     for _ in range(800):
         a, b = censor(rng.normal(size=60), share), censor(rng.normal(size=60), share)
@@ -111,11 +130,18 @@ def test_paired_p_is_uniform_where_the_setting_does_not_matter(share):
     rng, p = np.random.default_rng(13), []
     for seed in range(800):
         motion = rng.normal(size=80)
-        a, b = (censor(math.sqrt(0.9) * motion + math.sqrt(0.1) * rng.normal(size=80), share) for _ in "ab")
+        a, b = (
+            censor(math.sqrt(0.9) * motion + math.sqrt(0.1) * rng.normal(size=80), share)
+            for _ in "ab"
+        )
         p.append(paired_kolmogorov_smirnov(a, b, 399, seed).p)
     for level in (0.05, 0.25, 0.5):
         error = 3 * math.sqrt(level * (1 - level) / 800)
-        assert (0.2 if share == 0.9 else 0.5) * level - error < np.mean(np.array(p) <= level) <= level + error
+        assert (
+            (0.2 if share == 0.9 else 0.5) * level - error
+            < np.mean(np.array(p) <= level)
+            <= level + error
+        )
 
 
 def test_same_motions_hide_a_difference_from_the_independent_test_that_the_paired_one_sees():

@@ -11,7 +11,10 @@ RIGID = dict(rigid=True)
 
 def structure(**tables):
     """Case of a structure that nothing shakes."""
-    return case_from_tables(merge(dict(integration=dict(duration_s=0.1), contact=dict(interior_points=100)), tables), "small.toml")
+    return case_from_tables(
+        merge(dict(integration=dict(duration_s=0.1), contact=dict(interior_points=100)), tables),
+        "small.toml",
+    )
 
 
 def block(interfaces=None, **keys):
@@ -22,15 +25,44 @@ def block(interfaces=None, **keys):
 def frame(column=None, slab=None, **tables):
     """Four rigid columns below a rigid slab."""
     x, y = 1.0, 0.8
-    return merge(dict(
-        bodies=dict(column=dict(kind="cylinder", outer_diameter_m=0.2, height_m=1.5, copies_m=[[x, y, 0], [-x, y, 0], [-x, -y, 0], [x, -y, 0]]) | STONE | RIGID | (column or {}),
-                    slab=dict(kind="slab", length_m=3.0, width_m=2.4, thickness_m=0.3, at_m=[0, 0, 1.5]) | STONE | RIGID | (slab or {})),
-        interfaces=dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab"))), tables)
+    return merge(
+        dict(
+            bodies=dict(
+                column=dict(
+                    kind="cylinder",
+                    outer_diameter_m=0.2,
+                    height_m=1.5,
+                    copies_m=[[x, y, 0], [-x, y, 0], [-x, -y, 0], [x, -y, 0]],
+                )
+                | STONE
+                | RIGID
+                | (column or {}),
+                slab=dict(kind="slab", length_m=3.0, width_m=2.4, thickness_m=0.3, at_m=[0, 0, 1.5])
+                | STONE
+                | RIGID
+                | (slab or {}),
+            ),
+            interfaces=dict(
+                feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")
+            ),
+        ),
+        tables,
+    )
 
 
 def stack(**tables):
     """A rigid block on a rigid block."""
-    return merge(dict(
-        bodies=dict(lower=dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.8) | STONE | RIGID,
-                    upper=dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.6, at_m=[0, 0, 0.8]) | STONE | RIGID),
-        interfaces=dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower"))), tables)
+    return merge(
+        dict(
+            bodies=dict(
+                lower=dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.8) | STONE | RIGID,
+                upper=dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.6, at_m=[0, 0, 0.8])
+                | STONE
+                | RIGID,
+            ),
+            interfaces=dict(
+                foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")
+            ),
+        ),
+        tables,
+    )

@@ -1,4 +1,6 @@
-"""Structures in full order from case to result files: the same columns and motion as the reduced engine, closed energy, fields, interrupted runs, studies."""
+"""Structures in full order from case to result files: the same columns and motion as the reduced
+engine, closed energy, fields, interrupted runs, studies.
+"""
 
 import json
 import warnings
@@ -15,21 +17,32 @@ from fecolumn.schema import InputError, merge
 from fecolumn.simulation import read_folder_case, run
 from fecolumn.structures.elements import structure_of_elements
 
-# As in tests/dynamics: by which the engines may part with all modes, displacement [m] and tilt [rad]
+# As in tests/dynamics: by which the engines may part with all modes, displacement [m] and tilt
+# [rad]
 AGREES = 2e-7
 BRICKS = dict(kind="block", element_size_m=0.2, coarse_size_m=0.4) | STONE
 # a light block that leans on a heavy one, and comes to lean the other way by an impact
 LEANING = dict(
-    bodies=dict(lower=BRICKS | dict(length_m=0.6, width_m=0.6, height_m=0.5), upper=BRICKS | dict(length_m=0.3, width_m=0.3, height_m=0.9, element_size_m=0.15, at_m=[0, 0, 0.5])),
-    interfaces=dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")), initial=dict(upper=dict(tilt_rad=0.06)),
-    contact=dict(friction_coefficient=0.7, interior_points=0), integration=dict(engine="full", dt_s=1e-3, duration_s=0.3), output=dict(fields_every_s=0.15))
+    bodies=dict(
+        lower=BRICKS | dict(length_m=0.6, width_m=0.6, height_m=0.5),
+        upper=BRICKS
+        | dict(length_m=0.3, width_m=0.3, height_m=0.9, element_size_m=0.15, at_m=[0, 0, 0.5]),
+    ),
+    interfaces=dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")),
+    initial=dict(upper=dict(tilt_rad=0.06)),
+    contact=dict(friction_coefficient=0.7, interior_points=0),
+    integration=dict(engine="full", dt_s=1e-3, duration_s=0.3),
+    output=dict(fields_every_s=0.15),
+)
 QUIET = dict(output=dict(fields_every_s=0.0))
 
 
 def made(folder, **changes):
     with warnings.catch_warnings():
         warnings.simplefilter("error")  # of a checkpoint that cannot be used, for example
-        return run(structure(**merge(LEANING, changes)), folder, quiet=True), read_history(folder / "history.h5")
+        return run(structure(**merge(LEANING, changes)), folder, quiet=True), read_history(
+            folder / "history.h5"
+        )
 
 
 @pytest.fixture(scope="module")
@@ -40,15 +53,32 @@ def leaning(tmp_path_factory):
 
 def test_full_order_writes_the_columns_and_the_summary_of_the_reduced_engine(leaning, tmp_path):
     _, summary, rows = leaning
-    other, others = made(tmp_path / "reduced", integration=dict(engine="reduced", n_modes=1000), **QUIET)
-    assert set(rows) == set(others) and {name: values.shape for name, values in rows.items()} == {name: values.shape for name, values in others.items()}
+    other, others = made(
+        tmp_path / "reduced", integration=dict(engine="reduced", n_modes=1000), **QUIET
+    )
+    assert set(rows) == set(others) and {name: values.shape for name, values in rows.items()} == {
+        name: values.shape for name, values in others.items()
+    }
     assert set(summary) == set(other) and set(summary["interfaces"]) == set(other["interfaces"])
     assert rows["tilt"][0] == pytest.approx(0.06, rel=1e-6) and rows["tilt"].min() < 5e-3
-    for name in ("u_top", "tilt", "body/upper/displacement", "body/lower/tilt", "interface/joint: upper on lower/tilt", "interface/joint: upper on lower/rise"):
+    for name in (
+        "u_top",
+        "tilt",
+        "body/upper/displacement",
+        "body/lower/tilt",
+        "interface/joint: upper on lower/tilt",
+        "interface/joint: upper on lower/rise",
+    ):
         np.testing.assert_allclose(rows[name], others[name], rtol=0, atol=AGREES, err_msg=name)
     # what a landing point carries within one step is 1e-2 of what it has carried
-    np.testing.assert_allclose(rows["interface/foot: lower on ground/force"][:100], others["interface/foot: lower on ground/force"][:100], rtol=1e-3)
-    assert summary["bodies"]["upper"]["tilt_max_rad"] == pytest.approx(other["bodies"]["upper"]["tilt_max_rad"], abs=AGREES)
+    np.testing.assert_allclose(
+        rows["interface/foot: lower on ground/force"][:100],
+        others["interface/foot: lower on ground/force"][:100],
+        rtol=1e-3,
+    )
+    assert summary["bodies"]["upper"]["tilt_max_rad"] == pytest.approx(
+        other["bodies"]["upper"]["tilt_max_rad"], abs=AGREES
+    )
     assert summary["energy_left_j"] == pytest.approx(other["energy_left_j"], rel=1e-3)
 
 
@@ -60,26 +90,46 @@ def test_energy_of_a_structure_in_full_order_is_accounted_for(leaning):
 
 def test_dofs_of_all_bodies_are_counted_and_copies_are_factored_once():
     places = [[-1.0, 0, 0], [1.0, 0, 0]]
-    case = structure(bodies=dict(column=BRICKS | dict(length_m=0.3, width_m=0.3, height_m=0.9, copies_m=places)), interfaces=dict(feet=dict(slave="column", on="ground")),
-                     integration=dict(engine="full"))
+    case = structure(
+        bodies=dict(column=BRICKS | dict(length_m=0.3, width_m=0.3, height_m=0.9, copies_m=places)),
+        interfaces=dict(feet=dict(slave="column", on="ground")),
+        integration=dict(engine="full"),
+    )
     model, meshed = structure_of_elements(case, MPI.COMM_SELF, "case")
-    assert len(model.parts) == 2 and meshed[0] is meshed[1] and model.parts[0].model is model.parts[1].model
+    assert (
+        len(model.parts) == 2
+        and meshed[0] is meshed[1]
+        and model.parts[0].model is model.parts[1].model
+    )
 
 
 def test_fields_show_all_bodies_and_where_they_press(leaning):
     folder, _, rows = leaning
     text = (folder / "fields" / "fields.xdmf").read_text()
     assert text.count("<Time") == 3 and 'Name="body"' in text
-    with h5py.File(folder / "fields" / "mesh.h5") as mesh, h5py.File(folder / "fields" / "frame_000000150000.h5") as frame:
+    with (
+        h5py.File(folder / "fields" / "mesh.h5") as mesh,
+        h5py.File(folder / "fields" / "frame_000000150000.h5") as frame,
+    ):
         points, cells, body = mesh["points"][:], mesh["cells"][:], mesh["body"][:]
-        moved, stress, pressure = (frame[name][:] for name in ("displacement", "von_mises", "pressure"))
-    assert set(body) == {1, 2} and len(stress) == len(cells) and len(moved) == len(points) == len(pressure)
+        moved, stress, pressure = (
+            frame[name][:] for name in ("displacement", "von_mises", "pressure")
+        )
+    assert (
+        set(body) == {1, 2}
+        and len(stress) == len(cells)
+        and len(moved) == len(points) == len(pressure)
+    )
     upper = np.unique(cells[body == 2])
     top = upper[points[upper, 2] > points[:, 2].max() - 1e-9]
     # the mean over the face weighs corners less: they agree where it is plane
     middle = top[np.argmin(np.linalg.norm(points[top, :2], axis=1))]
     np.testing.assert_allclose(moved[middle], rows["u_top"][150], atol=1e-6)
-    assert set(np.flatnonzero(pressure > 0)) <= set(np.flatnonzero(np.isclose(points[:, 2], 0.0) | np.isclose(points[:, 2], 0.5))) and pressure.max() > 1e4
+    assert (
+        set(np.flatnonzero(pressure > 0))
+        <= set(np.flatnonzero(np.isclose(points[:, 2], 0.0) | np.isclose(points[:, 2], 0.5)))
+        and pressure.max() > 1e4
+    )
     assert 1e4 < stress.max() < 1e8
 
 
@@ -106,8 +156,16 @@ def test_interrupted_analysis_goes_on_to_the_same_motion(leaning, tmp_path):
 
 
 def test_standing_structure_keeps_its_stick_operator_through_an_interruption(tmp_path, monkeypatch):
-    standing = merge({name: table for name, table in LEANING.items() if name != "initial"},
-                     merge(QUIET, dict(initial=dict(upper=dict(velocity_m_s=[2e-3, 1e-3, 0.0])), integration=dict(duration_s=0.06))))
+    standing = merge(
+        {name: table for name, table in LEANING.items() if name != "initial"},
+        merge(
+            QUIET,
+            dict(
+                initial=dict(upper=dict(velocity_m_s=[2e-3, 1e-3, 0.0])),
+                integration=dict(duration_s=0.06),
+            ),
+        ),
+    )
     asked = []
 
     def rows(name, **how):
@@ -120,7 +178,10 @@ def test_standing_structure_keeps_its_stick_operator_through_an_interruption(tmp
     with pytest.raises(KeyboardInterrupt):
         rows("broken", stop=lambda: asked.append(0) or len(asked) == 30)
     with np.load(tmp_path / "broken" / "checkpoint.npz") as kept:
-        assert kept["extra.stick.key"][1] == 1.0 and np.abs(kept["extra.stick.factor.values"]).max() > 0
+        assert (
+            kept["extra.stick.key"][1] == 1.0
+            and np.abs(kept["extra.stick.factor.values"]).max() > 0
+        )
     again = rows("broken")
     # found anew in each step instead
     monkeypatch.setattr(Stay, "note", lambda self, poses, rims: None)
@@ -128,21 +189,48 @@ def test_standing_structure_keeps_its_stick_operator_through_an_interruption(tmp
     assert np.abs(whole["u_top"]).max() > 1e-6
     for name in ("u_top", "body/lower/displacement", "energy/strain"):
         np.testing.assert_array_equal(again[name], whole[name])
-        np.testing.assert_allclose(without[name], whole[name], rtol=0, atol=1e-5 * np.abs(whole[name]).max())
+        np.testing.assert_allclose(
+            without[name], whole[name], rtol=0, atol=1e-5 * np.abs(whole[name]).max()
+        )
 
 
 def test_block_that_is_tilted_too_far_overturns(tmp_path):
-    summary, _ = made(tmp_path / "run", initial=dict(upper=dict(tilt_rad=0.5)), integration=dict(dt_s=5e-3, duration_s=2.0), **QUIET)
+    summary, _ = made(
+        tmp_path / "run",
+        initial=dict(upper=dict(tilt_rad=0.5)),
+        integration=dict(dt_s=5e-3, duration_s=2.0),
+        **QUIET,
+    )
     assert summary["outcome"] == "overturned" and '"upper" has tilted by' in summary["ended_by"]
 
 
-@pytest.mark.parametrize("body, key, told", [
-    (dict(rigid=True), "bodies.upper.rigid", "must be false"),
-    (dict(kind="storeys", length_m=0.5, width_m=0.5, thickness_m=0.2, floors=1, floor_masses_kg=[10.0], storey_heights_m=[0.3], period_s=0.1, at_m=[0, 0, 0.5]),
-     "bodies.upper.kind", "has no elements")])
+@pytest.mark.parametrize(
+    "body, key, told",
+    [
+        (dict(rigid=True), "bodies.upper.rigid", "must be false"),
+        (
+            dict(
+                kind="storeys",
+                length_m=0.5,
+                width_m=0.5,
+                thickness_m=0.2,
+                floors=1,
+                floor_masses_kg=[10.0],
+                storey_heights_m=[0.3],
+                period_s=0.1,
+                at_m=[0, 0, 0.5],
+            ),
+            "bodies.upper.kind",
+            "has no elements",
+        ),
+    ],
+)
 def test_bodies_without_elements_are_refused_by_name_in_full_order(tmp_path, body, key, told):
     tables = merge(LEANING, QUIET)
-    tables["bodies"] = dict(lower=LEANING["bodies"]["lower"], upper=body if "kind" in body else LEANING["bodies"]["upper"] | body)
+    tables["bodies"] = dict(
+        lower=LEANING["bodies"]["lower"],
+        upper=body if "kind" in body else LEANING["bodies"]["upper"] | body,
+    )
     with pytest.raises(InputError, match=told) as refused:
         run(structure(**tables), tmp_path / "run", quiet=True)
     assert refused.value.key == key and "engine" in str(refused.value)
@@ -152,11 +240,27 @@ def test_engine_is_an_axis_of_a_study_of_structures(tmp_path):
     from fecolumn.cli import main
 
     tables = merge(LEANING, dict(integration=dict(duration_s=0.02), **QUIET))
-    lines = [f'bodies.{name}.{key} = {json.dumps(value)}' for name, body in tables["bodies"].items() for key, value in body.items()]
-    lines += [f'interfaces.{name}.{key} = "{value}"' for name, one in tables["interfaces"].items() for key, value in one.items()]
-    lines += ["initial.upper.tilt_rad = 0.06", "contact.friction_coefficient = 0.7", "contact.interior_points = 0", "integration.dt_s = 1e-3", "integration.duration_s = 0.02"]
+    lines = [
+        f"bodies.{name}.{key} = {json.dumps(value)}"
+        for name, body in tables["bodies"].items()
+        for key, value in body.items()
+    ]
+    lines += [
+        f'interfaces.{name}.{key} = "{value}"'
+        for name, one in tables["interfaces"].items()
+        for key, value in one.items()
+    ]
+    lines += [
+        "initial.upper.tilt_rad = 0.06",
+        "contact.friction_coefficient = 0.7",
+        "contact.interior_points = 0",
+        "integration.dt_s = 1e-3",
+        "integration.duration_s = 0.02",
+    ]
     (tmp_path / "case.toml").write_text("\n".join(lines) + "\n")
-    (tmp_path / "study.toml").write_text('[case]\nextends = "case.toml"\n[axes]\n"integration.engine" = ["full", "reduced"]\n')
+    (tmp_path / "study.toml").write_text(
+        '[case]\nextends = "case.toml"\n[axes]\n"integration.engine" = ["full", "reduced"]\n'
+    )
     assert main(["study", str(tmp_path / "study.toml"), "-o", str(tmp_path / "out")]) in (0, None)
     summaries = [json.loads(file.read_text()) for file in (tmp_path / "out").rglob("summary.json")]
     assert {one["engine"] for one in summaries} == {"full", "reduced"}

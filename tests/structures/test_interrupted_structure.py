@@ -1,4 +1,6 @@
-"""A structure that slides, interrupted at any step, goes on to the last digit as if it had not been."""
+"""A structure that slides, interrupted at any step, goes on to the last digit as if it had not
+been.
+"""
 
 import h5py
 import numpy as np
@@ -14,29 +16,54 @@ def shake(tmp_path_factory):
     """Motions along x and y, and along x alone."""
     folder, times = tmp_path_factory.mktemp("motions"), np.arange(0.0, 0.6, 0.01)
     for name, aside in (("both", 4.0), ("along", 0.0)):
-        rows = (f"{t:.2f},{7 * np.sin(25 * t):.6f},{aside * np.sin(17 * t + 1):.6f}\n" for t in times)
+        rows = (
+            f"{t:.2f},{7 * np.sin(25 * t):.6f},{aside * np.sin(17 * t + 1):.6f}\n" for t in times
+        )
         (folder / f"{name}.csv").write_text("time [s],ax [m/s2],ay [m/s2]\n" + "".join(rows))
     return folder
 
 
 def _case(motion, engine, duration_s, **sections):
-    """Three equal blocks on one another, which slide: their nodes lie above one another at the start, each on a corner of several facets."""
+    """Three equal blocks on one another, which slide: their nodes lie above one another at the
+    start, each on a corner of several facets.
+    """
     block = dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.6) | STONE
-    return structure(**merge(merge(stack(), dict(
-        bodies=dict(lower=dict(rigid=False), upper=block | dict(rigid=False), third=block | dict(height_m=0.5, at_m=[0, 0, 1.4])),
-        interfaces=dict(foot=dict(friction_coefficient=0.9), third=dict(slave="third", on="upper")), contact=dict(friction_coefficient=0.4, interior_points=4),
-        integration=dict(engine=engine, dt_s=1e-3, duration_s=duration_s), motion=dict(source=str(motion)))), sections))
+    return structure(
+        **merge(
+            merge(
+                stack(),
+                dict(
+                    bodies=dict(
+                        lower=dict(rigid=False),
+                        upper=block | dict(rigid=False),
+                        third=block | dict(height_m=0.5, at_m=[0, 0, 1.4]),
+                    ),
+                    interfaces=dict(
+                        foot=dict(friction_coefficient=0.9), third=dict(slave="third", on="upper")
+                    ),
+                    contact=dict(friction_coefficient=0.4, interior_points=4),
+                    integration=dict(engine=engine, dt_s=1e-3, duration_s=duration_s),
+                    motion=dict(source=str(motion)),
+                ),
+            ),
+            sections,
+        )
+    )
 
 
 def _history(folder):
     found = {}
     with h5py.File(folder / "history.h5") as file:
-        file.visititems(lambda name, item: found.update({name: item[()]}) if hasattr(item, "shape") else None)
+        file.visititems(
+            lambda name, item: found.update({name: item[()]}) if hasattr(item, "shape") else None
+        )
     return found
 
 
 def _interrupted(case, folder, asked: int):
-    """The history of an analysis that is interrupted when it asks for the `asked`-th time whether to go on, and taken up again."""
+    """The history of an analysis that is interrupted when it asks for the `asked`-th time whether
+    to go on, and taken up again.
+    """
     times = iter([False] * asked + [True])
     with pytest.raises(KeyboardInterrupt):
         run(case, folder, quiet=True, stop=lambda: next(times))
@@ -46,7 +73,13 @@ def _interrupted(case, folder, asked: int):
 
 def _equal(case, folder, places, slid):
     summary = run(case, folder / "whole", quiet=True)
-    assert min(summary["interfaces"][name]["slide_max_m"] for name in ("joint: upper on lower", "third: third on upper")) > slid
+    assert (
+        min(
+            summary["interfaces"][name]["slide_max_m"]
+            for name in ("joint: upper on lower", "third: third on upper")
+        )
+        > slid
+    )
     whole = _history(folder / "whole")
     for asked in places:
         again = _interrupted(case, folder / str(asked), asked)
@@ -56,7 +89,18 @@ def _equal(case, folder, places, slid):
 @pytest.mark.filterwarnings("ignore:.*cuts the motion short")
 def test_reduced_structure_goes_on_to_the_last_digit(shake, tmp_path):
     # asked each time that a state is kept, every 20 steps
-    _equal(_case(shake / "both.csv", "reduced", 0.3, integration=dict(n_modes=3), output=dict(states_every_s=0.02)), tmp_path, (1, 4, 7, 10), 5e-3)
+    _equal(
+        _case(
+            shake / "both.csv",
+            "reduced",
+            0.3,
+            integration=dict(n_modes=3),
+            output=dict(states_every_s=0.02),
+        ),
+        tmp_path,
+        (1, 4, 7, 10),
+        5e-3,
+    )
 
 
 @pytest.mark.filterwarnings("ignore:.*cuts the motion short")
@@ -65,4 +109,16 @@ def test_full_order_structure_goes_on_to_the_last_digit(shake, tmp_path):
     coarse = dict(element_size_m=0.2, coarse_size_m=0.4)
     bodies = dict(lower=coarse, upper=coarse, third=coarse)
     start = dict(third=dict(velocity_m_s=[1.0, 0.0, 0.0]), upper=dict(velocity_m_s=[0.5, 0.0, 0.0]))
-    _equal(_case(shake / "along.csv", "full", 0.03, bodies=bodies, initial=start, contact=dict(interior_points=0)), tmp_path, (3, 14, 22), 5e-3)
+    _equal(
+        _case(
+            shake / "along.csv",
+            "full",
+            0.03,
+            bodies=bodies,
+            initial=start,
+            contact=dict(interior_points=0),
+        ),
+        tmp_path,
+        (3, 14, 22),
+        5e-3,
+    )

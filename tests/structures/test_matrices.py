@@ -28,16 +28,32 @@ def system(tmp_path_factory):
         matrix = sparse.csr_matrix((values, columns, rows))
         scipy.io.mmwrite(folder / f"{name}.mtx", matrix)
         sparse.save_npz(folder / f"{name}.npz", matrix)
-    shell = np.flatnonzero((np.abs(body.all_X[:, 2]) < 1e-9) | (np.abs(body.all_X[:, 2] - 1.2) < 1e-9))
-    np.savez(folder / "nodes.npz", dofs=3 * shell[:, None] + np.arange(3), coordinates=body.all_X[shell])
-    np.savetxt(folder / "nodes.csv", np.column_stack([3 * shell[:, None] + np.arange(3), body.all_X[shell]]), delimiter=",", fmt="%.17g")
+    shell = np.flatnonzero(
+        (np.abs(body.all_X[:, 2]) < 1e-9) | (np.abs(body.all_X[:, 2] - 1.2) < 1e-9)
+    )
+    np.savez(
+        folder / "nodes.npz", dofs=3 * shell[:, None] + np.arange(3), coordinates=body.all_X[shell]
+    )
+    np.savetxt(
+        folder / "nodes.csv",
+        np.column_stack([3 * shell[:, None] + np.arange(3), body.all_X[shell]]),
+        delimiter=",",
+        fmt="%.17g",
+    )
     return folder, structure_model(case).parts[0].model
 
 
 def _case(folder, kind, **files):
-    body = dict(kind="matrices", mass_file=str(folder / f"mass.{kind}"), stiffness_file=str(folder / f"stiffness.{kind}"),
-                nodes_file=str(folder / ("nodes.npz" if kind == "npz" else "nodes.csv")))
-    return structure(**block() | dict(bodies=dict(block=body | {key: str(folder / name) for key, name in files.items()})))
+    body = dict(
+        kind="matrices",
+        mass_file=str(folder / f"mass.{kind}"),
+        stiffness_file=str(folder / f"stiffness.{kind}"),
+        nodes_file=str(folder / ("nodes.npz" if kind == "npz" else "nodes.csv")),
+    )
+    return structure(
+        **block()
+        | dict(bodies=dict(block=body | {key: str(folder / name) for key, name in files.items()}))
+    )
 
 
 @pytest.mark.parametrize("kind, dense", [("npz", True), ("mtx", False)])
@@ -45,26 +61,36 @@ def test_body_of_matrices_is_the_body_that_made_them(system, kind, dense, monkey
     folder, made = system
     monkeypatch.setattr(module, "_DENSE", 10**6 if dense else 0)
     found = structure_model(_case(folder, kind)).parts[0].model
-    assert found.mass == pytest.approx(made.mass, rel=1e-9) and found.center == pytest.approx(made.center, abs=1e-9)
+    assert found.mass == pytest.approx(made.mass, rel=1e-9) and found.center == pytest.approx(
+        made.center, abs=1e-9
+    )
     assert found.inertia == pytest.approx(made.inertia, rel=1e-9, abs=1e-9)
     assert found.frequencies[:20] == pytest.approx(made.frequencies[:20], rel=1e-6)
     one, other = (model.arms[model.surfaces["foot"].nodes] for model in (found, made))
     order = [int(np.argmin(np.linalg.norm(other - arm, axis=1))) for arm in one]
     rows, others = found.surfaces["foot"].nodes, made.surfaces["foot"].nodes[order]
-    assert found.flexibility[np.ix_(rows, rows)] == pytest.approx(made.flexibility[np.ix_(others, others)], rel=1e-6, abs=1e-7 * np.abs(made.flexibility).max())
+    assert found.flexibility[np.ix_(rows, rows)] == pytest.approx(
+        made.flexibility[np.ix_(others, others)],
+        rel=1e-6,
+        abs=1e-7 * np.abs(made.flexibility).max(),
+    )
     assert found.surfaces["foot"].areas.sum() == pytest.approx(0.4 * 0.2, rel=1e-9)
 
 
 def test_matrices_of_a_held_body_are_refused(system):
     folder, _ = system
-    held = sparse.load_npz(folder / "stiffness.npz") + 1e9 * sparse.eye(sparse.load_npz(folder / "stiffness.npz").shape[0])
+    held = sparse.load_npz(folder / "stiffness.npz") + 1e9 * sparse.eye(
+        sparse.load_npz(folder / "stiffness.npz").shape[0]
+    )
     sparse.save_npz(folder / "held.npz", held.tocsr())
     with pytest.raises(InputError, match="nothing may hold the body") as error:
         structure_model(_case(folder, "npz", stiffness_file="held.npz"))
     assert error.value.key == "bodies.block.stiffness_file"
 
 
-@pytest.mark.parametrize("file, said", [("mass.mtx", "symmetric|cannot be read"), ("nodes.npz", "cannot be read")])
+@pytest.mark.parametrize(
+    "file, said", [("mass.mtx", "symmetric|cannot be read"), ("nodes.npz", "cannot be read")]
+)
 def test_files_of_another_content_are_refused(system, file, said):
     folder, _ = system
     (folder / "text.npz").write_text("no matrix")

@@ -1,4 +1,6 @@
-"""The share of the rigid loss that impacts take: closed forms of blocks and bents, and what elastic faces make of it."""
+"""The share of the rigid loss that impacts take: closed forms of blocks and bents, and what elastic
+faces make of it.
+"""
 
 import numpy as np
 import pytest
@@ -23,31 +25,50 @@ def rocked(case, seconds: float):
 
 def let_go(engine: str, dt: float, modes: int = 0, **contact):
     """A block let go from 0.05 rad; its first impact is at 0.176 s, the second at 0.466 s."""
-    return structure(**block(), initial=dict(block=dict(tilt_rad=0.05)), contact=dict(friction_coefficient=0.7, interior_points=0) | contact,
-                     integration=dict(engine=engine, dt_s=dt, n_modes=modes))
+    return structure(
+        **block(),
+        initial=dict(block=dict(tilt_rad=0.05)),
+        contact=dict(friction_coefficient=0.7, interior_points=0) | contact,
+        integration=dict(engine=engine, dt_s=dt, n_modes=modes),
+    )
 
 
 def rigid_energy(engine) -> float:
     """Of the rigid motion of one body, and of its weight [J]."""
     body, frame = engine.structure.bodies.body[0], engine.motion.frames[0]
-    return (body["mass"] * (frame["velocity"] @ frame["velocity"] / 2 + G * frame["center"][2]) + frame["spin"] @ body["inertia"] @ frame["spin"] / 2)
+    return (
+        body["mass"] * (frame["velocity"] @ frame["velocity"] / 2 + G * frame["center"][2])
+        + frame["spin"] @ body["inertia"] @ frame["spin"] / 2
+    )
 
 
 @pytest.mark.parametrize("dt", [1e-3, 2.5e-4])
 def test_an_impact_of_a_rigid_block_takes_housners_loss(dt):
     engine = rocked(let_go("rigid", dt), 0.4)
-    mass, diagonal = engine.structure.bodies.body[0]["mass"], np.hypot(BLOCK["length_m"], BLOCK["height_m"]) / 2
+    mass, diagonal = (
+        engine.structure.bodies.body[0]["mass"],
+        np.hypot(BLOCK["length_m"], BLOCK["height_m"]) / 2,
+    )
     fallen = mass * G * diagonal * (np.cos(ALPHA - 0.05) - np.cos(ALPHA))
     assert engine.ledger[RIGID_LOSS] == pytest.approx(fallen * (1 - KEPT), rel=2e-3)
     assert engine.rigid_loss_share == pytest.approx(1.0, abs=1e-3)
 
 
 def test_elastic_faces_give_back_what_the_share_lacks():
-    """Until the block lands again, 10 ms later, its rigid motion has lost that part of Housner's loss; 1e-4 s resolve how its faces give back."""
+    """Until the block lands again, 10 ms later, its rigid motion has lost that part of Housner's
+    loss; 1e-4 s resolve how its faces give back.
+    """
     before = rocked(let_go("reduced", 1e-4, 10), 0.1763)
     after = rocked(let_go("reduced", 1e-4, 10), 0.1863)
     body, spin = before.structure.bodies.body[0], before.motion.frames[0]["spin"]
-    turned = (body["inertia"][1, 1] + body["mass"] * (BLOCK["length_m"] ** 2 + BLOCK["height_m"] ** 2) / 4) * spin[1] ** 2 / 2
+    turned = (
+        (
+            body["inertia"][1, 1]
+            + body["mass"] * (BLOCK["length_m"] ** 2 + BLOCK["height_m"] ** 2) / 4
+        )
+        * spin[1] ** 2
+        / 2
+    )
     share = (rigid_energy(before) - rigid_energy(after)) / (turned * (1 - KEPT))
     assert 0.4 < share < 0.6 and after.rigid_loss_share == pytest.approx(share, abs=0.01)
 
@@ -59,23 +80,38 @@ def test_feet_and_heads_of_a_bent_are_one_impact(dt, cap_kg):
     alpha, mass = np.arctan(BREADTH / HEIGHT), 2 * 2500.0 * BREADTH**2 * HEIGHT
     ratio = cap_kg / mass
     kept = (1 - 1.5 * np.sin(alpha) ** 2 + 3 * ratio * np.cos(2 * alpha)) / (1 + 3 * ratio)
-    fallen = G * np.hypot(BREADTH, HEIGHT) * (np.cos(alpha - TILT) - np.cos(alpha)) * (cap_kg + mass / 2)
+    fallen = (
+        G * np.hypot(BREADTH, HEIGHT) * (np.cos(alpha - TILT) - np.cos(alpha)) * (cap_kg + mass / 2)
+    )
     assert engine.ledger[RIGID_LOSS] == pytest.approx(fallen * (1 - kept**2), rel=5e-3)
     assert engine.rigid_loss_share == pytest.approx(1.0, abs=5e-3)
 
 
 def test_a_bent_with_elastic_faces_loses_less():
-    """The heavy cap makes them give; the rigid problem has all four joints though they land one after the other."""
+    """The heavy cap makes them give; the rigid problem has all four joints though they land one
+    after the other.
+    """
     assert 0.5 < rocked(bent("reduced", 1e-3, 400e3), 0.85).rigid_loss_share < 0.95
 
 
 @pytest.mark.parametrize("leans", ["upper", "lower"])
 def test_blocks_on_each_other_lose_as_rigid_bodies_do(leans):
-    case = structure(**stack(initial={leans: dict(tilt_rad=0.05)}, contact=dict(friction_coefficient=0.7), integration=dict(engine="rigid", dt_s=5e-4)))
+    case = structure(
+        **stack(
+            initial={leans: dict(tilt_rad=0.05)},
+            contact=dict(friction_coefficient=0.7),
+            integration=dict(engine="rigid", dt_s=5e-4),
+        )
+    )
     engine = rocked(case, 0.6)
     assert engine.ledger[RIGID_LOSS] > 0 and engine.rigid_loss_share == pytest.approx(1.0, abs=0.01)
 
 
 def test_without_an_impact_that_counts_or_with_restitution_there_is_no_share():
-    assert rocked(structure(**block(), integration=dict(engine="rigid", dt_s=1e-3)), 0.05).rigid_loss_share is None
+    assert (
+        rocked(
+            structure(**block(), integration=dict(engine="rigid", dt_s=1e-3)), 0.05
+        ).rigid_loss_share
+        is None
+    )
     assert rocked(let_go("rigid", 1e-3, restitution=0.5), 0.2).rigid_loss_share is None

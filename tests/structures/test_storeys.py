@@ -8,7 +8,16 @@ from fecolumn.structures.keys import Storeys
 from fecolumn.structures.storeys import building_of
 from fecolumn.structures.structure import structure_model
 
-KEYS = dict(kind="storeys", length_m=6.0, width_m=4.0, thickness_m=0.5, floors=3, floor_masses_kg=[5e4], storey_heights_m=[3.0], period_s=0.3)
+KEYS = dict(
+    kind="storeys",
+    length_m=6.0,
+    width_m=4.0,
+    thickness_m=0.5,
+    floors=3,
+    floor_masses_kg=[5e4],
+    storey_heights_m=[3.0],
+    period_s=0.3,
+)
 
 
 # A slab that the floors do not move
@@ -16,7 +25,10 @@ HEAVY = dict(mass_kg=1e6, floor_masses_kg=[0.1])
 
 
 def _model(**keys):
-    case = structure(bodies=dict(building=KEYS | dict(mass_kg=5e4, youngs_modulus_pa=30e9) | keys), interfaces=dict(foot=dict(slave="building", on="ground")))
+    case = structure(
+        bodies=dict(building=KEYS | dict(mass_kg=5e4, youngs_modulus_pa=30e9) | keys),
+        interfaces=dict(foot=dict(slave="building", on="ground")),
+    )
     return structure_model(case).parts[0]
 
 
@@ -39,8 +51,19 @@ def test_free_modes_have_neither_momentum_nor_spin():
     model, floors = part.model, [f"floor {k}" for k in (1, 2, 3)]
     at_floors = np.array([model.marks[name][1] for name in floors])
     foot = model.surfaces["foot"].nodes
-    slab_turn = [np.linalg.lstsq(np.concatenate([np.concatenate([np.eye(3), -np.cross(np.eye(3), arm).T.T], axis=1) for arm in model.arms[foot]]),
-                                 model.shapes[foot, :, m].ravel(), rcond=None)[0] for m in range(6)]
+    slab_turn = [
+        np.linalg.lstsq(
+            np.concatenate(
+                [
+                    np.concatenate([np.eye(3), -np.cross(np.eye(3), arm).T.T], axis=1)
+                    for arm in model.arms[foot]
+                ]
+            ),
+            model.shapes[foot, :, m].ravel(),
+            rcond=None,
+        )[0]
+        for m in range(6)
+    ]
     slab_arm = np.array([0.0, 0.0, 0.25]) - model.center
     for m, motion in enumerate(slab_turn):
         slab = motion[:3] + np.cross(motion[3:], slab_arm)
@@ -50,15 +73,29 @@ def test_free_modes_have_neither_momentum_nor_spin():
 
 def test_one_floor_on_an_equal_slab_is_two_masses_on_a_spring_that_may_turn():
     """A slab so wide that it does not turn: w^2 = k (1 / m1 + 1 / m2)."""
-    model = _model(floors=1, length_m=1000.0, width_m=1000.0, period_s=None, stiffness_x_n_m=[1e8], stiffness_y_n_m=[2e8], mass_kg=2e4).model
-    assert model.frequencies**2 == pytest.approx(np.array([1e8, 2e8]) * (1 / 2e4 + 1 / 5e4), rel=1e-3)
+    model = _model(
+        floors=1,
+        length_m=1000.0,
+        width_m=1000.0,
+        period_s=None,
+        stiffness_x_n_m=[1e8],
+        stiffness_y_n_m=[2e8],
+        mass_kg=2e4,
+    ).model
+    assert model.frequencies**2 == pytest.approx(
+        np.array([1e8, 2e8]) * (1 / 2e4 + 1 / 5e4), rel=1e-3
+    )
 
 
 def test_rayleigh_damping_has_its_ratio_in_the_two_modes():
     part = _model(damping="rayleigh", damping_ratio=0.05, **HEAVY)
-    assert part.damping_ratio[:4] == pytest.approx(np.full(4, 0.05), rel=1e-3) and np.all(part.damping_ratio[4:] > 0.05)
+    assert part.damping_ratio[:4] == pytest.approx(np.full(4, 0.05), rel=1e-3) and np.all(
+        part.damping_ratio[4:] > 0.05
+    )
     assert _model(damping_ratio=0.05).damping_ratio == 0.05
-    assert _model(floors=1, damping="rayleigh", damping_ratio=0.05, **HEAVY).damping_ratio == pytest.approx(np.full(2, 0.05), rel=1e-3)
+    assert _model(
+        floors=1, damping="rayleigh", damping_ratio=0.05, **HEAVY
+    ).damping_ratio == pytest.approx(np.full(2, 0.05), rel=1e-3)
 
 
 def test_shear_of_a_storey_is_the_inertia_above_it():
@@ -66,4 +103,6 @@ def test_shear_of_a_storey_is_the_inertia_above_it():
     model = _model().model
     top = model.marks["top"][1]
     shear = model.storeys.stiffness[2][:, None] * model.storeys.drifts[2]
-    assert shear == pytest.approx(5e4 * model.frequencies**2 * top[:2], rel=1e-6, abs=1e-6 * np.abs(shear).max())
+    assert shear == pytest.approx(
+        5e4 * model.frequencies**2 * top[:2], rel=1e-6, abs=1e-6 * np.abs(shear).max()
+    )

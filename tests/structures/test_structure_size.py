@@ -1,4 +1,6 @@
-"""What meshes of a structure will have is known before they are built, and those too large are refused by name."""
+"""What meshes of a structure will have is known before they are built, and those too large are
+refused by name.
+"""
 
 import time
 
@@ -15,77 +17,166 @@ from fecolumn.structures.structure import structure_model
 
 TUBE = dict(kind="tube", outer_diameter_m=0.4, wall_m=0.05, height_m=2.0)
 BODIES = {
-    "block": BLOCK, "short block": BLOCK | dict(height_m=0.25), "quadratic block": BLOCK | dict(element_order=2, coarse_size_m=0.13),
-    "cylinder": dict(kind="cylinder", outer_diameter_m=0.5, height_m=1.3), "coin": dict(kind="cylinder", outer_diameter_m=0.5, height_m=0.05),
-    "tube": TUBE, "tube on a flange": TUBE | dict(flange=dict(outer_diameter_m=0.6, thickness_m=0.07, inner_diameter_m=0.2)),
-    "tube with all": TUBE | dict(flange=dict(outer_diameter_m=0.6, thickness_m=0.03), cap=dict(length_m=0.7, width_m=0.5, thickness_m=0.1), element_order=2),
-    "plate": dict(kind="plate", length_m=3.0, width_m=2.0, thickness_m=0.2), "fine plate": dict(kind="plate", length_m=3.0, width_m=2.0, thickness_m=0.2, element_size_m=0.11),
-    "storeys": dict(kind="storeys", length_m=3.0, width_m=2.0, thickness_m=0.2, floors=2, floor_masses_kg=[10.0], storey_heights_m=[1.0], period_s=1.0)}
+    "block": BLOCK,
+    "short block": BLOCK | dict(height_m=0.25),
+    "quadratic block": BLOCK | dict(element_order=2, coarse_size_m=0.13),
+    "cylinder": dict(kind="cylinder", outer_diameter_m=0.5, height_m=1.3),
+    "coin": dict(kind="cylinder", outer_diameter_m=0.5, height_m=0.05),
+    "tube": TUBE,
+    "tube on a flange": TUBE
+    | dict(flange=dict(outer_diameter_m=0.6, thickness_m=0.07, inner_diameter_m=0.2)),
+    "tube with all": TUBE
+    | dict(
+        flange=dict(outer_diameter_m=0.6, thickness_m=0.03),
+        cap=dict(length_m=0.7, width_m=0.5, thickness_m=0.1),
+        element_order=2,
+    ),
+    "plate": dict(kind="plate", length_m=3.0, width_m=2.0, thickness_m=0.2),
+    "fine plate": dict(
+        kind="plate", length_m=3.0, width_m=2.0, thickness_m=0.2, element_size_m=0.11
+    ),
+    "storeys": dict(
+        kind="storeys",
+        length_m=3.0,
+        width_m=2.0,
+        thickness_m=0.2,
+        floors=2,
+        floor_masses_kg=[10.0],
+        storey_heights_m=[1.0],
+        period_s=1.0,
+    ),
+}
 
 
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
 def test_estimate_counts_what_is_built(body):
-    from fecolumn.structures.reduction import body_of
     from fecolumn.structures.check_keys import material_of
+    from fecolumn.structures.reduction import body_of
 
-    case = structure(bodies=dict(body=body | {key: value for key, value in STONE.items() if key != "poissons_ratio"}), interfaces=dict(foot=dict(slave="body", on="ground")))
+    case = structure(
+        bodies=dict(
+            body=body | {key: value for key, value in STONE.items() if key != "poissons_ratio"}
+        ),
+        interfaces=dict(foot=dict(slave="body", on="ground")),
+    )
     shape = shape_of("bodies.body", case.bodies["body"], "small.toml")
     found = size_of(case, "small.toml")
     assert found.elements == {"body": len(shape.mesh.cells)}
     assert found.dofs == {"body": 3 * body_of(shape, material_of(case.bodies["body"], {})).n_nodes}
 
 
-@pytest.mark.parametrize("places", [[(-0.9, 0.3), (0.9, -0.3)], [(-1.39, 0.0), (-1.0, 0.1), (0.2, 0.6)], [(0.0, 0.0)]])
+@pytest.mark.parametrize(
+    "places", [[(-0.9, 0.3), (0.9, -0.3)], [(-1.39, 0.0), (-1.0, 0.1), (0.2, 0.6)], [(0.0, 0.0)]]
+)
 def test_estimate_counts_plates_where_others_meet_them(places):
     tables = frame(column=dict(copies_m=[[x, y, 0.0] for x, y in places]), slab=dict(rigid=False))
     case = structure(**tables)
     drawings = {name: drawing(case, name, "small.toml") for name in case.bodies}
-    spots = layout._spots(case, drawings, layout.meetings_of(case, {name: one.faces for name, one in drawings.items()}, "small.toml"))
+    spots = layout._spots(
+        case,
+        drawings,
+        layout.meetings_of(case, {name: one.faces for name, one in drawings.items()}, "small.toml"),
+    )
     shape = shape_of("bodies.slab", case.bodies["slab"], "small.toml", spots["slab"])
-    assert size_of(case, "small.toml", spots).elements["slab"] == len(shape.mesh.cells) > size_of(case, "small.toml").elements["slab"]
+    assert (
+        size_of(case, "small.toml", spots).elements["slab"]
+        == len(shape.mesh.cells)
+        > size_of(case, "small.toml").elements["slab"]
+    )
 
 
 @pytest.mark.parametrize("size", [1e-3, 1e-5, 1e-9])
-@pytest.mark.parametrize("kind, keys", [("block", {}), ("cylinder", {}), ("tube", dict(wall_m=0.02)), ("plate", {})])
+@pytest.mark.parametrize(
+    "kind, keys", [("block", {}), ("cylinder", {}), ("tube", dict(wall_m=0.02)), ("plate", {})]
+)
 def test_elements_that_would_not_fit_are_refused_at_once_with_a_size_that_fits(kind, keys, size):
-    sides = dict(outer_diameter_m=0.3, height_m=0.5) if kind in ("cylinder", "tube") else dict(length_m=0.3, width_m=0.2) | dict({"thickness_m" if kind == "plate" else "height_m": 0.1})
+    sides = (
+        dict(outer_diameter_m=0.3, height_m=0.5)
+        if kind in ("cylinder", "tube")
+        else dict(length_m=0.3, width_m=0.2)
+        | dict({"thickness_m" if kind == "plate" else "height_m": 0.1})
+    )
 
     def case(value):
-        return structure(bodies=dict(piece=dict(kind=kind, element_size_m=value) | sides | keys | (dict(coarse_size_m=value) if kind == "plate" else {})),
-                         interfaces=dict(foot=dict(slave="piece", on="ground")))
+        return structure(
+            bodies=dict(
+                piece=dict(kind=kind, element_size_m=value)
+                | sides
+                | keys
+                | (dict(coarse_size_m=value) if kind == "plate" else {})
+            ),
+            interfaces=dict(foot=dict(slave="piece", on="ground")),
+        )
 
     began = time.perf_counter()
-    with pytest.raises(InputError, match="mesh.limit_dofs allows 500,000; .* m would fit") as caught:
+    with pytest.raises(
+        InputError, match="mesh.limit_dofs allows 500,000; .* m would fit"
+    ) as caught:
         structure_model(case(size), "small.toml")
     assert time.perf_counter() - began < 1.0
     message = str(caught.value)
     wanted = size_of(case(size), "small.toml")
     assert message.startswith(f"small.toml: {caught.value.key} = {size}: ") and "\n" not in message
-    assert f"{wanted.dofs['piece']:,} degrees of freedom" in message and f"{wanted.elements['piece']:,} elements" in message
+    assert (
+        f"{wanted.dofs['piece']:,} degrees of freedom" in message
+        and f"{wanted.elements['piece']:,} elements" in message
+    )
     fits = float(message.split(" m would fit")[0].split()[-1])
-    assert size_of(case(fits), "small.toml").dofs["piece"] <= 500_000 < size_of(case(0.9 * fits), "small.toml").dofs["piece"]
+    assert (
+        size_of(case(fits), "small.toml").dofs["piece"]
+        <= 500_000
+        < size_of(case(0.9 * fits), "small.toml").dofs["piece"]
+    )
 
 
 def test_coarse_size_alone_is_named_where_it_is_the_cause():
     with pytest.raises(InputError, match="mesh.limit_dofs") as caught:
-        structure_model(structure(**block(element_size_m=0.1, coarse_size_m=0.1, length_m=20.0, width_m=20.0, height_m=2.0)), "small.toml")
+        structure_model(
+            structure(
+                **block(
+                    element_size_m=0.1, coarse_size_m=0.1, length_m=20.0, width_m=20.0, height_m=2.0
+                )
+            ),
+            "small.toml",
+        )
     assert caught.value.key == "bodies.block.element_size_m"
     plate = dict(kind="plate", length_m=3.0, width_m=2.0, thickness_m=0.3, coarse_size_m=0.002)
     with pytest.raises(InputError, match="m would fit") as caught:
-        structure_model(structure(bodies=dict(plate=plate), interfaces=dict(foot=dict(slave="plate", on="ground"))), "small.toml")
+        structure_model(
+            structure(
+                bodies=dict(plate=plate), interfaces=dict(foot=dict(slave="plate", on="ground"))
+            ),
+            "small.toml",
+        )
     assert caught.value.key == "bodies.plate.coarse_size_m"
 
 
 def test_limit_is_a_key_that_makes_no_other_case(tmp_path):
     with pytest.raises(InputError, match="mesh.limit_dofs allows 100;"):
-        structure_model(structure(**block(height_m=1.2345), mesh=dict(limit_dofs=100)), "small.toml")  # of no test before, whose meshes are kept
+        structure_model(
+            structure(**block(height_m=1.2345), mesh=dict(limit_dofs=100)), "small.toml"
+        )  # of no test before, whose meshes are kept
     assert structure(**stack(), mesh=dict(limit_dofs=10**6)).id == structure(**stack()).id
-    (tmp_path / "case.toml").write_text('[bodies.block]\nkind = "block"\nlength_m = 0.4\nwidth_m = 0.4\nheight_m = 1.0\n[interfaces.foot]\nslave = "block"\non = "ground"\n'
-                                        "[mesh]\nfine_size_m = 0.1\n")
-    with pytest.raises(InputError, match="mesh.fine_size_m = 0.1: unknown key; known keys: limit_dofs"):
+    (tmp_path / "case.toml").write_text(
+        '[bodies.block]\nkind = "block"\nlength_m = 0.4\nwidth_m = 0.4\nheight_m = '
+        '1.0\n[interfaces.foot]\nslave = "block"\non = "ground"\n'
+        "[mesh]\nfine_size_m = 0.1\n"
+    )
+    with pytest.raises(
+        InputError, match="mesh.fine_size_m = 0.1: unknown key; known keys: limit_dofs"
+    ):
         read_case(tmp_path / "case.toml")
 
 
 def test_every_copy_counts_in_full_order():
-    one, full = (size_of(structure(**frame(column=dict(rigid=False), slab=dict(rigid=False)), integration=dict(engine=engine)), "small.toml") for engine in ("reduced", "full"))
+    one, full = (
+        size_of(
+            structure(
+                **frame(column=dict(rigid=False), slab=dict(rigid=False)),
+                integration=dict(engine=engine),
+            ),
+            "small.toml",
+        )
+        for engine in ("reduced", "full")
+    )
     assert full.dofs["column"] == 4 * one.dofs["column"] and full.dofs["slab"] == one.dofs["slab"]

@@ -8,63 +8,228 @@ from fecolumn.case import case_from_tables, read_case
 from fecolumn.schema import InputError, merge
 from fecolumn.structures.structure import structure_model
 
-LINK = dict(kind="spring", body="upper", point_m=[0, 0, 0.3], to="ground", to_point_m=[0, 1, 0.3], stiffness_n_m=1e5)
-STOREYS = dict(kind="storeys", length_m=1.0, width_m=1.0, thickness_m=0.2, floors=3, floor_masses_kg=[1.0, 2.0], storey_heights_m=[1.0], period_s=1.0)
+LINK = dict(
+    kind="spring",
+    body="upper",
+    point_m=[0, 0, 0.3],
+    to="ground",
+    to_point_m=[0, 1, 0.3],
+    stiffness_n_m=1e5,
+)
+STOREYS = dict(
+    kind="storeys",
+    length_m=1.0,
+    width_m=1.0,
+    thickness_m=0.2,
+    floors=3,
+    floor_masses_kg=[1.0, 2.0],
+    storey_heights_m=[1.0],
+    period_s=1.0,
+)
 WRONG = [
     (stack(bodies=dict(upper=dict(at_m=[0, 0, 0.803]))), "interfaces.joint", "gap of 0.003 m"),
     (stack(bodies=dict(upper=dict(at_m=[0, 0, 0.797]))), "interfaces.joint", "overlap by 0.003 m"),
     (stack(bodies=dict(upper=dict(at_m=[0, 0, 1.5]))), "interfaces.joint", "does not touch"),
     (stack(bodies=dict(upper=dict(at_m=[0.6, 0, 0.8]))), "interfaces.joint", "does not touch"),
     (stack(bodies=dict(upper=dict(at_m=[0.35, 0, 0.8]))), "interfaces", '"upper" cannot rest'),
-    (frame(bodies=dict(column=dict(copies_m=[[1, 0.8, 0], [1, -0.8, 0]]))), "interfaces", '"slab" cannot rest'),
-    (frame(bodies=dict(column=dict(copies_m=[[1, 0.8, 0], [-1, 0.8, 0], [-1, -0.8, 0], [1, -0.8, -0.002]]))), "interfaces.feet", "overlap by 0.002 m"),
+    (
+        frame(bodies=dict(column=dict(copies_m=[[1, 0.8, 0], [1, -0.8, 0]]))),
+        "interfaces",
+        '"slab" cannot rest',
+    ),
+    (
+        frame(
+            bodies=dict(
+                column=dict(copies_m=[[1, 0.8, 0], [-1, 0.8, 0], [-1, -0.8, 0], [1, -0.8, -0.002]])
+            )
+        ),
+        "interfaces.feet",
+        "overlap by 0.002 m",
+    ),
     (frame(interfaces=dict(feet=False)), "interfaces", "no contact path to the ground"),
-    (stack(bodies=dict(side=dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.5, at_m=[2, 0, 0], rigid=True))), "interfaces", 'no contact path to the ground from "side"'),
-    (stack(bodies=dict(side=dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.5, at_m=[0.4, 0, 0], rigid=True)), interfaces=dict(other=dict(slave="side", on="ground"))),
-     "bodies.side", '"side" and "lower" overlap'),
+    (
+        stack(
+            bodies=dict(
+                side=dict(
+                    kind="block",
+                    length_m=0.4,
+                    width_m=0.4,
+                    height_m=0.5,
+                    at_m=[2, 0, 0],
+                    rigid=True,
+                )
+            )
+        ),
+        "interfaces",
+        'no contact path to the ground from "side"',
+    ),
+    (
+        stack(
+            bodies=dict(
+                side=dict(
+                    kind="block",
+                    length_m=0.4,
+                    width_m=0.4,
+                    height_m=0.5,
+                    at_m=[0.4, 0, 0],
+                    rigid=True,
+                )
+            ),
+            interfaces=dict(other=dict(slave="side", on="ground")),
+        ),
+        "bodies.side",
+        '"side" and "lower" overlap',
+    ),
     # they cross by a strip without a node of one in the other
-    (stack(bodies=dict(side=dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.8, at_m=[0.59, 0, 0], element_size_m=0.6, coarse_size_m=0.8) | STONE | RIGID,
-                       lower=dict(element_size_m=0.6, coarse_size_m=0.8)), interfaces=dict(other=dict(slave="side", on="ground"))), "bodies.side", '"side" and "lower" overlap'),
-    (stack(bodies=dict(lower=dict(at_m=[0, 0, -0.1]), upper=dict(at_m=[0, 0, 0.7]))), "interfaces.foot", "does not touch"),
-    (stack(links=dict(tie=LINK | dict(point_m=[0.3, 0, 0.3]))), "links.tie.point_m", 'a point of "upper": it lies 0.1 m outside'),
+    (
+        stack(
+            bodies=dict(
+                side=dict(
+                    kind="block",
+                    length_m=0.6,
+                    width_m=0.6,
+                    height_m=0.8,
+                    at_m=[0.59, 0, 0],
+                    element_size_m=0.6,
+                    coarse_size_m=0.8,
+                )
+                | STONE
+                | RIGID,
+                lower=dict(element_size_m=0.6, coarse_size_m=0.8),
+            ),
+            interfaces=dict(other=dict(slave="side", on="ground")),
+        ),
+        "bodies.side",
+        '"side" and "lower" overlap',
+    ),
+    (
+        stack(bodies=dict(lower=dict(at_m=[0, 0, -0.1]), upper=dict(at_m=[0, 0, 0.7]))),
+        "interfaces.foot",
+        "does not touch",
+    ),
+    (
+        stack(links=dict(tie=LINK | dict(point_m=[0.3, 0, 0.3]))),
+        "links.tie.point_m",
+        'a point of "upper": it lies 0.1 m outside',
+    ),
     (stack(links=dict(tie=LINK | dict(to="lower"))), "links.tie.to_point_m", 'a point of "lower"'),
-    (stack(links=dict(tie=LINK | dict(stiffness_n_m=0))), "links.tie.stiffness_n_m", "greater than 0"),
-    (stack(links=dict(tie=LINK | dict(to_point_m=[0, 0, 0.3]))), "links.tie.to_point_m", "no length"),
-    (stack(links=dict(tie=LINK | dict(kind="dashpot"))), "links.tie.damping_n_s_m", "greater than 0"),
+    (
+        stack(links=dict(tie=LINK | dict(stiffness_n_m=0))),
+        "links.tie.stiffness_n_m",
+        "greater than 0",
+    ),
+    (
+        stack(links=dict(tie=LINK | dict(to_point_m=[0, 0, 0.3]))),
+        "links.tie.to_point_m",
+        "no length",
+    ),
+    (
+        stack(links=dict(tie=LINK | dict(kind="dashpot"))),
+        "links.tie.damping_n_s_m",
+        "greater than 0",
+    ),
     (stack(interfaces=dict(joint=dict(on="lwoer"))), "interfaces.joint", "did you mean lower"),
     (stack(initial=dict(middle=dict(tilt_rad=0.1))), "initial.middle", "no such body"),
     (stack(bodies=dict(upper=dict(kind="ball"))), "bodies.upper.kind", "must be one of tube"),
-    (stack(bodies=dict(upper=dict(heigth_m=1.0))), "bodies.upper.heigth_m", "did you mean bodies.upper.height_m"),
+    (
+        stack(bodies=dict(upper=dict(heigth_m=1.0))),
+        "bodies.upper.heigth_m",
+        "did you mean bodies.upper.height_m",
+    ),
     (stack(bodies=dict(upper=dict(material="gold"))), "bodies.upper.material", "no such table"),
     (stack(bodies=dict(upper=dict(mass_kg=3.0))), "bodies.upper.mass_kg", "without density_kg_m3"),
     (stack(bodies=dict(upper=dict(at_m=[0, 1]))), "bodies.upper.at_m", "three numbers"),
-    (stack(bodies=dict(upper=dict(copies_m=[[0, 1, "x"]], at_m=[0, 0, 0]))), "bodies.upper.copies_m", "a list of lists of numbers"),
-    (stack(bodies=dict(upper=dict(copies_m=[[0, 0, float("nan")]], at_m=[0, 0, 0]))), "bodies.upper.copies_m", "[-10000, 10000]"),
+    (
+        stack(bodies=dict(upper=dict(copies_m=[[0, 1, "x"]], at_m=[0, 0, 0]))),
+        "bodies.upper.copies_m",
+        "a list of lists of numbers",
+    ),
+    (
+        stack(bodies=dict(upper=dict(copies_m=[[0, 0, float("nan")]], at_m=[0, 0, 0]))),
+        "bodies.upper.copies_m",
+        "[-10000, 10000]",
+    ),
     (stack(column=dict(height_m=1.0)), "column", "says nothing of a structure"),
     (stack(integration=dict(engine="housner")), "integration.engine", "full, reduced or rigid"),
-    (stack(bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], at_m=[0, 0, 0.8])), integration=dict(engine="rigid")), "integration.engine", '"upper" their springs and no inertia'),
-    (stack(bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], modes=0, at_m=[0, 0, 0.8]))), "bodies.upper.modes", '"upper" their springs and no inertia'),
-    (stack(bodies=dict(upper=STOREYS | dict(at_m=[0, 0, 0.8]))), "bodies.upper.floor_masses_kg", "floors = 3 numbers"),
+    (
+        stack(
+            bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], at_m=[0, 0, 0.8])),
+            integration=dict(engine="rigid"),
+        ),
+        "integration.engine",
+        '"upper" their springs and no inertia',
+    ),
+    (
+        stack(bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], modes=0, at_m=[0, 0, 0.8]))),
+        "bodies.upper.modes",
+        '"upper" their springs and no inertia',
+    ),
+    (
+        stack(bodies=dict(upper=STOREYS | dict(at_m=[0, 0, 0.8]))),
+        "bodies.upper.floor_masses_kg",
+        "floors = 3 numbers",
+    ),
     (stack(observed="lower.floor 1"), "observed", "no such mark"),
-    (stack(interfaces=dict(joint=False, foot=dict(slave="lower", on="upper"))), "interfaces", "no contact path"),
+    (
+        stack(interfaces=dict(joint=False, foot=dict(slave="lower", on="upper"))),
+        "interfaces",
+        "no contact path",
+    ),
     # one joint stated twice: in each direction, by another name, and of one copy beside all of them
-    (stack(interfaces=dict(again=dict(slave="lower", on="upper"))), "interfaces.again", 'the joint of interfaces.joint again: the same faces of "upper" and "lower"'),
-    (stack(interfaces=dict(again=dict(slave="upper", on="lower", friction_coefficient=0.1))), "interfaces.again", 'the joint of interfaces.joint again: the same faces of "upper" and "lower"'),
-    (stack(interfaces=dict(again=dict(slave="lower", on="ground"))), "interfaces.again", 'the joint of interfaces.foot again: the same faces of "lower" and the ground'),
-    (frame(interfaces=dict(again=dict(slave="column 2", on="slab"))), "interfaces.again", 'the joint of interfaces.heads again: the same faces of "column 2" and "slab"'),
-    (stack(links=dict(tie=LINK | dict(to="upper"))), "links.tie.to", "another body than links.tie.body"),
-    (frame(links=dict(tie=LINK | dict(body="column", to="column 2", point_m=[0, 0, 1.4], to_point_m=[0, 0, 0.4]))), "links.tie.to", "another body than links.tie.body"),
+    (
+        stack(interfaces=dict(again=dict(slave="lower", on="upper"))),
+        "interfaces.again",
+        'the joint of interfaces.joint again: the same faces of "upper" and "lower"',
+    ),
+    (
+        stack(interfaces=dict(again=dict(slave="upper", on="lower", friction_coefficient=0.1))),
+        "interfaces.again",
+        'the joint of interfaces.joint again: the same faces of "upper" and "lower"',
+    ),
+    (
+        stack(interfaces=dict(again=dict(slave="lower", on="ground"))),
+        "interfaces.again",
+        'the joint of interfaces.foot again: the same faces of "lower" and the ground',
+    ),
+    (
+        frame(interfaces=dict(again=dict(slave="column 2", on="slab"))),
+        "interfaces.again",
+        'the joint of interfaces.heads again: the same faces of "column 2" and "slab"',
+    ),
+    (
+        stack(links=dict(tie=LINK | dict(to="upper"))),
+        "links.tie.to",
+        "another body than links.tie.body",
+    ),
+    (
+        frame(
+            links=dict(
+                tie=LINK
+                | dict(body="column", to="column 2", point_m=[0, 0, 1.4], to_point_m=[0, 0, 0.4])
+            )
+        ),
+        "links.tie.to",
+        "another body than links.tie.body",
+    ),
 ]
 
 
 def _case(tables):
     bodies = dict(tables["bodies"])
     if bodies.get("upper", {}).get("kind") == "storeys":  # its own keys, none of the block's
-        bodies["upper"] = {key: value for key, value in bodies["upper"].items() if key in (*STOREYS, "at_m", "modes")}
+        bodies["upper"] = {
+            key: value
+            for key, value in bodies["upper"].items()
+            if key in (*STOREYS, "at_m", "modes")
+        }
     return structure(**tables | dict(bodies=bodies))
 
 
-@pytest.mark.parametrize("tables, key, said", WRONG, ids=[f"{number}-{said}" for number, (_, _, said) in enumerate(WRONG)])
+@pytest.mark.parametrize(
+    "tables, key, said",
+    WRONG,
+    ids=[f"{number}-{said}" for number, (_, _, said) in enumerate(WRONG)],
+)
 def test_wrong_structure_is_refused_in_one_line(tables, key, said):
     with pytest.raises(InputError) as caught:
         structure_model(_case(tables), "small.toml")
@@ -73,20 +238,46 @@ def test_wrong_structure_is_refused_in_one_line(tables, key, said):
 
 def test_several_wrong_keys_are_told_together():
     with pytest.raises(InputError) as caught:
-        structure(**stack(bodies=dict(upper=dict(height_m=-1.0), lower=dict(heigth_m=1.0)), contact=dict(friction_coefficient=-1)))
-    assert {error.key for error in caught.value.all} == {"bodies.upper.height_m", "bodies.lower.heigth_m", "contact.friction_coefficient"}
+        structure(
+            **stack(
+                bodies=dict(upper=dict(height_m=-1.0), lower=dict(heigth_m=1.0)),
+                contact=dict(friction_coefficient=-1),
+            )
+        )
+    assert {error.key for error in caught.value.all} == {
+        "bodies.upper.height_m",
+        "bodies.lower.heigth_m",
+        "contact.friction_coefficient",
+    }
 
 
 def test_leaning_structure_need_not_rest():
-    tables = stack(bodies=dict(upper=dict(at_m=[0.35, 0, 0.8])), initial=dict(upper=dict(tilt_rad=0.01)))
+    tables = stack(
+        bodies=dict(upper=dict(at_m=[0.35, 0, 0.8])), initial=dict(upper=dict(tilt_rad=0.01))
+    )
     assert len(structure_model(structure(**tables)).parts) == 2
 
 
 def test_tendon_may_hold_what_would_fall():
-    tables = stack(bodies=dict(upper=dict(at_m=[0.35, 0, 0.8])),
-                   links=dict(tie=dict(kind="tendon", body="upper", point_m=[-0.2, 0, 0.6], to="ground", to_point_m=[-0.5, 0, -0.8], stiffness_n_m=1e6)))
+    tables = stack(
+        bodies=dict(upper=dict(at_m=[0.35, 0, 0.8])),
+        links=dict(
+            tie=dict(
+                kind="tendon",
+                body="upper",
+                point_m=[-0.2, 0, 0.6],
+                to="ground",
+                to_point_m=[-0.5, 0, -0.8],
+                stiffness_n_m=1e6,
+            )
+        ),
+    )
     (link,) = structure_model(structure(**tables)).links
-    assert link.b == -1 and link.arm_b == pytest.approx([-0.15, 0.0, 0.0]) and link.arm_a == pytest.approx([-0.2, 0.0, 0.3])
+    assert (
+        link.b == -1
+        and link.arm_b == pytest.approx([-0.15, 0.0, 0.0])
+        and link.arm_a == pytest.approx([-0.2, 0.0, 0.3])
+    )
     assert link.pulls and not link.pushes and np.isinf(link.breaking_n)
 
 
@@ -95,7 +286,11 @@ def test_case_is_named_by_content_and_survives_its_own_tables():
     again = case_from_tables(case.tables(), "other.toml")
     assert again.id == case.id and again == case
     longer = case.replace({"bodies.slab.length_m": 3.2})
-    assert longer.bodies["slab"].length_m == 3.2 and longer.id != case.id and longer.replace({"bodies.slab.length_m": 3.0}).id == case.id
+    assert (
+        longer.bodies["slab"].length_m == 3.2
+        and longer.id != case.id
+        and longer.replace({"bodies.slab.length_m": 3.0}).id == case.id
+    )
     assert case.replace({"output.history_every_s": 0.1}).id == case.id
     assert case.replace({"interfaces.feet.friction_coefficient": 0.5}).id != case.id
     with pytest.raises(InputError, match="must be greater than 0"):
@@ -105,9 +300,15 @@ def test_case_is_named_by_content_and_survives_its_own_tables():
 def test_mesh_file_of_a_body_counts_by_content_and_from_the_cases_folder(tmp_path):
     import meshio
 
-    points = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float) * 0.3
+    points = (
+        np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float)
+        * 0.3
+    )
     meshio.Mesh(points, [("hexahedron", [list(range(8))])]).write(tmp_path / "cube.vtk")
-    (tmp_path / "case.toml").write_text('[bodies.cube]\nkind = "mesh"\nmesh_file = "cube.vtk"\nrigid = true\n[interfaces.foot]\nslave = "cube"\non = "ground"\n')
+    (tmp_path / "case.toml").write_text(
+        '[bodies.cube]\nkind = "mesh"\nmesh_file = "cube.vtk"\nrigid = '
+        'true\n[interfaces.foot]\nslave = "cube"\non = "ground"\n'
+    )
     case = read_case(tmp_path / "case.toml")
     assert structure_model(case).parts[0].model.mass == pytest.approx(7850 * 0.027)
     before = case.id
@@ -119,16 +320,27 @@ def test_mesh_file_of_a_body_counts_by_content_and_from_the_cases_folder(tmp_pat
 
 
 def test_coarse_plate_on_columns_stands_on_their_heads_whichever_is_named_first():
-    case = structure(**merge(frame(slab=dict(element_size_m=0.6)), dict(interfaces=dict(heads=dict(slave="slab", on="column")))))
+    case = structure(
+        **merge(
+            frame(slab=dict(element_size_m=0.6)),
+            dict(interfaces=dict(heads=dict(slave="slab", on="column"))),
+        )
+    )
     made = structure_model(case)
     heads = [joint for joint in made.joints if joint.name.startswith("heads: column")]
     assert len(heads) == 4 and all(joint.round and joint.master == 4 for joint in heads)
 
 
-@pytest.mark.parametrize("joint, message", [
-    (dict(between=["upper"]), "joint.between.*two names"), (dict(between=["ground", "ground"]), "joint.between.*must name a body"),
-    (dict(between=["upper", "lower"], on="lower"), "joint.on.*must be left out beside between"), (dict(on="lower"), "joint.slave.*missing; or give"),
-    (dict(between=["upper", "nobody"]), "interfaces.joint.*no such body")])
+@pytest.mark.parametrize(
+    "joint, message",
+    [
+        (dict(between=["upper"]), "joint.between.*two names"),
+        (dict(between=["ground", "ground"]), "joint.between.*must name a body"),
+        (dict(between=["upper", "lower"], on="lower"), "joint.on.*must be left out beside between"),
+        (dict(on="lower"), "joint.slave.*missing; or give"),
+        (dict(between=["upper", "nobody"]), "interfaces.joint.*no such body"),
+    ],
+)
 def test_wrong_bodies_of_a_joint_are_refused(joint, message):
     tables = stack()
     tables["interfaces"]["joint"] = joint
@@ -137,14 +349,23 @@ def test_wrong_bodies_of_a_joint_are_refused(joint, message):
 
 
 def test_block_alone_is_a_structure():
-    (part,), (joint,) = (lambda made: (made.parts, made.joints))(structure_model(structure(**block(rigid=True))))
-    assert part.name == "block" and joint.master == -1 and joint.law.shape == (len(part.model.surfaces["foot"].nodes), 3) and not joint.round
+    (part,), (joint,) = (lambda made: (made.parts, made.joints))(
+        structure_model(structure(**block(rigid=True)))
+    )
+    assert (
+        part.name == "block"
+        and joint.master == -1
+        and joint.law.shape == (len(part.model.surfaces["foot"].nodes), 3)
+        and not joint.round
+    )
 
 
 def test_what_cannot_be_is_refused_before_models_are_made(monkeypatch):
     from fecolumn.structures import structure as made
 
     monkeypatch.setattr(made, "keep_body", lambda *_: pytest.fail("a reduced model was asked for"))
-    tables = stack(links=dict(tie=LINK | dict(point_m=[0.3, 0, 0.3])), bodies=dict(upper=dict(height_m=0.6123)))
+    tables = stack(
+        links=dict(tie=LINK | dict(point_m=[0.3, 0, 0.3])), bodies=dict(upper=dict(height_m=0.6123))
+    )
     with pytest.raises(InputError, match="links.tie.point_m"):
         structure_model(structure(**tables), "small.toml")

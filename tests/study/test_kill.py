@@ -1,4 +1,6 @@
-"""A study that is killed again and again, and a disk that is full: the tables are those of an uninterrupted run."""
+"""A study that is killed again and again, and a disk that is full: the tables are those of an
+uninterrupted run.
+"""
 
 import contextlib
 import io
@@ -27,14 +29,36 @@ TABLES = ("table.csv", "analyses.csv")
 
 def _driver(study, folder, *options, sleep_s=0.0, **more) -> subprocess.Popen:
     paths = os.pathsep.join([str(HERE.parents[1]), str(HERE)])
-    command = [sys.executable, "-m", "fecolumn.cli", "study", study, "-o", folder, "-j", "2", "--entry", ENTRY, *options]
-    return subprocess.Popen(list(map(str, command)), env={**os.environ, "PYTHONPATH": paths, "ROCKING_BLOCK_SLEEP_S": str(sleep_s)},
-                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, **more)
+    command = [
+        sys.executable,
+        "-m",
+        "fecolumn.cli",
+        "study",
+        study,
+        "-o",
+        folder,
+        "-j",
+        "2",
+        "--entry",
+        ENTRY,
+        *options,
+    ]
+    return subprocess.Popen(
+        list(map(str, command)),
+        env={**os.environ, "PYTHONPATH": paths, "ROCKING_BLOCK_SLEEP_S": str(sleep_s)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        **more,
+    )
 
 
 def _children(pid) -> list[int]:
     with contextlib.suppress(OSError):
-        return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+        return [
+            int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+        ]
     return []
 
 
@@ -50,7 +74,11 @@ def _workers(pid) -> list[int]:
 
 def _wait_for_results(driver, folder, count) -> None:
     end = time.monotonic() + 30
-    while driver.poll() is None and time.monotonic() < end and len(list(folder.glob("analyses/*/summary.json"))) < count:
+    while (
+        driver.poll() is None
+        and time.monotonic() < end
+        and len(list(folder.glob("analyses/*/summary.json"))) < count
+    ):
         time.sleep(0.01)
 
 
@@ -68,10 +96,16 @@ def _kill(what: str, driver, draw) -> None:
 def test_killed_at_random_moments_a_study_gives_the_bytes_of_an_uninterrupted_one(tmp_path, seed):
     study = write_study(tmp_path, pulses=[*range(60), "diverges"])
     plan, draw = read_plan(study), random.Random(seed)
-    write_tables(plan, run_study(plan, tmp_path / "whole", workers=2, entry=ENTRY, stream=io.StringIO()), tmp_path / "whole")
+    write_tables(
+        plan,
+        run_study(plan, tmp_path / "whole", workers=2, entry=ENTRY, stream=io.StringIO()),
+        tmp_path / "whole",
+    )
 
     out, kept, kills = tmp_path / "out", {}, 0
-    for turn in range(8):  # that all is done before the last one, two workers at 0.2 s an analysis are too slow by design
+    for turn in range(
+        8
+    ):  # that all is done before the last one, two workers at 0.2 s an analysis are too slow by design
         driver = _driver(study, out, "--retry-failed", sleep_s=0.2)
         if turn % 3:  # in the middle of the work, however fast the machine is; else while it starts
             _wait_for_results(driver, out, len(kept) + draw.randint(1, 12))
@@ -83,21 +117,30 @@ def test_killed_at_random_moments_a_study_gives_the_bytes_of_an_uninterrupted_on
             driver.wait(draw.uniform(0.1, 1.0))
         with contextlib.suppress(ProcessLookupError):
             driver.kill()
-        driver.communicate(timeout=60)  # workers left alone go too, and so does their end of the pipe
+        driver.communicate(
+            timeout=60
+        )  # workers left alone go too, and so does their end of the pipe
         for name, content in kept.items():  # nothing finished is lost or done again
             assert (out / "analyses" / name / "summary.json").read_bytes() == content
         for file in out.glob("analyses/*/summary.json"):
             assert finished(file.parent.name, file.parent), "half a summary"
             kept[file.parent.name] = file.read_bytes()
         if (out / "study.json").exists():
-            assert {row["id"] for row in read_study(out).rows if row["state"] == "done"} <= set(kept)
+            assert {row["id"] for row in read_study(out).rows if row["state"] == "done"} <= set(
+                kept
+            )
     assert 0 < len(kept) and kills == 8
     _, err = (driver := _driver(study, out, "--retry-failed")).communicate(timeout=60)
     assert driver.returncode == 1 and "4 failed" in err, err  # those that diverge, and no other
     for table in TABLES:
         assert (out / table).read_bytes() == (tmp_path / "whole" / table).read_bytes()
-    calls = {file.parent.name: len(file.read_text().splitlines()) for file in out.glob("analyses/*/calls")}
-    assert sum(calls.values()) - len(calls) <= 4 * 9 + 2 * 8 * 3  # what diverges is tried again each time, else only what was in hand
+    calls = {
+        file.parent.name: len(file.read_text().splitlines())
+        for file in out.glob("analyses/*/calls")
+    }
+    assert (
+        sum(calls.values()) - len(calls) <= 4 * 9 + 2 * 8 * 3
+    )  # what diverges is tried again each time, else only what was in hand
 
 
 def _limit_file_size():
@@ -108,7 +151,12 @@ def test_results_that_find_no_room_stop_the_study_cleanly(tmp_path):
     study = write_study(tmp_path, pulses=[*range(3), "full", *range(3, 8)])
     out = tmp_path / "out"
     _, err = (driver := _driver(study, out)).communicate(timeout=60)
-    assert driver.returncode == 1 and "the disk is full" in err and "the same command does the rest" in err and "Traceback" not in err
+    assert (
+        driver.returncode == 1
+        and "the disk is full" in err
+        and "the same command does the rest" in err
+        and "Traceback" not in err
+    )
     states = [row["state"] for row in read_study(out).rows]
     assert "failed" not in states and "running" not in states and "planned" in states
     (out / "room").touch()
@@ -129,7 +177,9 @@ def test_ledger_that_finds_no_room_stops_the_study_cleanly(tmp_path):
 def test_small_disk_stops_the_study_cleanly_and_more_room_lets_it_go_on(tmp_path):
     study, disk = write_study(tmp_path, pulses=range(100)), tmp_path / "disk"
     disk.mkdir()
-    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=600k", "tmpfs", disk], capture_output=True).returncode:
+    if subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=600k", "tmpfs", disk], capture_output=True
+    ).returncode:
         pytest.skip("nothing can be mounted here")
     try:
         _, err = (driver := _driver(study, disk / "out")).communicate(timeout=60)

@@ -1,4 +1,6 @@
-"""A study that is gone on with by other code keeps its results, says so in one line, and its audit lists both."""
+"""A study that is gone on with by other code keeps its results, says so in one line, and its audit
+lists both.
+"""
 
 import io
 import json
@@ -60,16 +62,30 @@ def test_results_of_other_code_are_kept_told_and_listed(finished, tmp_path):
     other, lost, _ = (folder / "analyses" / analysis.id for analysis in plan.analyses)
     summary = json.loads((other / "summary.json").read_text())
     del summary["sources"]  # as the versions before wrote it
-    (other / "summary.json").write_text(json.dumps(summary | {"version": "0.1.0", "u_max_m": 0.123}))
+    (other / "summary.json").write_text(
+        json.dumps(summary | {"version": "0.1.0", "u_max_m": 0.123})
+    )
     shutil.rmtree(lost)
     rows, said = _again(plan, folder)
     present = sources.code_text(**sources.code())
-    assert said.splitlines()[0] == ("1 of 3 analyses were done by other code and are kept: 1 of fecolumn 0.1.0 (sources not recorded); "
-                                    f"this is {present}; a new folder takes all anew")
-    assert [row["summary"].get("sources") for row in rows] == [None, *[sources.package_digest()] * 2]
+    assert said.splitlines()[0] == (
+        "1 of 3 analyses were done by other code and are kept: 1 of fecolumn 0.1.0 "
+        "(sources not recorded); "
+        f"this is {present}; a new folder takes all anew"
+    )
+    assert [row["summary"].get("sources") for row in rows] == [
+        None,
+        *[sources.package_digest()] * 2,
+    ]
     assert rows[0]["summary"]["u_max_m"] == 0.123
-    assert f"2 of {present}, 1 of fecolumn 0.1.0 (sources not recorded)" in _audited(folder, tmp_path)
+    assert f"2 of {present}, 1 of fecolumn 0.1.0 (sources not recorded)" in _audited(
+        folder, tmp_path
+    )
 
 
 def _audited(folder, place) -> str:
-    return " ".join(block.text for block in audit(read_sweep(folder), Gallery(place, paper=False)).blocks if isinstance(block, Paragraph))
+    return " ".join(
+        block.text
+        for block in audit(read_sweep(folder), Gallery(place, paper=False)).blocks
+        if isinstance(block, Paragraph)
+    )

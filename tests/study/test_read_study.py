@@ -19,8 +19,11 @@ def test_a_finished_study_is_read_back_from_its_folder_alone(tmp_path):
     study.unlink()
     found = read_study(tmp_path / "out")
     assert found.title == "study" and found.rows == rows
-    assert found.axes == {"integration.dt_s": [0.02, 1e-3], "integration.alpha_hht": [0, -0.2],
-                          "motion.source": [f"pulse:{k}" for k in range(4)]}
+    assert found.axes == {
+        "integration.dt_s": [0.02, 1e-3],
+        "integration.alpha_hht": [0, -0.2],
+        "motion.source": [f"pulse:{k}" for k in range(4)],
+    }
 
 
 def test_a_study_at_work_is_read_without_disturbing_it(tmp_path):
@@ -36,7 +39,9 @@ def test_a_damaged_ledger_is_told_put_aside_and_made_anew_from_the_results(tmp_p
     ledger.write_bytes(damaged)
     with pytest.raises(InputError, match="cannot be read"):
         read_study(tmp_path / "out")
-    with pytest.warns(UserWarning, match="study.sqlite was damaged and is made anew from the results"):
+    with pytest.warns(
+        UserWarning, match="study.sqlite was damaged and is made anew from the results"
+    ):
         store = Store(tmp_path / "out", plan, ENTRY)
     with store:
         assert [row["summary"] for row in store.rows()] == [row["summary"] for row in before]
@@ -45,7 +50,12 @@ def test_a_damaged_ledger_is_told_put_aside_and_made_anew_from_the_results(tmp_p
 
 
 def test_a_ledger_just_being_made_has_no_rows_yet(tmp_path):
-    run_study(plan := read_plan(write_study(tmp_path)), tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w"))
+    run_study(
+        plan := read_plan(write_study(tmp_path)),
+        tmp_path / "out",
+        entry=ENTRY,
+        stream=open(os.devnull, "w"),
+    )
     (tmp_path / "out" / "study.sqlite").unlink()
     (tmp_path / "out" / "study.sqlite").touch()
     found = read_study(tmp_path / "out")
@@ -53,14 +63,25 @@ def test_a_ledger_just_being_made_has_no_rows_yet(tmp_path):
 
 
 def test_ledger_tells_where_each_analysis_was_done(tmp_path):
-    for row in run_study(read_plan(write_study(tmp_path, pulses=[1, "diverges"])), tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w")):
-        assert row["machine"].startswith(platform.node()) and row["started"] > 1e9 and row["wall_s"] > 0
+    for row in run_study(
+        read_plan(write_study(tmp_path, pulses=[1, "diverges"])),
+        tmp_path / "out",
+        entry=ENTRY,
+        stream=open(os.devnull, "w"),
+    ):
+        assert (
+            row["machine"].startswith(platform.node())
+            and row["started"] > 1e9
+            and row["wall_s"] > 0
+        )
         assert row["motion"] == row["axes"]["motion.source"]  # no file: its name
         if row["state"] == "failed":
             assert "after 4 cuts" in (tmp_path / "out" / row["log"]).read_text()
 
 
-@pytest.mark.parametrize("content, message", [(None, "holds no study"), ("{", "is damaged"), ("[]", "is damaged")])
+@pytest.mark.parametrize(
+    "content, message", [(None, "holds no study"), ("{", "is damaged"), ("[]", "is damaged")]
+)
 def test_what_is_no_study_is_refused(tmp_path, content, message):
     if content:
         (tmp_path / "study.json").write_text(content)

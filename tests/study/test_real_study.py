@@ -1,4 +1,6 @@
-"""A study with both engines in worker processes: its table, its figure, and what it does a second time."""
+"""A study with both engines in worker processes: its table, its figure, and what it does a second
+time.
+"""
 
 import csv
 import json
@@ -40,7 +42,9 @@ def study(tmp_path_factory):
 
     folder = tmp_path_factory.mktemp("study")
     for name, scale in (("strong", 0.5), ("weak", 0.2)):
-        rows = "".join(f"{0.005 * k:.4f},{scale if k % 20 < 10 else -scale:.3f}\n" for k in range(100))
+        rows = "".join(
+            f"{0.005 * k:.4f},{scale if k % 20 < 10 else -scale:.3f}\n" for k in range(100)
+        )
         (folder / f"{name}.csv").write_text("time [s],ax [g]\n" + rows)
     file = folder / "study.toml"
     file.write_text(STUDY.format(specimen=SPECIMEN))
@@ -56,7 +60,10 @@ def test_each_analysis_has_its_result_and_the_strong_motion_moves_the_top_more(s
     assert (out / "cdf.png").is_file()
     summaries = [json.loads(path.read_text()) for path in out.glob("analyses/*/summary.json")]
     assert len(summaries) == 4 and all(one["energy_closure_rel"] < 1e-4 for one in summaries)
-    by_motion = {name: [one["u_max_m"] for one in summaries if one["motion"].startswith(name)] for name in ("strong", "weak")}
+    by_motion = {
+        name: [one["u_max_m"] for one in summaries if one["motion"].startswith(name)]
+        for name in ("strong", "weak")
+    }
     assert min(by_motion["strong"]) > max(by_motion["weak"]) > 0
     assert sorted(one["engine"] for one in summaries) == ["full", "full", "reduced", "reduced"]
 

@@ -18,9 +18,23 @@ print([row["state"] for row in rows])
 
 def test_script_runs_once(tmp_path):
     case = Path(__file__).parents[2] / "meshes" / "stout.toml"
-    (tmp_path / "study.toml").write_text(f'case = "{case}"\n[axes]\n"motion.source" = ["pulse:1", "pulse:2"]\n')
+    (tmp_path / "study.toml").write_text(
+        f'case = "{case}"\n[axes]\n"motion.source" = ["pulse:1", "pulse:2"]\n'
+    )
     (tmp_path / "script.py").write_text(SCRIPT)
-    path = os.pathsep.join([str(Path(__file__).parents[2]), str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
-    done = subprocess.run([sys.executable, "script.py"], cwd=tmp_path, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True)
+    path = os.pathsep.join(
+        [
+            str(Path(__file__).parents[2]),
+            str(Path(__file__).parent),
+            os.environ.get("PYTHONPATH", ""),
+        ]
+    )
+    done = subprocess.run(
+        [sys.executable, "script.py"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+    )
     assert done.stdout.strip() == "['done', 'done']", done.stderr[-1500:]
     assert done.stderr.count("the script runs") == 1

@@ -3,7 +3,8 @@
 import subprocess
 import sys
 
-# in a process of its own: what one that has done much else frees may find room in what it holds already
+# in a process of its own: what one that has done much else frees may find room in what it holds
+# already
 WORKER = """
 import gc, os, sys
 from pathlib import Path
@@ -34,7 +35,9 @@ print(held[0] - before, own_memory_mb() - before)
 
 
 def test_a_worker_gives_back_what_an_analysis_freed_between_pieces_that_stay(tmp_path):
-    done = subprocess.run([sys.executable, "-c", WORKER, str(tmp_path)], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", WORKER, str(tmp_path)], capture_output=True, text=True, check=True
+    )
     held, after = map(float, done.stdout.split())
     assert held > 200, "what was freed is to be held at first"
     assert after < 50

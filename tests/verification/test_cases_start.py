@@ -8,10 +8,14 @@ from fecolumn.verification.hertz import LARGEST, Hertz, press
 from fecolumn.verification.hht_scheme import Mode, amplification
 
 
-@pytest.mark.parametrize("exact, bricks", [(Hertz(1, 0.0, 64), 4), (Hertz(2, 0.3, 8), 3)], ids=lambda one: getattr(one, "name", None))
+@pytest.mark.parametrize(
+    "exact, bricks",
+    [(Hertz(1, 0.0, 64), 4), (Hertz(2, 0.3, 8), 3)],
+    ids=lambda one: getattr(one, "name", None),
+)
 def test_hertz_on_the_coarsest_bricks_has_the_contact_radius_to_what_bricks_allow(exact, bricks):
     """The block's slice is as wide as its base, and its material is one that a case may have."""
-    one, = press("corotated", exact, bricks, [LARGEST])
+    (one,) = press("corotated", exact, bricks, [LARGEST])
     assert abs(one.radius) < exact.allowed(LARGEST, LARGEST / bricks)
 
 

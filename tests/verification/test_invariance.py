@@ -1,4 +1,6 @@
-"""The check of restarts in the suite does what it says: it stops an analysis at half, and one that goes on is the uninterrupted one."""
+"""The check of restarts in the suite does what it says: it stops an analysis at half, and one that
+goes on is the uninterrupted one.
+"""
 
 import numpy as np
 

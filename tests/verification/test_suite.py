@@ -15,23 +15,40 @@ def test_case_holds(case, engine):
     assert finding.ok, "\n" + lines(finding)
 
 
-HOLDS, MISSES, UNKNOWN = Row("period [s]", 2.0, 2.0, 1e-3), Row("drift [m]", 0.0, 0.1, 1e-3), Row("loss [J]", 1.0, float("nan"), 1e-3)
+HOLDS, MISSES, UNKNOWN = (
+    Row("period [s]", 2.0, 2.0, 1e-3),
+    Row("drift [m]", 0.0, 0.1, 1e-3),
+    Row("loss [J]", 1.0, float("nan"), 1e-3),
+)
 
 
 def test_the_suite_ends_with_a_count_and_the_names_of_what_does_not_hold():
-    findings = [Finding("patch", "corotated", (HOLDS, HOLDS), 1.0), Finding("frames", "reduced", (HOLDS, MISSES, UNKNOWN), 1.0),
-                Finding("hertz", "corotated", (), 1.0, "RuntimeError: it does not start\nat all")]
-    assert count(findings).splitlines() == ["does not hold:", "  frames, reduced: drift [m]", "  frames, reduced: loss [J]",
-                                            "  hertz, corotated: RuntimeError: it does not start", "3 of 5 rows hold, 2 of 3 cases do not"]
+    findings = [
+        Finding("patch", "corotated", (HOLDS, HOLDS), 1.0),
+        Finding("frames", "reduced", (HOLDS, MISSES, UNKNOWN), 1.0),
+        Finding("hertz", "corotated", (), 1.0, "RuntimeError: it does not start\nat all"),
+    ]
+    assert count(findings).splitlines() == [
+        "does not hold:",
+        "  frames, reduced: drift [m]",
+        "  frames, reduced: loss [J]",
+        "  hertz, corotated: RuntimeError: it does not start",
+        "3 of 5 rows hold, 2 of 3 cases do not",
+    ]
     assert count(findings[:1]) == "2 of 2 rows hold, 0 of 1 cases do not"
 
 
 @pytest.mark.parametrize("row, code", [(HOLDS, 0), (MISSES, 1)])
-def test_fecolumn_verify_ends_with_exit_code_1_where_a_row_does_not_hold(row, code, tmp_path, monkeypatch, capfd):
+def test_fecolumn_verify_ends_with_exit_code_1_where_a_row_does_not_hold(
+    row, code, tmp_path, monkeypatch, capfd
+):
     def found(pairs, folder, *_, **__):
         (folder / "table.csv").write_text("case\n")
         return [Finding(*pairs[0], (row,), 1.0)]
 
     monkeypatch.setattr(suite, "verify", found)
     assert main(["verify", "-k", "masonry", "-o", str(tmp_path / "out")]) == code
-    assert capfd.readouterr().out.splitlines()[-1] == f"{1 - code} of 1 rows hold, {code} of 1 cases do not"
+    assert (
+        capfd.readouterr().out.splitlines()[-1]
+        == f"{1 - code} of 1 rows hold, {code} of 1 cases do not"
+    )

@@ -4,11 +4,9 @@
 #     formats: py:percent
 # ---
 
-# %% [markdown]
-# # A column of one's own under records of one's own, to a fragility curve
-#
-# A museum's glass case stands on a steel pedestal. Its records are text files with one row a sample. How likely is it to overturn, at which
-# peak ground velocity?
+# %% [markdown] # A column of one's own under records of one's own, to a fragility curve  A museum's
+# glass case stands on a steel pedestal. Its records are text files with one row a sample. How
+# likely is it to overturn, at which peak ground velocity?
 
 # %%
 from pathlib import Path
@@ -19,17 +17,17 @@ import fecolumn
 
 folder = Path("results/fragility")
 
-# %% [markdown]
-# ## Records
-#
-# Here they are made: modulated noise of a fixed seed. Yours are files as they come, `.AT2`, `.csv` or text.
+# %% [markdown] ## Records  Here they are made: modulated noise of a fixed seed. Yours are files as
+# they come, `.AT2`, `.csv` or text.
 
 # %%
 rng, dt = np.random.default_rng(1), 0.01
 time = np.arange(0, 6, dt)
 for number in range(1, 7):
-    noise = np.convolve(rng.normal(size=len(time)), np.exp(-np.arange(0, 0.5, dt) / 0.08), mode="same")
-    acceleration = noise / abs(noise).max() * 2.5 * np.exp(-((time - 2.5) / 1.2) ** 2)
+    noise = np.convolve(
+        rng.normal(size=len(time)), np.exp(-np.arange(0, 0.5, dt) / 0.08), mode="same"
+    )
+    acceleration = noise / abs(noise).max() * 2.5 * np.exp(-(((time - 2.5) / 1.2) ** 2))
     fecolumn.motion_file(folder / f"record-{number}.csv", acceleration, dt)
 
 # %% [markdown]
@@ -59,10 +57,8 @@ pedestal
 # %%
 pedestal.plot.cdf()
 
-# %% [markdown]
-# ## The fragility
-#
-# `fecolumn report` fits it over the intensity of the motions, with intervals, and draws the IDA curves.
+# %% [markdown] ## The fragility  `fecolumn report` fits it over the intensity of the motions, with
+# intervals, and draws the IDA curves.
 
 # %%
 print(pedestal.report())
