@@ -7,16 +7,16 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
-from fecolumn.case import Case
 from fecolumn.mesh.bricks import BASE, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
+from fecolumn.short_form import ShortForm
 from fecolumn.sizes import foot_sides
 
 GROWTH = 1.5  # largest ratio of neighbouring bricks
 
 
-def base_mesh(case: Case) -> BrickMesh:
+def base_mesh(case: ShortForm) -> BrickMesh:
     """Rectangular plate centred on the axis, its top at z = 0.
 
     Squares of `fine_size_m` cover the footprint and the slide allowance; outside and downwards the
@@ -34,14 +34,14 @@ def base_mesh(case: Case) -> BrickMesh:
     return swept_grid(x, y, levels(case)[::-1], BASE)
 
 
-def levels(case: Case) -> np.ndarray:
+def levels(case: ShortForm) -> np.ndarray:
     """Levels (n,) of the base's nodes from 0 at the top, falling [m]."""
     return -_growing_line(
         case.mesh.fine_size_m, case.base.thickness_m, case.mesh.fine_size_m, case.mesh.base_size_m
     )
 
 
-def base_counts(case: Case) -> tuple[int, int, int] | None:
+def base_counts(case: ShortForm) -> tuple[int, int, int] | None:
     """Bricks of the base along x, y and z, told without making it; None of a base without edges."""
     if case.base.kind != "plate":
         return None

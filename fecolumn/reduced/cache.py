@@ -25,7 +25,8 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn._compiled import cache_folder
-from fecolumn.case import Case, section_table
+from fecolumn.case import section_table
+from fecolumn.short_form import ShortForm
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base
 from fecolumn.lock import alone
@@ -148,7 +149,7 @@ def _keep_base(plate, file) -> None:
         os.replace(partial.name, file(name))
 
 
-def model_key(case: Case) -> str:
+def model_key(case: ShortForm) -> str:
     """Name of the model of a case: what of the case, and which code, its mesh and operators are
     made from.
 
@@ -169,7 +170,7 @@ def model_key(case: Case) -> str:
             del tables["base"][key]
     tables["material"].pop("damping_ratio", None)  # no operator has it
     tables |= dict(
-        modes=max(case.n_modes, KEPT_MODES), interior=case.contact.interior_points, code=_code()
+        modes=max(case.integration.n_modes, KEPT_MODES), interior=case.contact.interior_points, code=_code()
     )
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 
@@ -190,12 +191,12 @@ def _code() -> list[str]:
     ]
 
 
-def model_folder(case: Case) -> Path:
+def model_folder(case: ShortForm) -> Path:
     """Where the model of a case is kept, or will be."""
     return cache_folder() / f"model-{model_key(case)}"
 
 
-def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBase, Path]:
+def load_model(case: ShortForm, say=lambda text: None) -> tuple[ColumnModel, KnownBase, Path]:
     """Column and base of a case, and the folder of their model; made and kept if there is none yet.
 
     Parameters
@@ -211,11 +212,11 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
                 _make(case, folder)
     with np.load(folder / "column.npz") as file:
         values = {name: file[name] if file[name].ndim else file[name].item() for name in file.files}
-    model = ColumnModel(**values).with_modes(case.n_modes)
+    model = ColumnModel(**values).with_modes(case.integration.n_modes)
     return model, _open_base(case, folder, model.reference), folder
 
 
-def _open_base(case: Case, folder: Path, reference):
+def _open_base(case: ShortForm, folder: Path, reference):
     """The base of a model: KnownBase or UnboundedBase."""
     if case.base.kind == "plate":
         return KnownBase(folder, lambda: make_bodies(case)[1])
@@ -227,7 +228,7 @@ def _open_base(case: Case, folder: Path, reference):
         )
 
 
-def make_bodies(case: Case):
+def make_bodies(case: ShortForm):
     """The column's Body and the BasePlate of a case, None where the base has no edges; and the
     specimen's mesh.
     """
@@ -244,7 +245,7 @@ def make_bodies(case: Case):
     return column_body(case, specimen, MPI.COMM_SELF), plate, specimen
 
 
-def _make(case: Case, folder: Path) -> None:
+def _make(case: ShortForm, folder: Path) -> None:
     from fecolumn.dynamics.assembly import base_of, foot_of
     from fecolumn.dynamics.observer import top_of
     from fecolumn.reduced.build import column_model
@@ -252,7 +253,7 @@ def _make(case: Case, folder: Path) -> None:
     body, plate, specimen = make_bodies(case)
     foot = foot_of(case, specimen, body)
     model, fields = column_model(
-        body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES)
+        body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.integration.n_modes, KEPT_MODES)
     )
     if plate:
         allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))

@@ -12,7 +12,7 @@ import dataclasses
 import hashlib
 import json
 import typing
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from fecolumn.case import (
@@ -33,12 +33,23 @@ from fecolumn.content import content
 from fecolumn.files import is_file
 from fecolumn.paths import OF_BODIES as FILES
 from fecolumn.schema import InputError, build, meant, merge, nested, stated
-from fecolumn.structures.keys import GROUND, KINDS, Interface, LinkKeys, Mesh, Placed, Storeys
+from fecolumn.short_form import ShortForm, full_tables, in_short_form, short_form
+from fecolumn.structures.keys import (
+    GROUND,
+    KINDS,
+    Ground,
+    Interface,
+    LinkKeys,
+    Mesh,
+    Placed,
+    Storeys,
+)
 
 #: Tables of tables by name, and the class of each.
 NAMED = {
     "bodies": Placed,
     "materials": Material,
+    "grounds": Ground,
     "interfaces": Interface,
     "links": LinkKeys,
     "initial": Initial,
@@ -70,6 +81,7 @@ class StructureCase:
 
     bodies: dict[str, Placed]
     materials: dict[str, Material]
+    grounds: dict[str, Ground]
     interfaces: dict[str, Interface]
     links: dict[str, LinkKeys]
     initial: dict[str, Initial]
@@ -81,6 +93,7 @@ class StructureCase:
     observed: str = ""
     motion: Motion | None = None
     mesh: Mesh = Mesh()
+    short: ShortForm | None = field(default=None, compare=False, repr=False)
 
     @property
     def id(self) -> str:
@@ -131,17 +144,60 @@ class StructureCase:
         raise KeyError(name)
 
     def replace(self, changes: dict | None = None, **sections) -> StructureCase:
-        """This case with other values by dotted key, such as {"bodies.slab.length_m": 3.0}, checked
-        as a file's would be; see `Case.replace`.
+        """This case with other values, checked as a file's would be; sizes that followed a column
+        follow the new one.
+
+        Parameters
+        ----------
+        changes
+            values by dotted key, such as {"contact.friction_coefficient": 0.5}, of the short form
+            where the case was stated in it; None removes a section that may be absent.
+        sections
+            the same by section, such as contact={"friction_coefficient": 0.5}; title="...".
+
+        Raises
+        ------
+        InputError
+            unknown key, value out of range, parts that do not fit.
         """
-        tables = self.tables()
-        for key, value in {**(changes or {}), **sections}.items():
-            tables = merge(tables, nested(key, value))
+        changes = {**(changes or {}), **sections}
+        full = self.short is None or any(_is_full(key, value) for key, value in changes.items())
+        tables = self.tables() if full else self.short.tables(opened=True)
+        for key, value in changes.items():
+            if value is None:
+                tables.pop(key, None)
+            else:
+                tables = merge(tables, nested(key, value))
         return structure_from_tables(stated(tables), "case")
 
     def tables(self) -> dict:
-        """The case as the tables of its file."""
-        return stated(dataclasses.asdict(self))
+        """The case as the tables of its file, in the full form."""
+        tables = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        del tables["short"]
+        for name in NAMED:
+            tables[name] = {key: dataclasses.asdict(one) for key, one in tables[name].items()}
+        return stated(
+            {
+                name: dataclasses.asdict(one) if dataclasses.is_dataclass(one) else one
+                for name, one in tables.items()
+            }
+        )
+
+    def as_stated(self) -> dict:
+        """The case as the tables of its file, in the form that it was stated in."""
+        return self.short.tables() if self.short else self.tables()
+
+
+def _is_full(key: str, value) -> bool:
+    """Whether a dotted key, or a table of this name, is of the full form alone."""
+    first, _, rest = key.partition(".")
+    if first == "initial":
+        return (
+            "." in rest
+            or isinstance(value, dict)
+            and any(isinstance(v, dict) for v in value.values())
+        )
+    return first in NAMED or first in ("joints", "observed")
 
 
 def identity(section) -> dict:
@@ -162,7 +218,10 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
         every unknown or missing key, wrong type and value out of range, told at once; or parts that
         do not fit.
     """
+    if "column" in tables:
+        return _of_short_form(tables, file)
     tables, errors, found = merge(DEFAULTS, stated(tables)), [], {}
+    tables = _with_joints(tables, file)
     for key in tables:
         if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
             errors.append(
@@ -194,6 +253,35 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
     case = StructureCase(**found)
     check(case, file)
     return case
+
+
+def _of_short_form(tables: dict, file) -> StructureCase:
+    """Case of TOML tables with [column]; messages name the keys of the short form."""
+    form = short_form(tables, file)
+    try:
+        case = structure_from_tables(full_tables(form), file)
+    except InputError as error:
+        raise InputError.of_several(
+            [
+                InputError(one.file, in_short_form(one.key), one.value, one.allowed)
+                for one in error.all
+            ]
+        ) from None
+    return dataclasses.replace(case, short=form)
+
+
+def _with_joints(tables: dict, file) -> dict:
+    """Tables with [joints] under the name of earlier versions, [interfaces]."""
+    if "joints" not in tables:
+        return tables
+    joints, older = tables["joints"], tables.get("interfaces", {})
+    if not isinstance(joints, dict):
+        raise InputError(file, "joints", joints, "must hold tables by name, such as [joints.NAME]")
+    if twice := set(joints) & set(older):
+        key = f"joints.{min(twice)}"
+        raise InputError(file, key, None, "stands in [interfaces], too: give it once")
+    others = {name: table for name, table in tables.items() if name != "joints"}
+    return others | {"interfaces": older | joints}
 
 
 def _named(name: str, kind, tables, file, errors: list) -> dict:
@@ -401,7 +489,7 @@ def _check_integration(case, refuse) -> None:
                         'must be left out with integration.engine = "full": feet that '
                         "are not flat are computed by the reduced and the rigid engine",
                     )
-    if plan.engine not in ("full", "reduced", "rigid"):
+    if plan.engine not in ("full", "reduced", "rigid", "housner", "wobbling"):
         refuse(
             "integration.engine",
             plan.engine,

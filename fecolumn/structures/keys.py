@@ -140,6 +140,27 @@ class Footed(Solid):
         high=50,
         since="0.6",
     )
+    fine_height_m: float | None = parameter(
+        None,
+        doc="height of a finely meshed lower part, of element_size_m, to which a coarser upper "
+        "part is tied, of coarse_size_m: what stands on one foot alone; left out: one grid, "
+        "fine at both ends",
+        unit="m",
+        low=0,
+        high=1000,
+        since="0.8",
+    )
+    cap_size_m: float | None = parameter(
+        None,
+        doc="element size of the cap; left out: element_size_m, with fine_height_m a coarse "
+        "element, but 16 of the cap's longer side at most",
+        unit="m",
+        above=0,
+        high=10,
+        since="0.8",
+    )
+    flange: Flange | None = None
+    cap: Cap | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,8 +171,6 @@ class Tube(Footed):
     outer_diameter_m: float = parameter(doc="outer diameter", unit="m", above=0, high=100)
     wall_m: float = parameter(doc="wall thickness", unit="m", above=0, high=50)
     height_m: float = parameter(doc="height without flange and cap", unit="m", above=0, high=1000)
-    flange: Flange | None = None
-    cap: Cap | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -161,8 +180,6 @@ class Cylinder(Footed):
     kind: str = parameter("cylinder", doc="what the body is", choices=("cylinder",))
     outer_diameter_m: float = parameter(doc="diameter", unit="m", above=0, high=100)
     height_m: float = parameter(doc="height without flange and cap", unit="m", above=0, high=1000)
-    flange: Flange | None = None
-    cap: Cap | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -198,7 +215,9 @@ class Plate(Solid):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Meshed(Solid):
-    """kind = "mesh": a body of one's own mesh, with a flat foot; its size keys say nothing."""
+    """kind = "mesh": a body of one's own mesh, with a flat foot; element_size_m is the length that
+    penalty_factor refers to.
+    """
 
     kind: str = parameter("mesh", doc="what the body is", choices=("mesh",))
     mesh_file: str = parameter(
@@ -214,6 +233,15 @@ class Meshed(Solid):
         high=360,
         since="0.7",
     )
+    cap_size_m: float | None = parameter(
+        None,
+        doc="element size of the cap; left out: 16 elements along the cap's longer side",
+        unit="m",
+        above=0,
+        high=10,
+        since="0.8",
+    )
+    cap: Cap | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -312,6 +340,25 @@ class Mesh(Section):
         counts=False,
         since="0.7",
     )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ground(Section):
+    """What bodies stand on."""
+
+    kind: str = parameter("rigid", doc="x", choices=("rigid", "plate", "unbounded", "pad"))
+    length_m: float | None = parameter(None, doc="x", unit="m", above=0, high=1000)
+    width_m: float | None = parameter(None, doc="x", unit="m", above=0, high=1000)
+    thickness_m: float | None = parameter(None, doc="x", unit="m", above=0, high=100)
+    slide_allowance_m: float | None = parameter(None, doc="x", unit="m", low=0, high=1000)
+    youngs_modulus_pa: float = parameter(200e9, doc="x", unit="Pa", above=0, high=1e15)
+    poissons_ratio: float = parameter(0.3, doc="x", low=0, high=0.49)
+    density_kg_m3: float = parameter(7850.0, doc="x", unit="kg/m3", above=0, high=1e5)
+    stiffness_n_m3: float = parameter(0.0, doc="x", unit="N/m3", low=0, high=1e15)
+    shear_stiffness_n_m3: float = parameter(0.0, doc="x", unit="N/m3", low=0, high=1e15)
+    damping_ratio: float = parameter(0.0, doc="x", low=0, high=10)
+    element_size_m: float | None = parameter(None, doc="x", unit="m", above=0, high=10)
+    coarse_size_m: float | None = parameter(None, doc="x", unit="m", above=0, high=10)
 
 
 #: Class of the keys by kind of body.

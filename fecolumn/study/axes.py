@@ -24,7 +24,7 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.case import Case
+from fecolumn.short_form import ShortForm
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.rocking.model import TABLES as TABLES_OF_MODELS
 from fecolumn.schema import InputError, build, meant
@@ -267,7 +267,7 @@ def _of_model(key: str):
     return table_case.type_of(key)
 
 
-def _known_keys(section=Case, prefix: str = "") -> dict[str, type]:
+def _known_keys(section=ShortForm, prefix: str = "") -> dict[str, type]:
     """Types by dotted keys of a case, whole sections included: an axis of sections takes tables as
     values.
     """
