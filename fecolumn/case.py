@@ -123,7 +123,7 @@ class Integration(Section):
         high=0,
     )
     engine: str = parameter(
-        "full",
+        "reduced",
         doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, "
         "exact static compliance of the same mesh; rigid: reduced without modes, a "
         "structure's bodies without any give; housner: no finite elements, the planar "
@@ -133,7 +133,7 @@ class Integration(Section):
         choices=("full", "reduced", "rigid", *MODEL_ENGINES),
     )
     n_modes: int = parameter(
-        100,
+        30,
         doc="elastic modes of the reduced engine, all where the mesh has fewer; the others "
         "respond statically",
         low=0,

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.short_form import ShortForm
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
 from fecolumn.mesh.bricks import PART_NAMES
 from fecolumn.mesh.estimate import estimate
@@ -16,6 +15,7 @@ from fecolumn.mesh.jacobian import scaled_jacobian
 from fecolumn.mesh.picture import picture
 from fecolumn.mesh.quality import quality_table
 from fecolumn.mesh.specimen import specimen_mesh
+from fecolumn.short_form import ShortForm
 from fecolumn.sizes import is_solid
 
 # Below so many widths high Timoshenko's beam is too short to compare with

@@ -8,10 +8,10 @@ import os
 from pathlib import Path
 
 from fecolumn.atomic import disk_full, write_json
-from fecolumn.structures.case import StructureCase
 from fecolumn.files import Unreadable, read_json
 from fecolumn.lock import open_lock
 from fecolumn.schema import InputError
+from fecolumn.structures.case import StructureCase
 
 
 @contextlib.contextmanager

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.case import GRAVITY
-from fecolumn.short_form import ShortForm
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.footprint import Footprint, footprint
 from fecolumn.contact.law import interface_compliance
@@ -23,6 +22,7 @@ from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.mesh.surface import face_basis, face_points, nodal_areas
 from fecolumn.mesh.tie import project_to_quads
 from fecolumn.schema import InputError
+from fecolumn.short_form import ShortForm
 from fecolumn.sizes import foot_sides
 
 

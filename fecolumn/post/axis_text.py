@@ -6,8 +6,8 @@ import dataclasses
 import typing
 
 from fecolumn.case import Cap, Flange
-from fecolumn.short_form import ShortForm
 from fecolumn.rocking.model import TABLES, model_class
+from fecolumn.short_form import ShortForm
 from fecolumn.structures.case import NAMED
 from fecolumn.structures.keys import KINDS
 

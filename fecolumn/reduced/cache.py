@@ -26,11 +26,11 @@ import numpy as np
 
 from fecolumn._compiled import cache_folder
 from fecolumn.case import section_table
-from fecolumn.short_form import ShortForm
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base
 from fecolumn.lock import alone
 from fecolumn.reduced.model import ColumnModel
+from fecolumn.short_form import ShortForm
 from fecolumn.sources import digest_of, files_of
 
 # Sources that a model is made from: a change in any of them makes models anew. Not those that only
@@ -170,7 +170,9 @@ def model_key(case: ShortForm) -> str:
             del tables["base"][key]
     tables["material"].pop("damping_ratio", None)  # no operator has it
     tables |= dict(
-        modes=max(case.integration.n_modes, KEPT_MODES), interior=case.contact.interior_points, code=_code()
+        modes=max(case.integration.n_modes, KEPT_MODES),
+        interior=case.contact.interior_points,
+        code=_code(),
     )
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 
@@ -253,7 +255,11 @@ def _make(case: ShortForm, folder: Path) -> None:
     body, plate, specimen = make_bodies(case)
     foot = foot_of(case, specimen, body)
     model, fields = column_model(
-        body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.integration.n_modes, KEPT_MODES)
+        body,
+        foot.nodes,
+        foot.areas,
+        *top_of(body, specimen),
+        max(case.integration.n_modes, KEPT_MODES),
     )
     if plate:
         allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))

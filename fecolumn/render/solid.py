@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.short_form import ShortForm
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES, BrickMesh, boundary_faces
 from fecolumn.mesh.quality import MassProperties, mass_properties
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
+from fecolumn.short_form import ShortForm
 
 # Heights that are one [-]: of the body's, as where the mesh is tied
 _FLAT = 1e-6

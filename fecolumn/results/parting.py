@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.structures.case import StructureCase
 from fecolumn.content import content
 from fecolumn.dynamics.energy import TERMS
 from fecolumn.render.pose import poses
@@ -18,6 +17,7 @@ from fecolumn.render.solid import solid_of
 from fecolumn.render.strips import LIFTED, uplift
 from fecolumn.results.analysis import AnalysisResult
 from fecolumn.schema import InputError, stated
+from fecolumn.structures.case import StructureCase
 
 #: Difference at which two histories have parted, over the larger of their peaks [-]: a twentieth is
 #: seen in a figure

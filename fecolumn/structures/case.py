@@ -65,8 +65,6 @@ COMMON = {
 }
 # of which no number depends
 _IDLE = ("output", "mesh")
-#: What holds where a structure's case says nothing else: a step takes all modes of all bodies.
-DEFAULTS = {"integration": {"engine": "reduced", "n_modes": 30}}
 # Characters of a name that stand for something else in dotted keys, and in names of copies and
 # marks
 _TAKEN = set(".\"'[]/ ")
@@ -170,22 +168,37 @@ class StructureCase:
                 tables = merge(tables, nested(key, value))
         return structure_from_tables(stated(tables), "case")
 
-    def tables(self) -> dict:
-        """The case as the tables of its file, in the full form."""
-        tables = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
-        del tables["short"]
-        for name in NAMED:
-            tables[name] = {key: dataclasses.asdict(one) for key, one in tables[name].items()}
-        return stated(
-            {
-                name: dataclasses.asdict(one) if dataclasses.is_dataclass(one) else one
-                for name, one in tables.items()
-            }
-        )
+    def tables(self, defaults: bool = True) -> dict:
+        """The case as the tables of its file, in the full form, with keys at their `defaults` or
+        without.
+        """
+        found = {}
+        for one in dataclasses.fields(self):
+            value = getattr(self, one.name)
+            if one.name in NAMED:
+                value = {key: _stated(section, defaults) for key, section in value.items()}
+            elif dataclasses.is_dataclass(value):
+                value = _stated(value, defaults)
+            if one.name != "short" and value not in (None, {}, ""):
+                found[one.name] = value
+        return found
 
     def as_stated(self) -> dict:
         """The case as the tables of its file, in the form that it was stated in."""
         return self.short.tables() if self.short else self.tables()
+
+
+def _stated(section, defaults: bool) -> dict:
+    """The table of a section: without keys that are left open, or that are not stated as they
+    stand at their defaults.
+    """
+    found = {}
+    for one in dataclasses.fields(section):
+        value = getattr(section, one.name)
+        if value is None or not defaults and one.name != "kind" and value == one.default:
+            continue
+        found[one.name] = _stated(value, defaults) if dataclasses.is_dataclass(value) else value
+    return found
 
 
 def _is_full(key: str, value) -> bool:
@@ -220,7 +233,7 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
     """
     if "column" in tables:
         return _of_short_form(tables, file)
-    tables, errors, found = merge(DEFAULTS, stated(tables)), [], {}
+    tables, errors, found = stated(tables), [], {}
     tables = _with_joints(tables, file)
     for key in tables:
         if key not in NAMED and key not in COMMON and key not in ("title", "observed"):

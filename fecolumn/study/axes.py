@@ -24,10 +24,10 @@ import typing
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.short_form import ShortForm
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.rocking.model import TABLES as TABLES_OF_MODELS
 from fecolumn.schema import InputError, build, meant
+from fecolumn.short_form import ShortForm
 from fecolumn.structures.case import type_of
 from fecolumn.study.keys import LatinHypercube
 

@@ -7,8 +7,7 @@ runs.
     "integration.dt_s" = [0.02, 1e-3]
 
 Paths are relative to the file that states them. What neither case nor axes state is as in `fecolumn
-run`, except that a study takes integration.engine = "reduced", output.history_every_s = 0.005 and
-output.states_every_s = 0.
+run`, except that a study takes output.history_every_s = 0.005 and output.states_every_s = 0.
 """
 
 from __future__ import annotations
@@ -26,7 +25,6 @@ from fecolumn.case import case_from_tables, check_duration
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.paths import taken_over
-from fecolumn.rocking.model import TABLES
 from fecolumn.schema import InputError, merge, nested, read_toml, shown
 from fecolumn.short_form import ShortForm
 from fecolumn.study.axes import Factor, hint, read_factors
@@ -40,10 +38,9 @@ ENSEMBLE_AXES = (
     "motion.source_z",
     "motion.rotation_deg",
 )
-# What a study takes where neither its case nor its axes say otherwise: thousands of analyses are
-# the reduced engine's work, and a column rocks at a few hertz
+# What a study takes where neither its case nor its axes say otherwise: a column rocks at a few
+# hertz, and of thousands of analyses nobody looks at the states
 DEFAULTS = {
-    "integration": {"engine": "reduced"},
     "output": {"history_every_s": 0.005, "states_every_s": 0.0},
 }
 _KEYS = tuple(field.name for field in dataclasses.fields(StudyKeys))
@@ -156,7 +153,7 @@ def read_plan(path) -> Plan:
         for key, value in _case_tables(tables.get("case"), path).items()
         if value is not False or key not in _SECTIONS
     }
-    common, factors = merge(_defaults(own), own), read_factors(tables, path)
+    common, factors = merge(DEFAULTS, own), read_factors(tables, path)
     if (number := math.prod(len(factor.levels) for factor in factors)) > _MOST:
         raise InputError(path, "axes", None, f"make {shown(number)} analyses; at most {_MOST:,}")
     makers = _Maker(common, factors, path)
@@ -169,14 +166,6 @@ def read_plan(path) -> Plan:
         key: values for factor in factors for key, values in zip(factor.keys, zip(*factor.levels))
     }
     return Plan(path, tables.get("title", "") or path.stem, axes, analyses, common)
-
-
-def _defaults(case: dict) -> dict:
-    """DEFAULTS; of a rocking model's own table without bodies the engine follows from the table."""
-    alone = not {"bodies", "column"} & set(case) and any(name in case for name in TABLES)
-    return {
-        name: table for name, table in DEFAULTS.items() if not (alone and name == "integration")
-    }
 
 
 def _case_tables(case, path: Path) -> dict:
