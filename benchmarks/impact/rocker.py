@@ -58,7 +58,7 @@ class FullRocker:
             tilts[k] = tilt_angle(trial.step().rotation)
         self.tilt, self.lean = (
             float(tilts[-1]),
-            float((trial.state.x - self.system.column.X)[:, 0].mean()),
+            float((trial.state.x - self.system.body.X)[:, 0].mean()),
         )
         self.mechanical = trial.mechanical()
         return tilts

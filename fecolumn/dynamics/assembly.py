@@ -15,7 +15,6 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System, one_column
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
-from fecolumn.fem.damping import ModalDamping
 from fecolumn.mesh.base_plate import levels
 from fecolumn.mesh.bricks import boundary_faces, outline_edges
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
@@ -139,20 +138,13 @@ def build_system(case: ShortForm, comm, specimen: SpecimenMesh | None = None) ->
     specimen = specimen or share_specimen_mesh(case, comm)
     column = column_body(case, specimen, comm)
     if case.integration.kinematics == "total_lagrangian":
-        from fecolumn.fem.total_lagrangian import TotalLagrangian
-
-        kinematics = TotalLagrangian(column)
+        from fecolumn.fem.total_lagrangian import TotalLagrangian as kinematics
     else:
-        kinematics = Corotated(column)
+        kinematics = Corotated
     foot = foot_of(case, specimen, column)
     base = base_of(case, column.all_X[foot.nodes]) or BasePlate(base_body(case, specimen, comm))
     law = interface_compliance(
         case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas
-    )
-    damping = (
-        ModalDamping(column, case.integration.n_modes, ratio)
-        if (ratio := case.material.damping_ratio)
-        else None
     )
     pad = pad_of(case, foot.areas, column.total_mass)
     return one_column(
@@ -166,7 +158,7 @@ def build_system(case: ShortForm, comm, specimen: SpecimenMesh | None = None) ->
         HHT(case.integration.dt_s, case.integration.alpha_hht),
         filtered=case.contact.impact == "plastic",
         rim=None if pad else Rim.find(column.all_X[foot.nodes]),
-        damping=damping,
+        damping=(case.integration.n_modes, case.material.damping_ratio),
         restitution=case.contact.restitution,
         rolling=case.contact.rolling_resistance,
         pad=pad,

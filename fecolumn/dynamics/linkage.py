@@ -18,9 +18,9 @@ class Linkage:
     centres of mass, turned by the mean rotations.
     """
 
-    def __init__(self, column, links: np.ndarray):
-        self._column, self.links = column, links
-        made = column.of_each(lambda part, _: rigid_fields(part))
+    def __init__(self, bodies, links: np.ndarray):
+        self._bodies, self.links = bodies, links
+        made = bodies.of_each(lambda part, _: rigid_fields(part))
         self._fields, self._momenta, masses = zip(*made)
         self._inverse = [np.linalg.inv(one) for one in masses]
         #: Bound of the square of the fastest frequency of the bodies on their links [1/s2].
@@ -42,7 +42,7 @@ class Linkage:
         """Strain energy [J] of the links at rest in a State, whose ties become those of the links
         at rest.
         """
-        before, frames = state.ties.copy(), frames_at(self._column.centers(state.x))
+        before, frames = state.ties.copy(), frames_at(self._bodies.centers(state.x))
         kept, _ = end_links(self.links, frames, state.rotation, before, state.ties, np.inf)
         state.ties["work"] = 0.0  # what they lose on the way there is not of the motion
         return kept
@@ -70,7 +70,7 @@ class Linkage:
             stage.ties,
             frames_at(stage.centers),
             stage.rotation,
-            frames_at(self._column.centers(x)),
+            frames_at(self._bodies.centers(x)),
             rotation,
             float(stage.dt),
             pulls,
@@ -102,7 +102,7 @@ class Linkage:
                 for field, rigid in zip(fields, self._rigid(pulls, halfway))
             ]
         )
-        return out_of_frames(rows, halfway, self._column.rows)
+        return out_of_frames(rows, halfway, self._bodies.rows)
 
 
 def ends_of(link) -> tuple:

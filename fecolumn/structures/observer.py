@@ -58,7 +58,7 @@ class StructureObserver:
             state.rotation,
         )
         moved, forces, own = (
-            system.column.centers(state.x) - self._centers,
+            system.bodies.centers(state.x) - self._centers,
             state.forces,
             R[self.body],
         )
@@ -115,7 +115,7 @@ class StructureObserver:
     def _top(self, b: int, x: np.ndarray) -> np.ndarray:
         """Displacement (3,) [m] of the mean of a body's top face."""
         one, part = self._meshed[b], self.structure.parts[b]
-        return one.shares @ one.body.gather(one.top, x[self.system.column.rows[b]]) - (
+        return one.shares @ one.body.gather(one.top, x[self.system.bodies.rows[b]]) - (
             part.center + part.model.marks["top"][0]
         )
 

@@ -13,7 +13,6 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System, one_column
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
-from fecolumn.fem.damping import ModalDamping
 from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
@@ -111,7 +110,7 @@ def block_system(
     comm = MPI.COMM_SELF
     steel = Material(youngs_modulus_pa=200e9, poissons_ratio=0.3, density_kg_m3=7850.0)
     body = Body(comm, mesh, material or steel, order)
-    kinematics = TotalLagrangian(body) if engine == "total_lagrangian" else Corotated(body)
+    kinematics = TotalLagrangian if engine == "total_lagrangian" else Corotated
     quads = boundary_faces(
         mesh, LOWER, foot_height / 2, foot_height / 2 + 1e-9 * np.ptp(mesh.points[:, 2])
     )
@@ -133,6 +132,6 @@ def block_system(
         gravity,
         hht,
         filtered=filtered,
-        damping=ModalDamping(body, DAMPED, damping_ratio) if damping_ratio else None,
+        damping=(DAMPED, damping_ratio),
         restitution=restitution,
     )

@@ -93,7 +93,7 @@ def run(engine: str, long: bool) -> Result:
             )
         )
         if size == 4:
-            speed = np.sqrt(2 * trial.energy()["base_work"] / trial.system.column.total_mass)
+            speed = np.sqrt(2 * trial.energy()["base_work"] / trial.system.body.total_mass)
             result.rows.append(
                 Row(
                     "size and E x 4: energy lost [J]",

@@ -74,6 +74,6 @@ def test_few_points_carry_the_weight_and_sink_a_little_deeper_than_all(shape):
         assert state.forces[:, 2].sum() == pytest.approx(system.weight, rel=1e-8)
         assert state.forces[:, 2].min() >= 0
         sunk.append(
-            system.column.node_mass @ (state.x - system.column.X)[:, 2] / system.column.total_mass
+            system.body.node_mass @ (state.x - system.body.X)[:, 2] / system.body.total_mass
         )
     assert sunk[1] > sunk[0] > 1.25 * sunk[1]  # downwards is negative, tens of nanometres

@@ -204,7 +204,7 @@ class FullRun:
         rows, energies = [], []
         for ground in grounds:
             self.state = self.stepper.step(self.state, np.asarray(ground, float))
-            centers, R = self.system.column.centers(self.state.x), self.state.rotation
+            centers, R = self.system.bodies.centers(self.state.x), self.state.rotation
             tilts = np.arctan2(np.hypot(R[:, 0, 2], R[:, 1, 2]), R[:, 2, 2])
             rows.append(
                 np.column_stack([centers - [part.center for part in self.model.parts], tilts])
