@@ -87,7 +87,9 @@ def zero(expression) -> bool:
 
 
 def derive() -> dict[str, sp.Expr]:
-    """Inertias of tilt and azimuth, potential and levers of one column with its share of the slab."""
+    """Inertias of tilt and azimuth, potential and levers of one column with its share of the
+    slab.
+    """
     rotation = turned(azimuth, "z") * turned(tilt, "y") * turned(-azimuth, "z")
     towards = turned(azimuth, "z") * sp.Matrix([1, 0, 0])
 

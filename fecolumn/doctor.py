@@ -44,7 +44,9 @@ def origin(name: str) -> str:
 
 
 def loaded_libraries(pattern: str) -> list[str]:
-    """Shared libraries of this process whose file name begins like this, those of wheels left out."""
+    """Shared libraries of this process whose file name begins like this, those of wheels left
+    out.
+    """
     files = {
         line.split()[-1]
         for line in Path("/proc/self/maps").read_text().splitlines()

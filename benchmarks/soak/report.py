@@ -118,7 +118,9 @@ def histogram(values, edges) -> str:
 
 
 def growth(counts, values) -> float:
-    """Rise per count of the lower envelope of values: the smallest of each tenth, fitted by a line."""
+    """Rise per count of the lower envelope of values: the smallest of each tenth, fitted by a
+    line.
+    """
     parts = [part for part in np.array_split(np.argsort(counts), 10) if len(part)]
     counts, values = np.asarray(counts, float), np.asarray(values, float)
     places = [counts[part].mean() for part in parts]

@@ -63,7 +63,9 @@ class FilteredFoot:
         return self.body.momentum(self.acceleration(forces))
 
     def unit_push(self) -> np.ndarray:
-        """U (3 n_owned, 3 n), as large as Y and not kept: nodal forces of unit forces on the nodes."""
+        """U (3 n_owned, 3 n), as large as Y and not kept: nodal forces of unit forces on
+        the nodes.
+        """
         return self.body.apply_many(self.body.mass, self.jump)
 
     def acceleration(self, forces: np.ndarray) -> np.ndarray:

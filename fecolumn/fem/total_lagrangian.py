@@ -97,5 +97,7 @@ class TotalLagrangian:
         return centre + shift + arm @ turn.T, shift + arm @ skew.T
 
     def local_displacement(self, x: np.ndarray) -> np.ndarray:
-        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are computed."""
+        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are
+        computed.
+        """
         return x @ self.rotation(x) - self.body.X

@@ -34,7 +34,9 @@ def axis_text(key: str, value) -> str:
 
 
 def axis_words(key: str) -> str:
-    """Last word of a key without its unit, after the part it belongs to where others have it, too."""
+    """Last word of a key without its unit, after the part it belongs to where others have it,
+    too.
+    """
     if key in _WORDS:
         return _WORDS[key]
     section, _, last = key.rpartition(".")

@@ -45,7 +45,9 @@ def number(value, digits: int = 3) -> str:
 
 
 def fixed(value, decimals: int = 2) -> str:
-    """Number to a fixed count of decimals, so that a column lines up; a dash where there is none."""
+    """Number to a fixed count of decimals, so that a column lines up; a dash where there is
+    none.
+    """
     if value is None or not math.isfinite(value):
         return DASH
     return f"{round(value, decimals) + 0.0:.{decimals}f}".replace(

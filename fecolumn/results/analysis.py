@@ -234,7 +234,9 @@ class AnalysisPlots:
         )
 
     def interfaces(self, *names: str) -> Picture:
-        """Of a structure: tilt, uplift, slide and normal force at interfaces, of all unless named."""
+        """Of a structure: tilt, uplift, slide and normal force at interfaces, of all unless
+        named.
+        """
         from fecolumn.post.structure_figures import interface_figure, interface_names
 
         columns = AnalysisResult(self.folder).history

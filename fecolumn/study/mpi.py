@@ -1,4 +1,6 @@
-"""Workers on many machines: the ranks of `mpirun -n N fecolumn study ...`, of which rank 0 drives."""
+"""Workers on many machines: the ranks of `mpirun -n N fecolumn study ...`, of which rank 0
+drives.
+"""
 
 from __future__ import annotations
 

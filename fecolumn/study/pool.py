@@ -182,7 +182,9 @@ def _serve(connection, entry: str, file: str) -> None:
 
 
 def _listen(connection, batches) -> None:
-    """Take batches at once: a driver that had to wait with one could not take outcomes meanwhile."""
+    """Take batches at once: a driver that had to wait with one could not take outcomes
+    meanwhile.
+    """
     try:
         while True:
             batches.put(connection.recv())

@@ -208,7 +208,9 @@ def measured(exact: Hertz, system, state, a: float, h: float) -> Pressed:
 
 
 def run(engine: str, long: bool) -> Result:
-    """Cylinder with 4 to 12 bricks along the radius, sphere with 3 to 5; up to 24 and 7 if `long`."""
+    """Cylinder with 4 to 12 bricks along the radius, sphere with 3 to 5; up to 24 and 7 if
+    `long`.
+    """
     meshes = {
         Hertz(1, 0.0, 64): (4, 6, 8, 12) + (16, 24) * long,
         Hertz(2, 0.3, 8): (3, 4, 5) + (6, 7) * long,

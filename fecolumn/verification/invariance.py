@@ -173,7 +173,9 @@ def on_ranks(engine: str, n: int, motion) -> np.ndarray:
 
 
 def resumed(engine: str, motion, parts: int) -> np.ndarray:
-    """Path of the top (steps + 1, 3) [m] of an analysis in one part, or in two by Ctrl-C at half."""
+    """Path of the top (steps + 1, 3) [m] of an analysis in one part, or in two by Ctrl-C at
+    half.
+    """
     with tempfile.TemporaryDirectory() as folder:
         # fields and states at half: what is written must not matter either, and the reduced engine
         # looks for Ctrl-C wherever it writes

@@ -311,7 +311,9 @@ def between_nodes(engine: str) -> Row:
 
 
 def overturning(engine: str) -> Row:
-    """Least half-sine pulse that overturns without impact, by bisection, against Shi et al. (1996)."""
+    """Least half-sine pulse that overturns without impact, by bisection, against Shi et al.
+    (1996).
+    """
     system = column_system(
         engine, contact={"friction_coefficient": 0.8}, integration={"dt_s": 2e-3}
     )

@@ -70,7 +70,9 @@ MARKS = {
 
 
 def run(engine: str, long: bool) -> Result:
-    """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless `long`."""
+    """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless
+    `long`.
+    """
     result = Result(size=(7.2, 2.5))
     result.rows += [creep(engine), *(row for share in (0.5, 0.9) for row in slope(engine, share))]
     if long or engine != "total_lagrangian":
@@ -206,7 +208,9 @@ def slope(engine: str, share: float) -> list[Row]:
 
 
 def slipped(trial: Trial, friction: float, slip: float = 1e-6) -> float:
-    """Ground acceleration [m/s2] at which a trial's foot has slipped by `slip` [m], on a slow ramp."""
+    """Ground acceleration [m/s2] at which a trial's foot has slipped by `slip` [m], on a slow
+    ramp.
+    """
     return ramp(
         trial,
         friction * GRAVITY,

@@ -248,7 +248,9 @@ def short_cylinder(engine: str, corners: int, size=CYLINDER, spin=RollingRim.unt
 
 
 def impact_allowance(one: dict, passage: float, dt: float, compliance: float = 0.0) -> float:
-    """Tolerance of the polygon's loss [-], relative, of a body with `compliance` [m/N] at a corner."""
+    """Tolerance of the polygon's loss [-], relative, of a body with `compliance` [m/N] at a
+    corner.
+    """
     rim, weight = one["rim"], one["rim"].mass * GRAVITY
     speed = np.linalg.norm(rim.landing(one["tilt"], one["spin"], one["corners"]))
     lost = rim.corner_loss(one["tilt"], one["spin"], one["corners"])

@@ -101,7 +101,9 @@ def test_static_displacement_is_the_compliance_times_the_forces(n):
 
 @pytest.mark.parametrize("n", [2, 12])
 def test_base_gives_way_below_the_points(n):
-    """Points on two facets: the base's compliance between the points by their shares in its nodes."""
+    """Points on two facets: the base's compliance between the points by their shares in its
+    nodes.
+    """
     rng = np.random.default_rng(4)
     C, arms = compliance(rng, 6), np.zeros((n, 3))
     body, points = (

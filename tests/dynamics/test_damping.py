@@ -1,4 +1,6 @@
-"""Damping of elastic modes: what it takes from them, and that it takes nothing from rigid motion."""
+"""Damping of elastic modes: what it takes from them, and that it takes nothing from rigid
+motion.
+"""
 
 import numpy as np
 import pytest

@@ -148,7 +148,9 @@ def test_column_that_rocks_off_half_its_pad_loses_to_its_dashpots_alone(on_pad):
 
 
 def test_flat_without_edges_is_the_plate_near_its_middle():
-    """Layer and plate differ by the plate's edges only, here by 1e-3 of micrometres of settlement."""
+    """Layer and plate differ by the plate's edges only, here by 1e-3 of micrometres of
+    settlement.
+    """
     ground = np.array(
         [[8.0 * np.sin(40 * 1e-3 * k), 3.0 * np.sin(55 * 1e-3 * k), 0.0] for k in range(1, 61)]
     )

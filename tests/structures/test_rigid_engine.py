@@ -1,4 +1,6 @@
-"""Bodies of the rigid engine: they give nowhere, and an impact takes what rigid-body theory says."""
+"""Bodies of the rigid engine: they give nowhere, and an impact takes what rigid-body theory
+says.
+"""
 
 import numpy as np
 import pytest
