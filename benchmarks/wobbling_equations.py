@@ -34,12 +34,16 @@ BODY = sp.symbols(
 )
 radius, centre, height, mass, slab, across, along, stiffness, pull, gravity = BODY
 
-_HEAD = '''"""Equations of motion of the wobbling column and frame. Written by benchmarks.wobbling_equations with sympy {version}: do not edit.
+_HEAD = '''"""Equations of motion of the wobbling column and frame.
+
+Written by benchmarks.wobbling_equations with sympy {version}: do not edit.
 
 Of one column with its share of the slab; arguments, in SI units:
-    body: (10,) radius of rim, height of the centre of mass, height of column [m]; mass, share of the slab [kg]; inertia about the centre
-        of mass across and along the axis [kg m2]; tendon's stiffness [N/m] and pull while the column stands [N]; gravity [m/s2].
-    tilt, azimuth [rad]: of the axis; the foot's rim touches at the azimuth, which is where the column leans.
+    body: (10,) radius of rim, height of the centre of mass, height of column [m]; mass, share of
+        the slab [kg]; inertia about the centre of mass across and along the axis [kg m2]; tendon's
+        stiffness [N/m] and pull while the column stands [N]; gravity [m/s2].
+    tilt, azimuth [rad]: of the axis; the foot's rim touches at the azimuth, to which the column
+        leans.
     tilt_rate [rad/s]; spin [kg m2/s]: momentum of the azimuth, inertia[1] times its rate.
     ground_x, ground_y, ground_z: acceleration of the ground [m/s2].
 """

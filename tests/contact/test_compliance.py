@@ -126,7 +126,7 @@ def test_base_gives_way_below_the_points(n):
     contact, moved = np.zeros(n, CONTACT), np.empty((n, 3))
     contact["force"] = 1.0
     # what has been gathered is taken from then on
-    for again in range(2):
+    for _ in range(2):
         assemble(
             body,
             base,

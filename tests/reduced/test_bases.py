@@ -104,7 +104,7 @@ def test_column_bounces_on_its_pad_as_a_damped_oscillator(on_pad):
     assert abs(energy["closure"]) < 1e-8 * abs(energy["damping"])
 
 
-def test_rigid_column_rocks_on_springs_with_the_frequency_of_the_whole_foot_and_lifts_at_its_uplift_moment():
+def test_rigid_column_on_springs_has_the_frequency_of_its_whole_foot_and_lifts_at_its_moment():
     """Stiff along, undamped: it turns about the foot's middle, I_O q'' + (k I_f - m g h) q = 0,
     until k q R = W / A lifts the rim.
     """

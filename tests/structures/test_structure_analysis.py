@@ -189,7 +189,7 @@ def test_a_block_that_slides_out_of_the_prepared_face_ends_the_analysis_by_name(
         )
 
 
-def test_a_drum_that_rocks_over_in_a_plane_loses_what_housners_impact_on_the_far_point_of_its_rim_takes():
+def test_a_drum_that_rocks_over_in_a_plane_loses_what_housners_impact_on_its_far_rim_takes():
     """I_G = m (3 r^2 + h^2) / 12; the angular momentum about that point leaves 1 - 2 r^2 / (5/4 r^2
     + h^2/3) of the spin where friction holds, mu > 0.303 here.
 
