@@ -213,8 +213,9 @@ def source() -> str:
             "force",
             "tilt, tilt_rate, spin, push, across_push, ground_z",
             base_force(found),
-            "Of the ground on the foot towards the azimuth, across it and up [N]; "
-            "push, across_push: the ground's acceleration along the same.",
+            "Force of the ground on the foot [N]: towards the azimuth, across it, up.\n\n"
+            "    push, across_push: acceleration of the ground [m/s2] towards the azimuth and across it.\n"
+            "    ",
         ),
         (
             "inertia",
@@ -232,8 +233,9 @@ def source() -> str:
             "moments",
             "tilt",
             [found["rise"].diff(tilt), found["lever"].diff(tilt), found["tendon"].diff(tilt)],
-            "What tilting asks: d/d tilt of weight's height and of horizontal lever "
-            "[kg m], and of the tendon's energy [N m].",
+            "Derivatives by the tilt: of the weight's height and horizontal lever times the mass [kg m],\n"
+            "    and of the tendon's energy [N m].\n"
+            "    ",
         ),
         (
             "shifts",

@@ -24,7 +24,7 @@ _WORDS = {
 
 
 def axis_text(key: str, value) -> str:
-    """Text such as "$\\Delta t$ = 0.001 s" for the dotted key `integration.dt_s`."""
+    r"""Text such as "$\Delta t$ = 0.001 s" for the dotted key `integration.dt_s`."""
     if isinstance(value, dict):
         return ", ".join(axis_text(f"{key}.{inner}", item) for inner, item in value.items())
     unit = axis_unit(key)

@@ -58,8 +58,8 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sec
     text = (
         f"[[ida]]: each of {count(len(here.curves), 'motion')} scaled to "
         f"{count(levels, 'level')} (Vamvatsikos and Cornell 2002), {at}. "
-        f"{fallen} overturn the {sweep.subject.noun} at one of their "
-        f"scales{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. "
+        f"{fallen} overturn the {sweep.subject.noun} at one of their scales"
+        f"{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. "
     )
     if here.fit:
         text += (

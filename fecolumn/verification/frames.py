@@ -9,7 +9,8 @@ velocities v_abs - v_g. HHT's acceleration of the absolute motion is a + A_g, A_
 al a_g0, so that the two analyses are the same equations once the base is moved by the formulas of
 HHT,
 
-    x_g1 = x_g0 + dt v_g0 + dt^2 [(1/2 - be) A_g0 + be A_g1],   v_g1 = v_g0 + dt [(1 - ga) A_g0 + ga A_g1].
+    x_g1 = x_g0 + dt v_g0 + dt^2 [(1/2 - be) A_g0 + be A_g1],
+    v_g1 = v_g0 + dt [(1 - ga) A_g0 + ga A_g1].
 
 Moved on its exact path instead, the base differs from these by e_g(t), second order in dt and known
 beforehand. Energy: in the inertial frame the base works through the contact forces, W_b = sum r1 .
@@ -80,6 +81,7 @@ def turned_system(turn, engine: str, **tables):
 
 
 def run(engine: str, long: bool) -> Result:
+    """Rows of shaking seen from a moving, a turned, a mirrored and a later frame."""
     result = Result(size=(7.2, 3.7))
     system = column_system(engine)
     times = system.hht.dt * np.arange(1, (200 if long or engine != "total_lagrangian" else 125) + 1)

@@ -6,8 +6,8 @@ the pressure at single nodes to first order, at any load.
 Derivation. With 1/E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, a surface r^2 / 2R pressed on a flat
 without friction touches within a,
 
-    cylinder (b long)   P = pi a^2 E* b / 4R,   p0 = a E* / 2R,      approach / P = c - 2 ln(a) / pi E* b,
-    sphere              P = 4 a^3 E* / 3R,      p0 = 2 a E* / pi R,  approach / P = c + 3 / (4 E* a),
+    cylinder of b m   P = pi a^2 E* b / 4R,  p0 = a E* / 2R,     approach/P = c - 2 ln(a) / pi E* b,
+    sphere            P = 4 a^3 E* / 3R,     p0 = 2 a E* / pi R, approach/P = c + 3 / (4 E* a),
 
 under the pressure p0 (1 - r^2 / a^2)^(1/2). The weight of a block with a curved bottom is P; the
 base is a block of the same size, held below. The cylinder is a slice of one brick along y, with nu
@@ -74,6 +74,7 @@ class Hertz:
 
     @property
     def name(self) -> str:
+        """Shape of the curved body: cylinder or sphere."""
         return ("cylinder", "sphere")[self.axes - 1]
 
     @property

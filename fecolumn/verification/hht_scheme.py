@@ -5,7 +5,8 @@ error and spectral radius are those of the method for every alpha; alpha = 0 kee
 
 Derivation. In a mode of frequency w, with W = w dt and z = (u, dt v, dt^2 a), a step is z1 = A z0:
 
-    a1 + (1 + al) W^2 u1 - al W^2 u0 = 0,   u1 = u0 + v0 + (1/2 - be) a0 + be a1,   v1 = v0 + (1 - ga) a0 + ga a1,
+    a1 + (1 + al) W^2 u1 - al W^2 u0 = 0,
+    u1 = u0 + v0 + (1/2 - be) a0 + be a1,   v1 = v0 + (1 - ga) a0 + ga a1,
     be = (1 - al)^2 / 4,   ga = 1/2 - al.
 
 The principal eigenvalues exp(W' (-xi +- i)) of A give the damping ratio xi and the period error W /
@@ -64,7 +65,9 @@ class Mode:
     Attributes
     ----------
     shape
-        (n, 3) with unit modal mass. frequency: w [rad/s].
+        (n, 3) with unit modal mass.
+    frequency
+        w [rad/s].
     """
 
     def __init__(self, engine: str):
@@ -73,6 +76,7 @@ class Mode:
         self.frequency, self.shape = 2 * np.pi * modes.frequencies[6], modes.shapes[6]
 
     def system(self, dt: float, alpha: float):
+        """Block above a base, nearly without weight, so that it vibrates and never lands."""
         body = box(np.linspace(-0.1, 0.1, 3), np.linspace(-0.15, 0.15, 3), np.linspace(0, 1, 7))
         return block_system(
             self.engine,

@@ -11,7 +11,8 @@ Derivation. Per N m_c R^2, with theta the columns' tilt, g = m_b / (N m_c), eta 
 alpha and v the velocity of the floor over 2 R cos alpha: slab and columns have the inertia A = I +
 4 g + 4 g eta s^2, the floor B = 4 g eta (1 - s^2), and without weight
 
-    A theta'' = -B v',  v'' = -w^2 (v - theta'):   theta' = m + (theta'+ - m) cos(W t),   m = (A theta'+ + B v) / (A + B),   W^2 = w^2 (1 + B / A).
+    A theta'' = -B v',   v'' = -w^2 (v - theta'),   so that
+    theta' = m + (theta'+ - m) cos(W t),   m = (A theta'+ + B v) / (A + B),   W^2 = w^2 (1 + B / A).
 
 theta'+ = CAV theta'- and v = theta'- make m = CRV theta'-: both laws are the same balance of
 angular momentum, one at the moment of the impact, the other after the building has come to swing.

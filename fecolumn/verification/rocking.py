@@ -7,15 +7,17 @@ column is rigid.
 Derivation. A rigid body of mass m, inertia I_O about the rim, distance R from rim to centre of mass
 and slenderness alpha (tilt at which the centre of mass stands over the rim) turns by
 
-    th'' = -p^2 {sin(alpha sgn th - th) + a_g / g cos(alpha sgn th - th)},    p^2 = m g R / I_O.        (Housner 1963)
+    th'' = -p^2 {sin(alpha sgn th - th) + a_g / g cos(alpha sgn th - th)},    p^2 = m g R / I_O
+
+(Housner 1963).
 
 Uplift: the overturning moment m a_g R cos alpha meets the restoring m g R sin alpha, a_g = g tan
 alpha.
 Quarter period from release at th0 (slender): T/4 = acosh(1 / (1 - th0/alpha)) / p.
 Plastic impact at the far edge keeps the angular momentum about it: r = 1 - 2 m R^2 sin^2(alpha) /
 I_O (velocity after over before).
-Half-sine pulse a_p sin(w t) from -g tan alpha on: just overturning without impact where
-(w/p) sin psi - cos psi = exp(-(p/w) (pi - psi)), a_p = g tan(alpha) / sin psi                          (Shi et al. 1996, slender).
+Half-sine pulse a_p sin(w t) from -g tan alpha on (Shi et al. 1996, slender): it just overturns
+without impact where (w/p) sin psi - cos psi = exp(-(p/w) (pi - psi)), a_p = g tan(alpha) / sin psi.
 
 Tolerances. Elastic foot and base tilt the column by 1e-4 alpha before it lifts off and move the
 pivot inwards by the width of a few bricks at most: 1 % on the threshold. The slender forms are off

@@ -7,7 +7,8 @@ the ledger's friction is force times path.
 Derivation. A rigid block of mass m that does not tip, relative displacement u on a base with
 acceleration a_g, slope b, obeys
 
-    u'' = g sin(b) e_x - a_g - mu g cos(b) u' / |u'|    while it slides,    |g sin(b) e_x - a_g| <= mu g cos(b) while it sticks.
+    u'' = g sin(b) e_x - a_g - mu g cos(b) u' / |u'|    while it slides,
+    |g sin(b) e_x - a_g| <= mu g cos(b)                 while it sticks.
 
 Slope: rest for mu > tan b; else s = a t^2 / 2, a = g (sin b - mu cos b), friction takes mu m g
 cos(b) s. Ramp a_g = k t: slip starts at mu g; at a slip d since then the ground has reached mu g +
@@ -334,7 +335,7 @@ def turn_rows(turns) -> list[Row]:
         np.polyfit(np.log(STEPS), np.log([turn[k] for turn in turns.values()]), 1)[0]
         for k in (0, 3)
     )
-    for dt, (error, _, ode, angle) in turns.items():
+    for dt, (error, _, ode, _) in turns.items():
         size = np.linalg.norm(ode[-1])
         rows.append(
             Row(
@@ -350,7 +351,7 @@ def turn_rows(turns) -> list[Row]:
         Row(
             f"angle of friction to -velocity, dt {dt:g} s, largest [rad]",
             0.0,
-            angle,
+            turns[dt][3],
             w * dt / 2,
             order=direction,
         )

@@ -9,9 +9,10 @@ Derivation. Mass m, inertia I_1 across and I_3 along the axis, rim radius a, cen
 the foot, tilt th, precession W, spin w_3 = k W along the axis. d points down to the contact, j
 along the rim, e along the axis; the rim does not slip:
 
-    w = -W sin th d + k W e,    v = W (h sin th - k a) j,    force on the rim = m g z - m W v (horizontal part of d),
-    W^2 {I_1 sin th cos th - I_3 k sin th + m (h sin th - a k) (a sin th + h cos th)} = m g (a cos
-        th - h sin th).
+    w = -W sin th d + k W e,    v = W (h sin th - k a) j,
+    force on the rim = m g z - m W v (horizontal part of d),
+    W^2 {I_1 sin th cos th - I_3 k sin th + m (h sin th - a k) (a sin th + h cos th)}
+        = m g (a cos th - h sin th).
 
 k = cos th - 1: rolling once around without twist, what a column let go in two directions does;
 small th: W^2 = m g (a - h th) / (I_h th), I_h = I_1 + m h^2. k = (h / a) sin th: the centre of mass
@@ -20,7 +21,8 @@ about one corner until the next lands with the velocity u = w x 2 a sin(pi / n) 
 takes u . M u / 2, M the inverse of the mobility of the contact point. Without twist and for small
 th this is, per revolution (n corners),
 
-    2 pi^2 / n  m_e (a th W)^2,    m_e = m I_h / (I_h + m a^2):    each corner ~ 1 / n^2, a revolution ~ 1 / n.
+    2 pi^2 / n  m_e (a th W)^2,    m_e = m I_h / (I_h + m a^2):
+    each corner ~ 1 / n^2, a revolution ~ 1 / n.
 
 `rolling_rim` has both, and the polygon's motion integrated to 1e-10, which is the exact value of
 the losses here. The reference column at th = 0.03: n = 60 takes 0.11 % of the energy in a
