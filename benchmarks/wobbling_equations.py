@@ -214,7 +214,7 @@ def source() -> str:
             "tilt, tilt_rate, spin, push, across_push, ground_z",
             base_force(found),
             "Force of the ground on the foot [N]: towards the azimuth, across it, up.\n\n"
-            "    push, across_push: acceleration of the ground [m/s2] towards the azimuth and across it.\n"
+            "    push, across_push: ground's acceleration [m/s2] to the azimuth and across it.\n"
             "    ",
         ),
         (
@@ -233,7 +233,7 @@ def source() -> str:
             "moments",
             "tilt",
             [found["rise"].diff(tilt), found["lever"].diff(tilt), found["tendon"].diff(tilt)],
-            "Derivatives by the tilt: of the weight's height and horizontal lever times the mass [kg m],\n"
+            "Derivatives by the tilt of mass times height and times lever of the weight [kg m],\n"
             "    and of the tendon's energy [N m].\n"
             "    ",
         ),

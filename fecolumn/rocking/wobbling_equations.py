@@ -110,7 +110,7 @@ def rates(body, tilt, azimuth, tilt_rate, spin, ground_x, ground_y, ground_z):
 def force(body, tilt, tilt_rate, spin, push, across_push, ground_z):
     """Force of the ground on the foot [N]: towards the azimuth, across it, up.
 
-    push, across_push: acceleration of the ground [m/s2] towards the azimuth and across it.
+    push, across_push: ground's acceleration [m/s2] to the azimuth and across it.
     """
     radius = body[0]
     centre = body[1]
@@ -280,7 +280,7 @@ def potential(body, tilt):
 
 @njit(alone=True)
 def moments(body, tilt):
-    """Derivatives by the tilt: of the weight's height and horizontal lever times the mass [kg m],
+    """Derivatives by the tilt of mass times height and times lever of the weight [kg m],
     and of the tendon's energy [N m].
     """
     radius = body[0]
