@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,8 +17,10 @@ from fecolumn.render.pose import poses
 from fecolumn.render.quantity import Quantity
 from fecolumn.render.solid import solid_of
 from fecolumn.render.strips import LIFTED, uplift
-from fecolumn.results.analysis import AnalysisResult
 from fecolumn.schema import InputError, stated
+
+if TYPE_CHECKING:
+    from fecolumn.results.analysis import AnalysisResult
 
 #: Difference at which two histories have parted, over the larger of their peaks [-]: a twentieth is
 #: seen in a figure

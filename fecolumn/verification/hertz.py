@@ -49,7 +49,7 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 
 LARGEST, CURVATURE = 0.01, 100.0  # a under full load and R [m]
 LENGTH = LARGEST / 8  # of the slice of the cylinder [m]
@@ -181,7 +181,7 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
         # than the Earth's
         system.weight = exact.load(a)
         system.gravity = np.array([0.0, 0.0, -system.weight / system.column.total_mass])
-        found.append(measured(exact, system, begin(engine, system).start, a, h))
+        found.append(measured(exact, system, begin_trial(engine, system).start, a, h))
     return found
 
 

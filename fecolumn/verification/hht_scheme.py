@@ -43,7 +43,8 @@ from fecolumn.fem.modes import free_modes
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import afloat, begin
+from fecolumn.verification.trial import afloat
+from fecolumn.verification.trials import begin_trial
 
 ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
 PER_PERIOD = (16, 32, 64, 128)
@@ -96,7 +97,7 @@ class Mode:
         dt = angle / self.frequency
         system = self.system(dt, alpha)
         scale = amplitude * np.array([1, 1 / dt, 1 / dt**2])
-        trial = begin(
+        trial = begin_trial(
             self.engine,
             system,
             lambda system: afloat(

@@ -41,7 +41,8 @@ from fecolumn.dynamics.gravity import tilted
 from fecolumn.fem.rotation import tilt_angle
 from fecolumn.verification.models import column_system
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import RigidRocking, Trial, begin
+from fecolumn.verification.trial import RigidRocking, Trial
+from fecolumn.verification.trials import begin_trial
 
 AMPLITUDES = (0.1, 0.2, 0.4, 0.6, 0.8)
 STEEL = 2e11
@@ -130,7 +131,7 @@ def uplift(engine: str) -> Row:
     """Ground acceleration at which the column turns about its toe, counted from a thousandth of the
     critical tilt on.
     """
-    trial = begin(engine, column_system(engine, contact={"friction_coefficient": 0.8}))
+    trial = begin_trial(engine, column_system(engine, contact={"friction_coefficient": 0.8}))
     exact, found = lifted(trial)
     return Row("uplift acceleration, mu 0.8 [m/s2]", exact, found, 0.01)
 
@@ -152,7 +153,7 @@ def release(
     """Quarter period [s] and energy lost at the first impact [J] of a release at `amplitude` of the
     critical tilt towards +x, or a little beside it [rad].
     """
-    trial = begin(engine, column_system(engine, **tables), leaning(amplitude, azimuth))
+    trial = begin_trial(engine, column_system(engine, **tables), leaning(amplitude, azimuth))
     return *rocked(trial, amplitude), trial, RigidRocking(trial.system)
 
 
@@ -330,7 +331,7 @@ def overturning(engine: str) -> Row:
     exact = GRAVITY * np.tan(rigid.slenderness) / np.sin(psi)
 
     def overturns(amplitude):
-        trial = begin(engine, system)
+        trial = begin_trial(engine, system)
         onset = (
             np.arcsin(GRAVITY * np.tan(rigid.slenderness) / amplitude) / frequency
         )  # Shi's pulse starts where it lifts the column

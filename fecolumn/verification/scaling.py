@@ -38,7 +38,8 @@ from fecolumn.post.style import LINES
 from fecolumn.schema import merge
 from fecolumn.verification.models import COARSE, column_system, shaking
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import begin, solver_drift
+from fecolumn.verification.trial import solver_drift
+from fecolumn.verification.trials import begin_trial
 
 STEEL = 200e9
 STEP = 1e-3  # s, of the first specimen
@@ -72,7 +73,7 @@ def run(engine: str, long: bool) -> Result:
 
     def analysed(size, modulus):
         """Path of top and foot over the diameter, (n, 2, 3), and the trial."""
-        trial = begin(engine, sized(engine, size, modulus))
+        trial = begin_trial(engine, sized(engine, size, modulus))
         return trial.shake(shaking(times)) / (size * diameter), trial
 
     def apart(path, other):

@@ -49,7 +49,8 @@ from fecolumn.verification.coulomb_block import NewmarkBlock, TurningBlock
 from fecolumn.verification.models import block_system, box, column_system
 from fecolumn.verification.result import Result, Row
 from fecolumn.verification.rocking import ramp
-from fecolumn.verification.trial import Trial, begin
+from fecolumn.verification.trial import Trial
+from fecolumn.verification.trials import begin_trial
 
 SLOPE, FRICTION = 0.3, 0.3
 RESISTANCE = FRICTION * GRAVITY
@@ -158,7 +159,7 @@ def centre(trial: Trial) -> np.ndarray:
 
 def on_slope(engine: str, share: float, start=glued) -> Trial:
     """A block on the slope with friction `share` tan(slope)."""
-    return begin(
+    return begin_trial(
         engine,
         block(
             engine,
@@ -224,7 +225,7 @@ def slipped(trial: Trial, friction: float, slip: float = 1e-6) -> float:
 def threshold(engine: str) -> Row:
     """Ground acceleration of a slow ramp at which the column has slipped by 1e-6 m."""
     friction, slip = 0.05, 1e-6
-    trial = begin(
+    trial = begin_trial(
         engine,
         column_system(
             engine, contact={"friction_coefficient": friction}, integration={"dt_s": 4e-3}
@@ -243,7 +244,10 @@ def one_sine(engine: str, dt: float, shift: float):
     """(exact block, times [s], slip [m] at them, friction energy / mu m g [m]) under a pulse that
     starts `shift` dt late.
     """
-    exact, trial = NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE), begin(engine, block(engine, dt))
+    exact, trial = (
+        NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE),
+        begin_trial(engine, block(engine, dt)),
+    )
     start, path = centre(trial), [0.0]
     while trial.state.time < 0.7:
         time = trial.state.time + (1 - shift) * dt
@@ -312,7 +316,7 @@ def two_directions(engine: str, dt: float, seconds: float = 0.6):
         state.a -= state.ground
         return state
 
-    trial = begin(engine, block(engine, dt), moving)
+    trial = begin_trial(engine, block(engine, dt), moving)
     start, path, angles = centre(trial), [np.zeros(2)], []
     for _ in range(round(seconds / dt)):
         trial.step((*exact.ground(trial.state.time + dt), 0.0))
@@ -370,7 +374,7 @@ def rest(engine: str) -> Row:
         state.v[:, 0] = 16.5 * RESISTANCE * dt
         return state
 
-    trial = begin(engine, block(engine, dt), pushed)
+    trial = begin_trial(engine, block(engine, dt), pushed)
     for _ in range(67):
         trial.step()
     return Row(

@@ -56,7 +56,8 @@ from fecolumn.mesh.gmsh_section import Annulus, extruded
 from fecolumn.verification.models import block_system, box, column_system
 from fecolumn.verification.result import Result, Row
 from fecolumn.verification.rolling_rim import RollingRim
-from fecolumn.verification.trial import RigidRocking, Trial, begin
+from fecolumn.verification.trial import RigidRocking, Trial
+from fecolumn.verification.trials import begin_trial
 
 CORNERS = (24, 48, 96)
 PASSAGE = 8  # steps from corner to corner of a short cylinder
@@ -192,7 +193,7 @@ def roll(
     """Mean rate [rad/s] and energy lost / energy in `steps`, with those of the rigid polygon, and
     their courses.
     """
-    trial, dt = begin(engine, system, rolling(rim, tilt, spin)), system.hht.dt
+    trial, dt = begin_trial(engine, system, rolling(rim, tilt, spin)), system.hht.dt
     energy, turned = rim.energy(tilt, spin), [0.0]
     energies = [trial.mechanical()]
     for _ in range(steps):
