@@ -74,7 +74,9 @@ def test_studies_older_than_younger_keys_keep_the_names_of_their_results(tmp_pat
 
 
 def test_ids_of_the_specimens_stay():
-    """Sizes that are stated are taken as stated; keys that came later say nothing at their default."""
+    """Sizes that are stated are taken as stated; keys that came later say nothing at their
+    default.
+    """
     assert [read_case(SPECIMEN.with_name(name)).id for name in ("specimen.toml", "stout.toml")] == [
         "0ce1264dcd58",
         "c687d7053dad",

@@ -123,7 +123,9 @@ def growing_steps(length: float, fine: float, largest: float) -> np.ndarray:
 
 
 def growing_count(length: float, fine: float, largest: float) -> int:
-    """Smallest number n of steps min(fine GROWTH^k, largest), k = 1..n, that reaches `length` [m]."""
+    """Smallest number n of steps min(fine GROWTH^k, largest), k = 1..n, that reaches `length`
+    [m].
+    """
     length *= 1 - 1e-12
     reached, step, n = 0.0, fine, 0
     while reached < length and step * GROWTH < largest:

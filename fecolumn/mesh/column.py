@@ -50,7 +50,9 @@ def column_mesh(case: ShortForm) -> BrickMesh:
 
 
 def part_layers(case: ShortForm) -> list[tuple[int, float, float, int]]:
-    """Part, bottom [m], height [m] and layers of bricks of the built parts, from the foot upwards."""
+    """Part, bottom [m], height [m] and layers of bricks of the built parts, from the foot
+    upwards.
+    """
     column, mesh, seat = case.column, case.mesh, case.seat_m
     lower = column.fine_height_m
     upper = column.height_m - lower
@@ -114,5 +116,7 @@ def section(case: ShortForm, part: int) -> Annulus | Disc | Rectangle:
 
 
 def divisions(length: float, size: float) -> int:
-    """Whole number of bricks, at least one, whose size [m] is nearest to `size` along `length` [m]."""
+    """Whole number of bricks, at least one, whose size [m] is nearest to `size` along `length`
+    [m].
+    """
     return max(1, round(length / size))

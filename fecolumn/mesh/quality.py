@@ -214,7 +214,7 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[Row, ...]:
     whole = functools.reduce(operator.add, found.values())
     if len(parts) > 1:
         rows += _mass_rows(
-            " with ".join(sorted(parts, key=list(("column", "flange", "cap")).index)),
+            " with ".join(sorted(parts, key=["column", "flange", "cap"].index)),
             whole,
             None if own else functools.reduce(operator.add, closed.values()),
         )

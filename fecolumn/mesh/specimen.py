@@ -93,7 +93,9 @@ def _joints(case: ShortForm, column: BrickMesh, height: float):
 
 
 def _reach(case: ShortForm) -> float:
-    """How far a slave may be moved [m]: the sagitta of a brick's chord and a tenth of a fine brick."""
+    """How far a slave may be moved [m]: the sagitta of a brick's chord and a tenth of a fine
+    brick.
+    """
     if case.column.mesh_file or case.column.shape == "block":
         return 0.1 * case.mesh.fine_size_m
     sagitta = (

@@ -15,7 +15,9 @@ MEAN_GAMMA = 1.83
 
 @dataclass(frozen=True, slots=True)
 class DirectivityPulse:
-    """Cosine under a raised-cosine envelope, centred at t = 0: for |t| <= gamma T_p/2
+    """Velocity of a cosine under a raised-cosine envelope, centred at t = 0.
+
+    For |t| <= gamma T_p/2, and zero elsewhere,
 
         v(t) = A_p/2 [1 + cos(2 pi t/(gamma T_p))] cos(2 pi t/T_p + nu).
 

@@ -84,9 +84,9 @@ def fit(
             if misfit < best:
                 best, kept = misfit, current
             improved = _improved(model, variability, error)
-            if (
-                iteration >= iterations // 2
-            ):  # another modulation makes other motions of the same random numbers: the spectrum settles last
+            # another modulation makes other motions of the same random numbers: once it is
+            # kept, the spectrum settles
+            if iteration >= iterations // 2:
                 improved = dataclasses.replace(
                     improved,
                     duration_s=current.duration_s,

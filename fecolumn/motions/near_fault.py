@@ -242,7 +242,9 @@ def near_fault_ensemble(
 
 
 def _back(spectra: np.ndarray, lowered, low_cut: float, dt: float) -> np.ndarray:
-    """Accelerations of lowered spectra, filtered, starting and ending at rest without displacement."""
+    """Accelerations of lowered spectra, filtered, starting and ending at rest without
+    displacement.
+    """
     n_steps = 2 * (spectra.shape[1] - 1)
     omega = 2 * math.pi * np.fft.rfftfreq(n_steps, dt)
     amplitude = np.abs(spectra)

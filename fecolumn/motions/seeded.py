@@ -109,6 +109,7 @@ def read_model(path) -> SeededModel:
 
 
 def check_components(components: Components, path) -> None:
+    """Refuse component tables that lack one value for each of the two directions."""
     for field in ("arias_ratio", "frequency_hz", "frequency_slope_hz_s", "damping"):
         if len(getattr(components, field)) != 2:
             raise InputError(
@@ -120,6 +121,7 @@ def check_components(components: Components, path) -> None:
 
 
 def check_target(target: Target, path) -> None:
+    """Refuse a target spectrum whose ordinates are not one for each period."""
     if len(target.periods_s) != len(target.sa_g):
         raise InputError(
             path,

@@ -4,8 +4,10 @@ process made of harmonics.
 Model of Rezaeian and Der Kiureghian (2008, 2010) in its spectral form (after Broccardo and Dabaghi
 2017). One component is
 
-    a(t) = q(t)/s(t) sum_k sqrt(2 S(w_k, t) dw) (u_k cos w_k t + v_k sin w_k t),   u_k, v_k ~ N(0, 1),   s^2 = sum_k 2 S dw,
-    S(w, t) = |H_f(w; t)|^2 G(w),   H_f = w_f^2 / (w_f^2 - w^2 + 2 i z w_f w),   w_f(t) = w_mid + w' (t - t_mid),
+    a(t) = q(t)/s(t) sum_k sqrt(2 S(w_k, t) dw) (u_k cos w_k t + v_k sin w_k t),
+    u_k, v_k ~ N(0, 1),   s^2 = sum_k 2 S dw,
+    S(w, t) = |H_f(w; t)|^2 G(w),   H_f = w_f^2 / (w_f^2 - w^2 + 2 i z w_f w),
+    w_f(t) = w_mid + w' (t - t_mid),
     q(t)^2 = Ia 2 g/pi p(t),   p the density of a gamma law in time.
 
 The product goes through a high-pass without phase shift, Butterworth's of fourth order (Dabaghi and

@@ -54,6 +54,7 @@ class Agreement:
 
     @property
     def within(self) -> bool:
+        """Whether the median differs from the target by no more than the tolerance."""
         return abs(self.median / self.target - 1) <= self.tolerance
 
 

@@ -25,7 +25,7 @@ _WORDS = {
 
 
 def axis_text(key: str, value) -> str:
-    """Text such as "$\\Delta t$ = 0.001 s" for the dotted key `integration.dt_s`."""
+    r"""Text such as "$\Delta t$ = 0.001 s" for the dotted key `integration.dt_s`."""
     if isinstance(value, dict):
         return ", ".join(axis_text(f"{key}.{inner}", item) for inner, item in value.items())
     unit = axis_unit(key)
@@ -35,7 +35,9 @@ def axis_text(key: str, value) -> str:
 
 
 def axis_words(key: str) -> str:
-    """Last word of a key without its unit, after the part it belongs to where others have it, too."""
+    """Last word of a key without its unit, after the part it belongs to where others have it,
+    too.
+    """
     if key in _WORDS:
         return _WORDS[key]
     section, _, last = key.rpartition(".")

@@ -6,18 +6,19 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fecolumn.content import content
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.render.pose import poses
 from fecolumn.render.quantity import Quantity
-from fecolumn.render.solid import solid_of
-from fecolumn.render.strips import LIFTED, uplift
-from fecolumn.results.analysis import AnalysisResult
+from fecolumn.render.strips import LIFTED
 from fecolumn.schema import InputError, stated
 from fecolumn.structures.case import StructureCase
+
+if TYPE_CHECKING:
+    from fecolumn.results.analysis import AnalysisResult
 
 #: Difference at which two histories have parted, over the larger of their peaks [-]: a twentieth is
 #: seen in a figure

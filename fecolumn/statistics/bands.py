@@ -1,5 +1,4 @@
-"""Confidence bands of distributions and of probabilities: pointwise, simultaneous, and by
-resampling.
+"""Confidence bands of distributions and of probabilities: pointwise and simultaneous.
 
 A pointwise band holds the true F with the stated confidence at one u chosen beforehand, a
 simultaneous one at all u together. A curve of another ensemble may leave a pointwise band somewhere
@@ -107,47 +106,6 @@ def dkw_distance(n, confidence: float = 0.95):
     if not 0 < confidence < 1:
         raise ValueError(f"confidence = {confidence}: must lie in (0, 1)")
     return np.sqrt(math.log(2 / (1 - confidence)) / (2 * np.asarray(n, float)))[()]
-
-
-def bootstrap_band(
-    u_max, overturned, grid, confidence: float = 0.95, resamples: int = 2000, seed: int = 0
-) -> tuple[np.ndarray, np.ndarray]:
-    """Pointwise percentile band of F by drawing runs anew with replacement (Efron 1979, Ann.
-
-    Stat. 7).
-
-    Close to Greenwood's band and, like it, of no width beyond the extreme runs.
-
-    Parameters
-    ----------
-    u_max
-        (n,) [m]; ignored where the run overturned.
-    overturned
-        (n,) True where the column overturned.
-    grid
-        (m,) rising displacements at which F is wanted [m].
-    confidence
-        level, in (0, 1).
-    resamples
-        number of samples drawn.
-    seed
-        of the generator.
-
-    Returns
-    -------
-    lower, upper: (m,) each.
-    """
-    from fecolumn.statistics.ecdf import censored
-
-    u, grid = censored(u_max, overturned), np.asarray(grid, float)
-    if grid.ndim != 1 or (np.diff(grid) < 0).any():
-        raise ValueError("grid must be a rising list of displacements")
-    shares = np.bincount(np.searchsorted(grid, u), minlength=grid.size + 1) / u.size
-    drawn = np.random.default_rng(seed).multinomial(u.size, shares, size=resamples)
-    cdfs = np.cumsum(drawn[:, :-1], axis=1) / u.size
-    tail = (1 - confidence) / 2
-    lower, upper = np.quantile(cdfs, (tail, 1 - tail), axis=0)
-    return lower, upper
 
 
 def normal_quantile(confidence: float) -> float:

@@ -1,4 +1,4 @@
-"""Does the peak of one and the same motion rise or fall along the levels of a parameter?"""
+"""Test whether the peak of one and the same motion rises or falls with a parameter."""
 
 from __future__ import annotations
 

@@ -2,13 +2,15 @@
 
 [axes]                                      # full product; keys of the case, values in lists
 "integration.dt_s" = [0.02, 1e-3]
-"motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*", "lick:1-40"]   # every motion of the ensemble, some of it
+# a file, one motion of a set, every motion of an ensemble, some motions of an ensemble
+"motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*", "lick:1-40"]
 
-[[zip]]                                     # lists of one length whose values go together, one factor of the product
+[[zip]]                # lists of one length whose values go together: one factor of the product
 "column.height_m" = [1.0, 1.5, 2.0]
 "column.outer_diameter_m" = [0.1, 0.15, 0.2]
 
-[latin_hypercube]                           # random, evenly spread samples of ranges [low, high], one factor of the product
+# random, evenly spread samples of ranges [low, high]: one factor of the product
+[latin_hypercube]
 samples = 50
 seed = 1
 "contact.friction_coefficient" = [0.2, 0.8]

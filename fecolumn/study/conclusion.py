@@ -71,7 +71,9 @@ def conclusion(plan: Plan, rows: list[dict]) -> str:
 
 
 def settings_of(plan: Plan, rows) -> list[tuple[dict, dict]]:
-    """Axis values and, by motion, the summary of what is done, of each setting with anything done."""
+    """Axis values and, by motion, the summary of what is done, of each setting with anything
+    done.
+    """
     states = {row["id"]: row for row in rows}
     groups: dict[tuple, tuple[dict, dict]] = {}
     for analysis in plan.analyses:

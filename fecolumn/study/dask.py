@@ -104,12 +104,15 @@ class DaskTeam:
 
     @property
     def at_work(self) -> bool:
+        """Whether some task's outcome has not been collected yet."""
         return bool(self._in_hand)
 
     def wants(self, depth: int) -> bool:
+        """Whether another batch may be given when every worker may have `depth` of them."""
         return len(self._in_hand) < depth * self.size
 
     def give(self, batch: list[Task]) -> None:
+        """Submit a batch to the scheduler, with absolute paths: workers run in other folders."""
         batch = [
             task._replace(folder=task.folder.resolve(), log=task.log.resolve()) for task in batch
         ]  # workers have folders of their own
@@ -117,6 +120,7 @@ class DaskTeam:
         self._in_hand[future.key] = future, batch
 
     def collect(self, timeout_s: float) -> list[Outcome]:
+        """Outcomes of the tasks that ended, after waiting at most `timeout_s` [s] for one."""
         from distributed import CancelledError, wait
 
         self._look()
@@ -177,6 +181,7 @@ class DaskTeam:
         return StudyError(f"the scheduler {self._client.scheduler.address} is out of reach")
 
     def stop(self) -> None:
+        """Cancel all batches that have not ended."""
         with contextlib.suppress(Exception):  # a scheduler that is gone has nothing to cancel
             self._client.cancel([future for future, _ in self._in_hand.values()], force=True)
         self._in_hand = {}

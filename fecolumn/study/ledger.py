@@ -27,7 +27,7 @@ CREATE TABLE IF NOT EXISTS analysis (
     motion  TEXT,               -- digest of the motion's files, or its name where it is no file
     state   TEXT NOT NULL CHECK (state IN ('planned', 'running', 'done', 'failed')),
     reason  TEXT,               -- why it failed
-    log     TEXT,               -- file with the traceback of a failure, relative to the study's folder
+    log     TEXT,               -- traceback of a failure: file, relative to the study's folder
     wall_s  REAL,               -- wall time of the worker
     started REAL,               -- seconds since the epoch
     machine TEXT,               -- name and processor of the machine it was done on

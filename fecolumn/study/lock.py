@@ -101,6 +101,7 @@ class FolderLock:
             lock.flush()
 
     def close(self) -> None:
+        """Release the locks."""
         while self._files:
             self._files.pop().close()
 

@@ -1,4 +1,6 @@
-"""Workers on many machines: the ranks of `mpirun -n N fecolumn study ...`, of which rank 0 drives."""
+"""Workers on many machines: the ranks of `mpirun -n N fecolumn study ...`, of which rank 0
+drives.
+"""
 
 from __future__ import annotations
 
@@ -88,15 +90,19 @@ class MpiTeam:
 
     @property
     def at_work(self) -> bool:
+        """Whether some task's outcome has not been collected yet."""
         return bool(self._futures)
 
     def wants(self, depth: int) -> bool:
+        """Whether another batch may be given when every worker may have `depth` of them."""
         return len(self._futures) < depth * self.size
 
     def give(self, batch: list[Task]) -> None:
+        """Submit a batch to the ranks."""
         self._futures.add(self._pool.submit(_serve, batch, *self._told))
 
     def collect(self, timeout_s: float) -> list[Outcome]:
+        """Outcomes of the tasks that ended, after waiting at most `timeout_s` [s] for one."""
         ended, self._futures = wait(self._futures, timeout=timeout_s, return_when=FIRST_COMPLETED)
         outcomes = []
         for future in ended:
@@ -107,6 +113,7 @@ class MpiTeam:
         return outcomes
 
     def stop(self) -> None:
+        """Cancel the batches that have not begun."""
         for future in self._futures:
             future.cancel()
 

@@ -59,7 +59,9 @@ def setting_of(values: dict) -> dict:
 
 
 def member_of(values: dict) -> tuple[str, ...]:
-    """Of an analysis' values by axis, those that tell the members of its ensemble apart, as text."""
+    """Of an analysis' values by axis, those that tell the members of its ensemble apart, as
+    text.
+    """
     return tuple(repr(value) for key, value in values.items() if key in ENSEMBLE_AXES)
 
 
@@ -204,7 +206,9 @@ class _Maker:
         self.keys = tuple(key for factor in factors for key in factor.keys)
 
     def analysis(self, places: tuple[int, ...]) -> Analysis:
-        """The analysis at a level of each factor; an error names the study file and the key there."""
+        """The analysis at a level of each factor; an error names the study file and the key
+        there.
+        """
         levels = tuple(
             value for factor, place in zip(self.factors, places) for value in factor.levels[place]
         )

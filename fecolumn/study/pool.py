@@ -46,14 +46,17 @@ class LocalPool:
 
     @property
     def at_work(self) -> bool:
+        """Whether some task's outcome has not been collected yet."""
         return any(worker.tasks for worker in self._workers)
 
     def wants(self, depth: int) -> bool:
+        """Whether another batch may be given when every worker may have `depth` of them."""
         return len(self._workers) < self.size or any(
             len(worker.batches) < depth for worker in self._workers
         )
 
     def give(self, batch: list[Task]) -> None:
+        """Hand a batch to a new process up to `size` of them, then to the least busy one."""
         if len(self._workers) < self.size:
             self._workers.append(_Worker(self._entry, self._file))
             worker = self._workers[-1]
@@ -62,6 +65,7 @@ class LocalPool:
         worker.give(batch)
 
     def collect(self, timeout_s: float) -> list[Outcome]:
+        """Outcomes of the tasks that ended, after waiting at most `timeout_s` [s] for one."""
         outcomes = []
         answered = wait([worker.connection for worker in self._workers], timeout=timeout_s)
         for worker in [worker for worker in self._workers if worker.connection in answered]:
@@ -93,6 +97,7 @@ class LocalPool:
         return list(outcomes_of_dead(worker.tasks.values(), reason, worker.ready))
 
     def stop(self) -> None:
+        """Kill the processes; what they have in hand is lost."""
         for worker in self._workers:
             worker.stop()
         self._workers = []
@@ -182,7 +187,9 @@ def _serve(connection, entry: str, file: str) -> None:
 
 
 def _listen(connection, batches) -> None:
-    """Take batches at once: a driver that had to wait with one could not take outcomes meanwhile."""
+    """Take batches at once: a driver that had to wait with one could not take outcomes
+    meanwhile.
+    """
     try:
         while True:
             batches.put(connection.recv())

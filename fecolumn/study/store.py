@@ -167,9 +167,11 @@ class Store:
         return self.ledger.rows()
 
     def result_folder(self, case_id: str) -> Path:
+        """Folder of the results of one analysis."""
         return self.folder / "analyses" / case_id
 
     def log_file(self, case_id: str) -> Path:
+        """File with the output and traceback of one analysis."""
         return self.folder / "logs" / f"{case_id}.log"
 
     def task(self, analysis: Analysis) -> Task:
@@ -183,6 +185,7 @@ class Store:
         self.ledger.end(outcome, f"logs/{outcome.id}.log")
 
     def close(self) -> None:
+        """Close the ledger and release the study's lock."""
         self.ledger.close()
         self._lock.close()
 

@@ -1,4 +1,6 @@
-"""Small systems to verify: the specimen on a coarse mesh, and blocks of bricks on blocks of bricks."""
+"""Small systems to verify: the specimen on a coarse mesh, and blocks of bricks on blocks of
+bricks.
+"""
 
 from __future__ import annotations
 

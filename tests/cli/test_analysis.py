@@ -17,8 +17,9 @@ from fecolumn import simulation
 from fecolumn.cli import main
 from fecolumn.dynamics.energy import TERMS
 
-KEYS = """engine kinematics dofs steps dt alpha_hht duration_s u_max_m overturned residual_slide_m wall_s s_per_step
-iterations factorizations energy_closure_rel version case_id""".split()
+KEYS = """engine kinematics dofs steps dt alpha_hht duration_s u_max_m overturned
+residual_slide_m wall_s s_per_step iterations factorizations
+energy_closure_rel version case_id""".split()
 UNITS = {
     "time": "s",
     "u_top": "m",

@@ -32,7 +32,9 @@ GIVES, DEEP = 1e-9, 1e-6
 
 
 def flat(compliance=None):
-    """A base of one facet, 4 m wide; compliance: (12, 12) [m/N] of its corners, rigid unless given."""
+    """A base of one facet, 4 m wide; compliance: (12, 12) [m/N] of its corners, rigid unless
+    given.
+    """
     side = np.array([-2.0, 2.0])
     return base_of(
         side,

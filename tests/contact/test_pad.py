@@ -8,7 +8,9 @@ INTERFACE = {"on_pad": True}
 
 
 def pad(stiffness: float, relaxation: float, dt: float = 1e-3):
-    """One point on a pad: its points and springs in a step, and what it carries before and after."""
+    """One point on a pad: its points and springs in a step, and what it carries before and
+    after.
+    """
     points = node_points(np.zeros((1, 3)), 0.5, springs=np.full((1, 3), stiffness))
     return (
         points,

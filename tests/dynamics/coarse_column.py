@@ -1,4 +1,6 @@
-"""A coarse column for the tests of the engine: a hundred-millimetre tube with cap on a small base."""
+"""A coarse column for the tests of the engine: a hundred-millimetre tube with cap on a small
+base.
+"""
 
 from mpi4py import MPI
 

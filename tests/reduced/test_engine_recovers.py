@@ -17,7 +17,7 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.history import read_history
 from fecolumn.reduced import cache
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 
 STEPS, DT = 300, 1e-3
 
@@ -43,7 +43,7 @@ def sliding(engine, max_cuts=4):
         state.v[:, 0] = 1.5
         return state
 
-    made = begin(engine, system, pushed, n_modes=6).engine
+    made = begin_trial(engine, system, pushed, n_modes=6).engine
     made.max_cuts = max_cuts
     return made
 
