@@ -13,7 +13,7 @@ from fecolumn.result_folder import held
 from fecolumn.rocking.table_case import TableCase
 from fecolumn.schema import InputError
 from fecolumn.sources import code, code_text
-from fecolumn.structures.case import StructureCase
+from fecolumn.structures.case import StructureCase, check
 from fecolumn.summary import NAME, read_summary
 
 __all__ = ["AnalysisFailed", "read_folder_case", "run"]
@@ -69,6 +69,7 @@ def run(
             "see fecolumn.read_case"
         )
     folder, file = Path(folder), file or "case"
+    check(case, file)
     with held(folder, case, comm, file) as claim:
         summary, damage = comm.bcast(_earlier_summary(folder, case.id) if comm.rank == 0 else None)
         if summary:

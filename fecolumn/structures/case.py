@@ -33,7 +33,7 @@ from fecolumn.content import content
 from fecolumn.files import is_file
 from fecolumn.paths import OF_BODIES as FILES
 from fecolumn.schema import InputError, build, meant, merge, nested, stated
-from fecolumn.short_form import ShortForm, full_tables, in_short_form, short_form
+from fecolumn.short_form import ALIKE, ShortForm, full_tables, in_short_form, short_form
 from fecolumn.structures.keys import (
     GROUND,
     KINDS,
@@ -92,6 +92,22 @@ class StructureCase:
     motion: Motion | None = None
     mesh: Mesh = Mesh()
     short: ShortForm | None = field(default=None, compare=False, repr=False)
+
+    def __post_init__(self):
+        """Refuse sections of another kind; a section that is not that of the short form makes a
+        case of the full one.
+
+        Raises
+        ------
+        InputError
+            names the section.
+        """
+        for name, kind in COMMON.items():
+            value = getattr(self, name)
+            if not isinstance(value, kind) and not (name == "motion" and value is None):
+                raise InputError("case", name, value, f"must be a {kind.__name__}")
+        if self.short and any(getattr(self, name) != getattr(self.short, name) for name in ALIKE):
+            object.__setattr__(self, "short", None)
 
     @property
     def id(self) -> str:
