@@ -136,7 +136,7 @@ def find_impact(
     points,
     interfaces,
     springs,
-    listed,
+    union,
     arms,
     poses,
     before,
@@ -145,7 +145,7 @@ def find_impact(
     late,
     landing,
     turning,
-    lands,
+    moment,
     dt,
     contact_work,
     counts,
@@ -161,20 +161,19 @@ def find_impact(
 
     Parameters
     ----------
-    listed
-        (k,) points that may carry.
+    union
+        (k,) points that carry at the start or at the end of the step, as of `touched`.
     arms
         (n, 3) of the points on their slaves at the end of the step [m].
     early, late
         (n, 3) velocities [m/s], relative to the master, at least of the points that carry.
-    lands
-        whether a point lands, else slip ends.
+    moment
+        fraction of the step at which points land, as of `landing_moment`; nan where slip ends.
     contact_work
         energy that contact added in the step [J].
     """
     impulses = np.zeros((len(after), 3))
-    union = touched(listed, before, after)
-    k = len(union)
+    k, lands = len(union), moment >= 0.0
     mobility = np.empty((3 * k, 3 * k))
     assemble(
         bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, mobility
@@ -197,11 +196,8 @@ def find_impact(
     free = np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
-    moment = (
-        landing_moment(union, before, after, early, landing, dt)
-        if lands
-        else _turning_moment(points, before, after, start, free, pushed, union, turning)
-    )
+    if not lands:
+        moment = _turning_moment(points, before, after, start, free, pushed, union, turning)
     second, velocity, taken = np.zeros(3 * k), np.empty(3 * k), 0.0
     carried, carried_before, guess_of_all, changed = (
         np.zeros(3 * k),

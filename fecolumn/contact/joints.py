@@ -126,8 +126,8 @@ def joints_of(parts, joints) -> Joints:
     for k, joint in enumerate(joints):
         if joint.pair >= 0:
             points[joint.pair], points[k] = overlaps.add(
-                _side_of(parts, joints, joint.pair, joint.corners[1], interfaces, points),
-                _side_of(parts, joints, k, joint.corners[0], interfaces, points),
+                _side_of(parts, joints, joint.pair, joint.outlines[1], interfaces, points),
+                _side_of(parts, joints, k, joint.outlines[0], interfaces, points),
             )
     firsts = np.cumsum([0] + [len(own) for own in points])
     rim = np.concatenate([own + start for own, start in zip(rims, firsts)])
@@ -141,9 +141,9 @@ def joints_of(parts, joints) -> Joints:
     )
 
 
-def _side_of(parts, joints, k: int, corners: np.ndarray, interfaces, points) -> tuple:
-    """Interface k as `OverlapBuilder.add` takes it; corners: (n, 3) [m] of its slave's face from
-    the centre of mass.
+def _side_of(parts, joints, k: int, outline: np.ndarray, interfaces, points) -> tuple:
+    """Interface k as `OverlapBuilder.add` takes it; outline: (n, 2, 3) [m] ends of the sides of its
+    slave's face from the centre of mass.
     """
     body = parts[joints[k].slave].model
     surface = body.surfaces[joints[k].slave_surface]
@@ -153,7 +153,7 @@ def _side_of(parts, joints, k: int, corners: np.ndarray, interfaces, points) -> 
         away = np.linalg.norm(places - places.mean(axis=0), axis=1)
         rim = places[away > away.max() * (1 - 1e-6)]
         circle = rim.mean(axis=0), float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).mean())
-    return k, points[k], places, surface.plane(corners)[:, :2], circle
+    return k, points[k], places, surface.plane(outline)[..., :2], circle
 
 
 def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:

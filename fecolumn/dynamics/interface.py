@@ -155,7 +155,7 @@ class Interface:
                 values,
                 mask,
                 mask,
-                True,
+                1.0,
                 1.0,
                 1.0,
                 self.counts,

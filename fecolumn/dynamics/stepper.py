@@ -11,8 +11,10 @@ from fecolumn.contact.impact import (
     LANDS,
     NOTHING,
     find_impact,
+    landing_moment,
     mark_landing,
     mark_turning,
+    touched,
     what_happens,
 )
 from fecolumn.contact.pose import frames_at
@@ -403,13 +405,18 @@ class Stepper:
         )
         if happens == NOTHING:
             return
+        union, moment = interpreted(touched)(listed, before, after.contact), np.nan
+        if happens == LANDS:
+            moment = interpreted(landing_moment)(
+                union, before, after.contact, early, landing, hht.dt
+            )
         answer, pushed, impulses = find_impact(
             interface.bodies,
             interface.surface,
             interface.points,
             interface.interfaces,
             springs,
-            listed,
+            union,
             interface.points["arm"].copy(),
             poses,
             before,
@@ -418,7 +425,7 @@ class Stepper:
             late,
             landing,
             turning,
-            happens == LANDS,
+            moment,
             hht.dt,
             contact_work,
             interface.counts,

@@ -13,6 +13,7 @@ from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
 from fecolumn.contact.arrays import arrays_of
+from fecolumn.contact.gathered import base_to_resume, gather_again
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.pad import pad_of
 from fecolumn.contact.problem import list_present
@@ -24,8 +25,10 @@ from fecolumn.dynamics.overturning import STANDS
 from fecolumn.progress import Progress
 from fecolumn.reduced import start
 from fecolumn.reduced.cache import load_model
+from fecolumn.reduced.engine import Engine, column_engine
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import Engine, advance, column_engine
+from fecolumn.reduced.rigid_loss import loss_share
+from fecolumn.reduced.run import advance
 from fecolumn.reduced.states import States, state_of
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
@@ -194,7 +197,7 @@ class ReducedAnalysis(Analysis):
         )
 
     def rigid_loss_share(self) -> float | None:
-        return self.engine.rigid_loss_share
+        return loss_share(self.engine.ledger, self.engine.structure.interfaces)
 
     def _advance(self, count: int) -> bool:
         """So many steps at most; whether the column is lost or at rest.
@@ -256,7 +259,7 @@ class ReducedAnalysis(Analysis):
         np.savez(
             content,
             **arrays,
-            **self.engine.base_to_resume(),
+            **base_to_resume(self.engine.surface),
             **self.to_resume(),
             **(self.states.to_resume() if self.states else {}),
         )
@@ -283,11 +286,12 @@ class ReducedAnalysis(Analysis):
                 saved[name].dtype, values.dtype, "equiv"
             ):
                 raise ValueError(f"{name} does not fit")
-        base = saved["base.known"], saved["base.gathered"]
+        known, gathered = saved["base.known"], saved["base.gathered"]
         self.resumed(saved)
         if self.states:
             self.states.resumed(saved)
         for name, values in targets.items():
             values[...] = saved[name]
-        self.engine.resume_base(*base)
+        self.engine.know_base(known)
+        gather_again(self.engine.surface, gathered)
         interpreted(list_present)(self.engine.work.problem, self.engine.work.points)

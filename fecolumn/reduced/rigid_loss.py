@@ -37,6 +37,15 @@ from fecolumn.reduced.ledger import (
 )
 
 
+def loss_share(ledger: np.ndarray, interfaces: np.ndarray) -> float | None:
+    """What impacts have taken over what those of rigid bodies would have; None where none counts,
+    or they give back by a coefficient of restitution.
+    """
+    if ledger[RIGID_LOSS] == 0 or interfaces["restitution"].any():
+        return None
+    return float(ledger[TAKEN] / ledger[RIGID_LOSS])
+
+
 @njit
 def rigid_energy(structure, motion, ledger):
     """Energy [J] of the rigid motion, and of weight and links, less what base, rolling and links

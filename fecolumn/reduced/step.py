@@ -361,20 +361,17 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
     )
     if happens == NOTHING:
         return OK
-    arms = np.zeros((len(points), 3))
-    for i in touched(listed, before, end.contact):
+    arms, union, moment = (
+        np.zeros((len(points), 3)),
+        touched(listed, before, end.contact),
+        np.nan,
+    )
+    for i in union:
         _find_velocities(structure, work, i, start, end)
         for a in range(3):
             arms[i, a] = points[i].arm[a] + elastic.point[END, i, a]
     if happens == LANDS:
-        moment = landing_moment(
-            touched(listed, before, end.contact),
-            before,
-            end.contact,
-            work.early,
-            work.landing,
-            scheme.dt,
-        )
+        moment = landing_moment(union, before, end.contact, work.early, work.landing, scheme.dt)
         begin_impact(structure, work, start, end, scheme.dt, moment, booked, ledger)
     answer, pushed, impulses = find_impact(
         structure.bodies,
@@ -382,7 +379,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
         points,
         interfaces,
         scheme.springs,
-        listed,
+        union,
         arms,
         work.poses[END],
         before,
@@ -391,7 +388,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
         work.late,
         work.landing,
         work.turning,
-        happens == LANDS,
+        moment,
         scheme.dt,
         contact_work,
         counts,

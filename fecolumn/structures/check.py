@@ -14,7 +14,7 @@ from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
 from fecolumn.schema import InputError
 from fecolumn.structures import keys
 from fecolumn.structures.model import GROUND
-from fecolumn.structures.place import touching
+from fecolumn.structures.place import footing
 
 #: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
 MOST_POINTS = 1000
@@ -176,10 +176,10 @@ def _to_surface(drawing, point) -> float:
 
 
 def check_joints(joints, standing, file) -> None:
-    """Refuse slaves that hardly have a node on their master."""
+    """Refuse slaves that hardly have a place at which they stand on their master."""
     count = Counter()
     for joint in joints:
-        count[frozenset((joint.slave, joint.master))] += len(touching(standing, joint))
+        count[frozenset((joint.slave, joint.master))] += len(footing(standing, joint))
     for joint in joints:
         if count[frozenset((joint.slave, joint.master))] < (
             1 if joint.ball and joint.ball.is_dome else 3
@@ -243,12 +243,8 @@ def check_rest(case, structure, standing, file) -> None:
     for joint in structure.joints:
         slave = standing[joint.slave]
         surface = slave.model.surfaces[joint.slave_surface]
-        for row in touching(standing, joint):
-            point = (
-                slave.center
-                + slave.model.arms[surface.nodes[row]]
-                + (joint.ball.radius * surface.normal if joint.ball else 0.0)
-            )
+        for place in footing(standing, joint):
+            point = place + (joint.ball.radius * surface.normal if joint.ball else 0.0)
             for angle in (
                 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS if joint.friction else [None]
             ):

@@ -177,10 +177,9 @@ class Joint:
     Coulomb's coefficient. law: (k, 3) [m/N] compliance of the contact law at each point, zero for a
     rigid interface. round: whether the slave's outer outline is a round rim, on which it rolls.
     restitution: velocity after over before an impact. ball: of a slave whose foot is not flat.
-    pair, corners: of a joint with the roles exchanged, by which a joint has two sides: place of the
-    joint that it belongs to, -1 of
-        others; (n, 3), (m, 3) [m] corners of the outlines of the slave's and the master's face from
-            the centres of mass,
+    pair, outlines: of a joint with the roles exchanged, by which a joint has two sides: place of
+        the joint that it belongs to, -1 of others; (n, 2, 3), (m, 2, 3) [m] ends of the sides of
+        the outlines of the slave's and the master's face from the centres of mass,
         counter-clockwise seen from outside.
     """
 
@@ -195,7 +194,7 @@ class Joint:
     restitution: float
     ball: Ball | None = None
     pair: int = -1
-    corners: tuple[np.ndarray, ...] = ()
+    outlines: tuple[np.ndarray, ...] = ()
 
 
 @dataclass(frozen=True)

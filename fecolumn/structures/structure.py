@@ -265,9 +265,9 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
         case.contact, **{key: value for key, value in own.items() if value is not None}
     )
     surface = model.surfaces[contact["slave_surface"]]
-    corners = tuple(
+    outlines = tuple(
         np.array(own) - bodies[of[0]].center
-        for own, of in zip(contact["corners"], (contact["slave"], master))
+        for own, of in zip(contact["outlines"], (contact["slave"], master))
     )
     if contact_keys.law == "penalty" and body not in sizes:
         raise InputError(
@@ -302,7 +302,7 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
         contact_keys.restitution,
         ball,
         contact["pair"],
-        corners,
+        outlines,
     )
 
 

@@ -17,9 +17,9 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced import start as starts
 from fecolumn.reduced.build import column_model
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
+from fecolumn.reduced.engine import column_engine
 from fecolumn.reduced.motion import copy
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import column_engine
 from fecolumn.verification.trial import N_MODES, Trial
 
 # what is known of a body: making it takes seconds, and one body serves many trials

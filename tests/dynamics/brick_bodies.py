@@ -16,7 +16,7 @@ from fecolumn.fem.body import Body
 from fecolumn.fem.effective import blocks, unit_loads
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.modes import elastic_modes
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts as reduced_of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
