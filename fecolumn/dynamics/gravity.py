@@ -72,7 +72,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
     """
     bodies, interface, links = system.bodies, system.interface, system.links
     state = system.unstrained(bodies.placed)
-    firmness, turned = _firmness(system), state.rotation
+    firmness, turned = _firmness(system), bodies.rotations
     factors, load, pulls, straight = (firmness, 1.0), system.load(np.zeros(3)), None, 0.0
 
     def proximal_step():
@@ -83,7 +83,6 @@ def standing(system, tolerance: float = 1e-9) -> State:
             load=load,
             start=state.x,
             scale=1.0,
-            beside=1.0,
             before=before,
             dt=np.inf,
             rotation=turned,

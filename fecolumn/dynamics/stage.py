@@ -48,7 +48,6 @@ class Stage:
     load: np.ndarray
     start: np.ndarray
     scale: float
-    beside: float
     before: np.ndarray
     dt: float
     rotation: np.ndarray
@@ -59,6 +58,7 @@ class Stage:
     shares: tuple[float, float] = (0.0, 0.0)
     held: np.ndarray | None = None
     turns: bool = False
+    beside: float = 1.0
     place: np.ndarray | None = None
     internal: np.ndarray | None = None
     levers: np.ndarray | None = None

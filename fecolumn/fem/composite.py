@@ -39,6 +39,8 @@ class Composite:
             for name in ("X", "arms", "mass_arms")
         )
         self.unturned = np.tile(np.eye(3), (len(parts), 1, 1))
+        #: As they are placed (nb, 3, 3).
+        self.rotations = np.array(rotations, float)
         #: Unstrained positions (n_owned, 3) in the table frame [m].
         self.placed = self.places(centers, rotations)
         places = np.concatenate(
@@ -60,12 +62,16 @@ class Composite:
 
     def places(self, centers, rotations) -> np.ndarray:
         """Positions (n_owned, 3) [m] of the unstrained bodies with centres of mass (nb, 3), turned
-        by (nb, 3, 3).
+        by (nb, 3, 3); of one that is where it is drawn without any rounding.
         """
+        drawn = [
+            np.array_equal(center, part.center) and np.array_equal(R, np.eye(3))
+            for part, center, R in zip(self.parts, centers, rotations)
+        ]
         return np.concatenate(
             [
-                center + (part.X - part.center) @ R.T
-                for part, center, R in zip(self.parts, centers, rotations)
+                part.X if is_drawn else center + (part.X - part.center) @ R.T
+                for part, center, R, is_drawn in zip(self.parts, centers, rotations, drawn)
             ]
         )
 
