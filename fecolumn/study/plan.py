@@ -13,6 +13,8 @@ output.states_every_s = 0.
 
 from __future__ import annotations
 
+from typing import Any
+
 import dataclasses
 import hashlib
 import itertools
@@ -69,12 +71,12 @@ _KINDS = {
 }
 
 
-def setting_of(values: dict) -> dict:
+def setting_of(values: dict[str, Any]) -> dict[str, Any]:
     """Of an analysis' values by axis, those that name the ensemble it belongs to."""
     return {key: value for key, value in values.items() if key not in ENSEMBLE_AXES}
 
 
-def member_of(values: dict) -> tuple[str, ...]:
+def member_of(values: dict[str, Any]) -> tuple[str, ...]:
     """Of an analysis' values by axis, those that tell the members of its ensemble apart, as
     text.
     """
@@ -99,7 +101,7 @@ class Analysis:
 
     __slots__ = ("case", "id", "keys", "levels", "duration_s")
 
-    def __init__(self, case: Case, case_id: str, keys: tuple[str, ...], levels: tuple):
+    def __init__(self, case: Case, case_id: str, keys: tuple[str, ...], levels: tuple[Any, ...]):
         self.case, self.id, self.keys, self.levels = case, case_id, keys, levels
         self.duration_s = case.integration.duration_s or 1.0
 
@@ -109,7 +111,7 @@ class Analysis:
         return dict(zip(self.keys, self.levels))
 
     @property
-    def combination(self) -> dict:
+    def combination(self) -> dict[str, Any]:
         """The values that name the ensemble this analysis belongs to."""
         return setting_of(self.values)
 
@@ -132,9 +134,9 @@ class Plan:
 
     file: Path
     title: str
-    axes: dict[str, tuple]
+    axes: dict[str, tuple[Any, ...]]
     analyses: tuple[Analysis, ...]
-    case: dict
+    case: dict[str, Any]
 
     @property
     def id(self) -> str:
@@ -186,7 +188,7 @@ def read_plan(path) -> Plan:
     return Plan(path, tables.get("title", "") or path.stem, axes, analyses, common)
 
 
-def _defaults(case: dict) -> dict:
+def _defaults(case: dict[str, Any]) -> dict[str, Any]:
     """DEFAULTS; of a rocking model's own table without bodies the engine follows from the table."""
     alone = not {"bodies", "column"} & set(case) and any(name in case for name in TABLES)
     return {
@@ -194,7 +196,7 @@ def _defaults(case: dict) -> dict:
     }
 
 
-def _case_tables(case, path: Path) -> dict:
+def _case_tables(case, path: Path) -> dict[str, Any]:
     """Tables of the case all analyses share."""
     if case is None:
         raise InputError(
@@ -227,12 +229,12 @@ class _Maker:
     values they depend on, and shared.
     """
 
-    def __init__(self, common: dict, factors: list[Factor], path: Path):
+    def __init__(self, common: dict[str, Any], factors: list[Factor], path: Path):
         self.common, self.factors, self.path = common, factors, path
         self.keys = tuple(key for factor in factors for key in factor.keys)
         # section: (place of the factor, place of the value in its level, key) of the values it
         # depends on
-        self.touched: dict[str, list] = {}
+        self.touched: dict[str, list[Any]] = {}
         for place, factor in enumerate(factors):
             for number, key in enumerate(factor.keys):
                 self.touched.setdefault(key.partition(".")[0], []).append((place, number, key))
@@ -240,8 +242,8 @@ class _Maker:
             name: tuple({place: None for place, _, _ in values})
             for name, values in self.touched.items()
         }
-        self.made: dict[tuple, tuple] = {}
-        self.texts: dict[tuple, str] = {}
+        self.made: dict[tuple[Any, ...], tuple[Any, ...]] = {}
+        self.texts: dict[tuple[Any, ...], str] = {}
         self.first = None
 
     def analysis(self, places: tuple[int, ...]) -> Analysis:
@@ -325,7 +327,7 @@ class _Maker:
             self._refuse_missing(section)
         return section, section_text(name, section)
 
-    def _tables(self, places) -> dict:
+    def _tables(self, places) -> dict[str, Any]:
         tables = self.common
         for factor, place in zip(self.factors, places):
             for key, value in zip(factor.keys, factor.levels[place]):
