@@ -9,11 +9,18 @@ from __future__ import annotations
 
 import math
 from statistics import NormalDist
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+if TYPE_CHECKING:
+    from fecolumn.statistics.ecdf import Ecdf
+from numpy.typing import ArrayLike, NDArray
 
-def greenwood(cdf, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+
+def greenwood(
+    cdf: ArrayLike, n: int, confidence: float = 0.95
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Pointwise band F +- z sqrt(F (1 - F) / n), clipped to [0, 1] (Greenwood 1926; what MATLAB's
     `ecdf` draws).
 
@@ -39,7 +46,7 @@ def greenwood(cdf, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.nda
     return np.maximum(cdf - reach, 0.0), np.minimum(cdf + reach, 1.0)
 
 
-def wilson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+def wilson(k: ArrayLike, n: int, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
     """Score interval of a probability after k of n runs (Wilson 1927, J.
 
     Am. Stat. Assoc. 22); close to its level on average.
@@ -64,7 +71,9 @@ def wilson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]
     return np.where(k == 0, 0.0, lower), np.where(k == n, 1.0, upper)
 
 
-def clopper_pearson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+def clopper_pearson(
+    k: ArrayLike, n: int, confidence: float = 0.95
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Exact interval of a probability after k of n runs, never below its level, wider than
     Wilson's.
 
@@ -79,7 +88,7 @@ def clopper_pearson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np
     return lower, upper
 
 
-def dkw(ecdf, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+def dkw(ecdf: Ecdf, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
     """Simultaneous band F +- `dkw_distance`, clipped to [0, 1].
 
     Parameters
@@ -97,7 +106,7 @@ def dkw(ecdf, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
     return np.maximum(ecdf.cdf - reach, 0.0), np.minimum(ecdf.cdf + reach, 1.0)
 
 
-def dkw_distance(n, confidence: float = 0.95):
+def dkw_distance(n: ArrayLike, confidence: float = 0.95) -> Any:
     """Largest distance sup |F_n - F| at a confidence: sqrt(ln(2 / (1 - confidence)) / (2 n)).
 
     Dvoretzky, Kiefer & Wolfowitz (1956) with the constant of Massart (1990, Ann. Probab. 18); holds
@@ -113,7 +122,7 @@ def normal_quantile(confidence: float) -> float:
     return NormalDist().inv_cdf((1 + confidence) / 2)
 
 
-def _counts(k, n: int) -> np.ndarray:
+def _counts(k: ArrayLike, n: int) -> NDArray[Any]:
     k = np.asarray(k, float)
     if n < 1 or (k < 0).any() or (k > n).any():
         raise ValueError(f"k = {k}, n = {n}: counts must lie in [0, n], n at least 1")

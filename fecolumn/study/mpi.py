@@ -6,8 +6,10 @@ from __future__ import annotations
 
 import contextlib
 import os
-from concurrent.futures import FIRST_COMPLETED, wait
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from pathlib import Path
+from typing import IO, Any
 
 from fecolumn.schema import InputError
 from fecolumn.study.lock import hold_as_worker
@@ -25,7 +27,7 @@ def under_mpirun() -> bool:
 
 
 @contextlib.contextmanager
-def executor():
+def executor() -> Iterator[Any]:
     """An executor of mpi4py.futures on rank 0; None on the others, after they have served it to the
     end.
 
@@ -84,9 +86,17 @@ class MpiTeam:
         study file, for messages.
     """
 
-    def __init__(self, pool, size: int, entry: str, folder, share, file):
+    def __init__(
+        self,
+        pool: Any,
+        size: int,
+        entry: str,
+        folder: Path | str,
+        share: tuple[int, int] | None,
+        file: Path | str,
+    ) -> None:
         self.size, self._pool, self._told = size, pool, (entry, Path(folder), share, str(file))
-        self._futures = set()
+        self._futures: set[Future[list[Outcome]]] = set()
 
     @property
     def at_work(self) -> bool:
@@ -122,10 +132,12 @@ class _Broken(RuntimeError):
     """The analysis function cannot be used."""
 
 
-_held = {}
+_held: dict[Path, IO[str]] = {}
 
 
-def _serve(batch: list[Task], entry: str, folder: Path, share, file: str) -> list[Outcome]:
+def _serve(
+    batch: list[Task], entry: str, folder: Path, share: tuple[int, int] | None, file: str
+) -> list[Outcome]:
     if folder not in _held:
         _held[folder] = hold_as_worker(folder, share)
     try:

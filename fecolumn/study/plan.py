@@ -20,6 +20,7 @@ import math
 import typing
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from fecolumn.case import case_from_tables, check_duration
 from fecolumn.files import is_file
@@ -27,6 +28,7 @@ from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.paths import taken_over
 from fecolumn.schema import InputError, merge, nested, read_toml, shown
 from fecolumn.short_form import ShortForm
+from fecolumn.structures.case import StructureCase
 from fecolumn.study.axes import Factor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
 
@@ -53,12 +55,12 @@ _COST_OF_MODEL = 0.01
 _SECTIONS = set(typing.get_type_hints(ShortForm)) - {"title"}
 
 
-def setting_of(values: dict) -> dict:
+def setting_of(values: dict[str, Any]) -> dict[str, Any]:
     """Of an analysis' values by axis, those that name the ensemble it belongs to."""
     return {key: value for key, value in values.items() if key not in ENSEMBLE_AXES}
 
 
-def member_of(values: dict) -> tuple[str, ...]:
+def member_of(values: dict[str, Any]) -> tuple[str, ...]:
     """Of an analysis' values by axis, those that tell the members of its ensemble apart, as
     text.
     """
@@ -83,7 +85,9 @@ class Analysis:
 
     __slots__ = ("case", "id", "keys", "levels", "duration_s")
 
-    def __init__(self, case, case_id: str, keys: tuple[str, ...], levels: tuple):
+    def __init__(
+        self, case: StructureCase, case_id: str, keys: tuple[str, ...], levels: tuple[Any, ...]
+    ):
         self.case, self.id, self.keys, self.levels = case, case_id, keys, levels
         self.duration_s = case.integration.duration_s or 1.0
 
@@ -93,7 +97,7 @@ class Analysis:
         return dict(zip(self.keys, self.levels))
 
     @property
-    def combination(self) -> dict:
+    def combination(self) -> dict[str, Any]:
         """The values that name the ensemble this analysis belongs to."""
         return setting_of(self.values)
 
@@ -116,9 +120,9 @@ class Plan:
 
     file: Path
     title: str
-    axes: dict[str, tuple]
+    axes: dict[str, tuple[Any, ...]]
     analyses: tuple[Analysis, ...]
-    case: dict
+    case: dict[str, Any]
 
     @property
     def id(self) -> str:
@@ -170,7 +174,7 @@ def read_plan(path) -> Plan:
     return Plan(path, tables.get("title", "") or path.stem, axes, analyses, common)
 
 
-def _case_tables(case, path: Path) -> dict:
+def _case_tables(case, path: Path) -> dict[str, Any]:
     """Tables of the case all analyses share."""
     if case is None:
         raise InputError(
@@ -201,7 +205,7 @@ def _case_tables(case, path: Path) -> dict:
 class _Maker:
     """Makes the analyses of a plan."""
 
-    def __init__(self, common: dict, factors: list[Factor], path: Path):
+    def __init__(self, common: dict[str, Any], factors: list[Factor], path: Path):
         self.common, self.factors, self.path = common, factors, path
         self.keys = tuple(key for factor in factors for key in factor.keys)
 
@@ -218,7 +222,7 @@ class _Maker:
             self._refuse(error, levels)
         return Analysis(case, case.id, self.keys, levels)
 
-    def _case(self, places):
+    def _case(self, places: tuple[int, ...]) -> StructureCase:
         """The case at a level of each factor."""
         case = case_from_tables(self._tables(places), self.path)
         check_duration(case, self.path)
@@ -226,7 +230,7 @@ class _Maker:
             self._refuse_missing(case.motion)
         return case
 
-    def _tables(self, places) -> dict:
+    def _tables(self, places) -> dict[str, Any]:
         tables = self.common
         for factor, place in zip(self.factors, places):
             for key, value in zip(factor.keys, factor.levels[place]):

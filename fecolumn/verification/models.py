@@ -47,9 +47,7 @@ def column_case(engine: str, **tables):
     contact={"friction_coefficient": 0.8}.
     """
     key = "engine" if engine in REDUCED else "kinematics"
-    return short_form(
-        merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification"
-    )
+    return short_form(merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification")
 
 
 def column_system(engine: str, **tables) -> System:

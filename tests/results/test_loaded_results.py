@@ -219,3 +219,4 @@ def test_names_of_the_package_exist():
     assert all(hasattr(fecolumn, name) for name in fecolumn.__all__) and set(
         fecolumn.__all__
     ) <= set(dir(fecolumn))
+    assert set(fecolumn.__all__) == set(fecolumn._HOMES)
