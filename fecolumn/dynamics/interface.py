@@ -35,6 +35,7 @@ from fecolumn.contact.rolling import plan_roll, roll_points, stay
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.dynamics.cuts import StepFailed, Stop
+from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.stay import Stay
 from fecolumn.fem.rotation import into_frames, out_of_frames
 
@@ -80,14 +81,9 @@ class Interface:
             laws or {},
         )
         self.rim, self.pad = self.laws.get("rim"), self.laws.get("pad")
-        #: (P,) of POINT; interfaces (ni,) of INTERFACE, the first of them the record of a single
-        #: column.
+        #: (P,) of POINT; interfaces (ni,) of INTERFACE.
         self.points, self.interfaces = joints.points.copy(), joints.interfaces.copy()
-        self.size, self.record = len(self.points), self.interfaces[0]
-        self.width, self.moving = (
-            float(self.record["width"]),
-            bool((self.points["master"] != BASE).any()),
-        )
+        self.size, self.moving = len(self.points), bool((self.points["master"] != BASE).any())
         several = isinstance(foot.static, list)
         nodes, static, mobility = (
             getattr(foot, name, None) if several else [getattr(foot, name, None)]
@@ -136,7 +132,7 @@ class Interface:
         )
         static, springs, poses = (
             self.bodies.static,
-            springs_of(self.points, self.record, 1.0),
+            springs_of(self.points, self.interfaces, 1.0),
             poses_on_base(np.eye(3)[None]),
         )
         compile_for(
@@ -185,7 +181,8 @@ class Interface:
         )
         if self.moving:
             compile_for(
-                find_poses, (self.interfaces, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses)
+                find_poses,
+                (self.interfaces, STILL, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses),
             )
             compile_for(
                 place_on_masters,
@@ -251,7 +248,7 @@ class Interface:
         if not self.moving:
             return poses_on_base(rotation.reshape(-1, 3, 3)[self.interfaces["slave"]])
         poses = np.zeros(len(self.interfaces), POSE)
-        find_poses(self.interfaces, frames_at(self.column.centers(x)), rotation, poses)
+        find_poses(self.interfaces, STILL, frames_at(self.column.centers(x)), rotation, poses)
         return poses
 
     def node_positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
@@ -646,7 +643,7 @@ class Interface:
 
         times: 0 only looks how well they do, in or near the places where they were found last.
         """
-        springs = springs_of(self.points, self.record, dt)
+        springs = springs_of(self.points, self.interfaces, dt)
         if times:
             self.stay.begin(self._problem, nodal)
         while True:
@@ -686,7 +683,7 @@ class Interface:
             self._problem,
             self.points,
             self.interfaces,
-            springs_of(self.points, self.record, dt),
+            springs_of(self.points, self.interfaces, dt),
             before,
             after,
         )

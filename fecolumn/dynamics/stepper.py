@@ -18,11 +18,12 @@ from fecolumn.contact.impact import (
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.pose import frames_at
 from fecolumn.contact.problem import OK
-from fecolumn.contact.rolling import part_of_step
+from fecolumn.contact.rolling import least_rim_width, part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import book_impulses, losses, move_anchors
 from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
 from fecolumn.dynamics.stage import Stage, carried, equilibrate
@@ -202,7 +203,7 @@ class Stepper:
             )
             raise StepFailed(outcome.stop, f"{outcome.stop.value}: {detail}")
 
-        R, springs = outcome.halfway, springs_of(interface.points, interface.record, dt)
+        R, springs = outcome.halfway, springs_of(interface.points, interface.interfaces, dt)
         move_anchors(
             interface.points, interface.interfaces, springs, interface.near, before, outcome.contact
         )
@@ -260,7 +261,8 @@ class Stepper:
             resisted,
             springs,
         )
-        if self.plastic and rolled and contact_work > CREATED * system.weight * interface.width:
+        width = interpreted(least_rim_width)(interface.interfaces)
+        if self.plastic and rolled and contact_work > CREATED * system.weight * width:
             # several points of the rim carry while it rolls fast: they stay for this step
             self.ledger.work.update(booked)
             return self._hht_step(start, ground, hht, rolls=False)
@@ -310,6 +312,7 @@ class Stepper:
         if self.system.links:
             tied, taken = end_links(
                 self.system.links.links,
+                STILL,
                 frames_at(column.centers(after.x)),
                 after.rotation,
                 start.ties,

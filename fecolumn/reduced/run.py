@@ -11,7 +11,7 @@ from fecolumn.contact.ball import from_center, lay_down
 from fecolumn.contact.gathered import gather_again, gathered_nodes
 from fecolumn.contact.joints import left_faces
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, find_poses, frames_at, poses_of
+from fecolumn.contact.pose import SLAVE, find_poses, frames_at, grounds_at, poses_of
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
     ENDED,
@@ -28,7 +28,7 @@ from fecolumn.contact.problem import (
     OK,
     ROLLS_FAST,
 )
-from fecolumn.contact.projection import base_for_steps
+from fecolumn.contact.projection import grounds_for_steps
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import PARTS
 from fecolumn.contact.two_sided import mark_unused
@@ -208,8 +208,10 @@ def advance(
         False,
         0,
         OK,
-        np.empty(3),
+        np.empty(grounds.shape[1]),
     )
+    for a in range(3):
+        motion.grounds[0].acceleration[a] = motion.whole[0].ground[a]
     for k in range(len(grounds)):
         before = counts[N_ITERATIONS]
         put(ledger, booked)
@@ -223,8 +225,8 @@ def advance(
             halved, whole = 0, PARTS
             while whole > part:
                 halved, whole = halved + 1, whole // 2
-            for a in range(3):
-                first = kept.whole[0].ground[a] if part < PARTS else 0.0
+            for a in range(grounds.shape[1]):
+                first = kept.grounds[a // 3].acceleration[a % 3] if part < PARTS else 0.0
                 target[a] = first + (done + part) / PARTS * (grounds[k, a] - first)
             struck = counts[N_IMPACTS]
             put(ledger, held)
@@ -285,7 +287,10 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     for i in range(len(motion.contact)):
         work.before[i] = motion.contact[i]
     for when in (START, END):
-        find_poses(structure.interfaces, motion.frames, motion.rotation, work.poses[when])
+        find_poses(
+            structure.interfaces, motion.grounds, motion.frames, motion.rotation, work.poses[when]
+        )
+    motions.copy_grounds(motion, spare)
     for k in range(len(structure.interfaces)):
         spare.rims[k] = motion.rims[k]
         if structure.interfaces[k].ball > 0.0:
@@ -308,7 +313,13 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     )
     if answer == OK:
         spare.whole[0].static += end_links(
-            structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt
+            structure.links,
+            spare.grounds,
+            spare.frames,
+            spare.rotation,
+            motion.ties,
+            spare.ties,
+            scheme.dt,
         )[0]
     return answer
 
@@ -332,7 +343,7 @@ def column_engine(
     def build(hht):
         return structure_of(model, hht, gravity, damping_ratio=damping_ratio, **laws)
 
-    return Engine(build, base, eye, hht, start, max_cuts, model, substeps)
+    return Engine(build, (base,), eye, hht, start, max_cuts, model, substeps)
 
 
 class Engine:
@@ -343,8 +354,9 @@ class Engine:
     build
         function of an HHT that returns Structure and points, see `model.structure_of` and
         `structure.structure_of`.
-    base
-        BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
+    bases
+        of each ground a BasePlate, or another holder of its compliance with `grid`, `slot`,
+        `compliance` and `need`.
     eye
         View.
     hht
@@ -360,7 +372,7 @@ class Engine:
     def __init__(
         self,
         build,
-        base,
+        bases,
         eye,
         hht: HHT,
         start,
@@ -368,9 +380,9 @@ class Engine:
         model=None,
         substeps: str = "rolling",
     ):
-        self.model, self.base, self.eye, self.hht, self.max_cuts, self.substeps = (
+        self.model, self.bases, self.eye, self.hht, self.max_cuts, self.substeps = (
             model,
-            base,
+            bases,
             eye,
             hht,
             max_cuts,
@@ -384,12 +396,9 @@ class Engine:
         )
         self._schemes = {}
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
-        self.base.need(
-            base.grid.around(
-                self.ground_places(eye.center, np.tile(np.eye(3), (len(eye.center), 1, 1))), 0
-            )
-        )
-        self.surface = base_for_steps(base)
+        upright = np.tile(np.eye(3), (len(eye.center), 1, 1))
+        self._need_below(eye.center, upright, self.spare.grounds, 0)
+        self.surface = grounds_for_steps(self.bases)
         compile_for(advance, self._arguments(self._schemes_of(hht), self.spare, self.spare))
         self.motion = start(self)
         self.ledger[0] = self.mechanical()
@@ -403,22 +412,28 @@ class Engine:
             len(structure.squares),
             len(structure.interfaces),
             len(structure.links),
+            self.eye.levels,
         )
 
-    def ground_places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Places (k, 3) [m] of the nodes that may touch the base, of bodies with centres of mass
-        (nb, 3) turned by (nb, 3, 3).
+    def _need_below(self, centers, rotations, grounds: np.ndarray, rows: int) -> None:
+        """Make the compliance of the grounds known below the nodes that may touch them, of bodies
+        with centres of mass (nb, 3) turned by (nb, 3, 3), and so many rows of nodes around.
         """
-        points = self.points[self.points["master"] == BASE]
-        arms = self.structure.bodies.arms[points["node"]]
-        return centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
+        standing = self.points[self.points["master"] == BASE]
+        for number, (base, ground) in enumerate(zip(self.bases, grounds)):
+            points = standing[standing["ground"] == number]
+            if len(points):
+                arms, slaves = self.structure.bodies.arms[points["node"]], points["slave"]
+                places = centers[slaves] + np.einsum("pab,pb->pa", rotations[slaves], arms)
+                base.need(base.grid.around(places - ground["place"], rows))
 
     def places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Places (P, 3) [m] of the points in the frames of their interfaces, of bodies with centres
         of mass (nb, 3) turned by (nb, 3, 3).
         """
         points, interfaces = self.points, self.structure.interfaces
-        each, offsets = poses_of(interfaces, centers, rotations), np.zeros((len(interfaces), 3))
+        each = poses_of(interfaces, centers, rotations, grounds_at(self.eye.levels))
+        offsets = np.zeros((len(interfaces), 3))
         for interface, pose, offset in zip(interfaces, each, offsets):
             interpreted(from_center)(interface, pose["turned"][SLAVE, 2], offset)
         poses, arms = (
@@ -430,10 +445,10 @@ class Engine:
 
     def link_lengths(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Lengths (nl,) [m] of the links; arguments as of `places`."""
-        frames = frames_at(centers)
+        frames, grounds = frames_at(centers), grounds_at(self.eye.levels)
         return np.array(
             [
-                interpreted(span)(link, frames, rotations, np.empty(3))
+                interpreted(span)(link, grounds, frames, rotations, np.empty(3))
                 for link in self.structure.links
             ]
         )
@@ -449,12 +464,13 @@ class Engine:
         schemes,
         motion,
         spare,
-        grounds=np.empty((0, 3)),
+        grounds=None,
         steepest=np.empty(0),
         rest=_NO_REST,
         rows=None,
     ) -> tuple:
         rows = np.empty((0, self.eye.width)) if rows is None else rows
+        grounds = np.empty((0, 3 * len(self.bases))) if grounds is None else grounds
         return (
             self.structure,
             self.surface,
@@ -519,7 +535,7 @@ class Engine:
         Parameters
         ----------
         grounds
-            (k, 3).
+            (k, 3) of all grounds, or (k, 3 G) of each.
         steepest
             (k,) as of `overturning.steepest_to_come`; of these grounds alone unless given.
         rest
@@ -537,8 +553,10 @@ class Engine:
         grounds, done = np.array(grounds, float), 0
         if not np.isfinite(grounds).all():
             raise ValueError("a ground acceleration is not a finite number")
+        if grounds.shape[1] == 3:
+            grounds = np.tile(grounds, len(self.bases))
         steepest = (
-            steepest_to_come(self.structure.gravity, grounds)
+            steepest_to_come(self.structure.gravity, np.ascontiguousarray(grounds[:, :3]))
             if steepest is None
             else np.asarray(steepest, float)
         )
@@ -603,7 +621,7 @@ class Engine:
             in_halves(
                 take,
                 None,
-                self.motion.whole["ground"][0].copy(),
+                self._accelerations(),
                 ground,
                 self.hht,
                 self.max_cuts,
@@ -616,6 +634,17 @@ class Engine:
             if isinstance(error, StepFailed):
                 raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None
             raise
+
+    def _accelerations(self) -> np.ndarray:
+        """Accelerations (3 G,) of the grounds now [m/s2]."""
+        found = self.motion.grounds["acceleration"].ravel().copy()
+        found[:3] = self.motion.whole["ground"][0]
+        return found
+
+    def begin_shaking(self, accelerations: np.ndarray) -> None:
+        """Let the grounds begin with accelerations (3 G,) [m/s2]."""
+        self.motion.whole["ground"] = accelerations[:3]
+        self.motion.grounds["acceleration"] = accelerations.reshape(-1, 3)
 
     def _left(self, answer) -> str:
         """Which interface a body has left and what helps, after a step that failed with OFF_PATCH."""
@@ -633,14 +662,12 @@ class Engine:
         return self._schemes[hht]
 
     def extend_base(self, motion) -> None:
-        """Make the base's compliance known under the foot and two rows of its nodes around."""
-        self.base.need(
-            self.base.grid.around(self.ground_places(motion.frames["center"], motion.rotation), 2)
-        )
-        self.surface = base_for_steps(self.base)
+        """Make the grounds' compliance known under the feet and two rows of its nodes around."""
+        self._need_below(motion.frames["center"], motion.rotation, motion.grounds, 2)
+        self.surface = grounds_for_steps(self.bases)
 
     def base_to_resume(self) -> dict[str, np.ndarray]:
-        """Top nodes of the base whose compliance is known, and those that are gathered, for a
+        """Top nodes of the grounds whose compliance is known, and those that are gathered, for a
         checkpoint.
         """
         return {
@@ -649,7 +676,11 @@ class Engine:
         }
 
     def resume_base(self, known: np.ndarray, gathered: np.ndarray) -> None:
-        """Make known and gather the top nodes of the base that were so in a checkpoint."""
-        self.base.need(known)
-        self.surface = base_for_steps(self.base)
+        """Make known and gather the top nodes of the grounds that were so in a checkpoint."""
+        first = 0
+        for base in self.bases:
+            last = first + len(base.grid.points)
+            base.need(known[(known >= first) & (known < last)] - first)
+            first = last
+        self.surface = grounds_for_steps(self.bases)
         gather_again(self.surface, gathered)
