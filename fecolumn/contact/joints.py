@@ -62,7 +62,7 @@ def joint_on_base(
         see `contact.interface`.
     """
     return Joints(
-        node_points(arms, friction, law, pad.stiffness if pad else None),
+        node_points(arms, friction, law, pad),
         interface_of(arms, rim, restitution, rolling, pad),
         np.asarray(rim.nodes if rim else [], np.int64),
         np.zeros(0, FACET),
@@ -83,10 +83,12 @@ def joints_of(parts, joints) -> Joints:
         slave = parts[joint.slave].model
         touching = slave.surfaces[joint.slave_surface]
         arms = slave.arms[touching.nodes]
-        rim = Rim.find(arms) if joint.round else None
+        # a node of a rim that comes down on a pad presses a spring
+        rim = Rim.find(arms) if joint.round and joint.pad is None else None
         interface = interface_of(
-            arms, rim, joint.restitution, slave=joint.slave, master=joint.master
+            arms, rim, joint.restitution, joint.rolling, joint.pad, joint.slave, joint.master
         )
+        interface["ground"] = joint.ground
         interface["width"] = np.ptp(arms @ touching.axes[:, :2], axis=0).max()
         if joint.ball is not None:
             outward = touching.axes[:, 2]
@@ -115,8 +117,15 @@ def joints_of(parts, joints) -> Joints:
             # a rim that rolls on it stands on the circle, too
             interface["bulge"] = around.radius * (1 - np.cos(around.sector / 2)) if around else 0.0
         own = node_points(
-            arms, joint.friction, joint.law, slave=joint.slave, master=joint.master, interface=k
+            arms,
+            joint.friction,
+            joint.law,
+            joint.pad,
+            slave=joint.slave,
+            master=joint.master,
+            interface=k,
         )
+        own["ground"] = joint.ground
         own["node"] = first[joint.slave] + touching.nodes
         own["carriers"] = own["node"][:, None]
         if joint.ball is not None:

@@ -92,7 +92,11 @@ class KnownBase:
                 float(file["frequency"]),
                 int(file["dofs"]),
             )
-            self._foot, self._allowance = file["foot"], float(file["allowance"])
+            self._allowance = float(file["allowance"])
+            # of several feet the first place of each
+            self._feet = np.split(
+                file["foot"], file["firsts"][1:] if "firsts" in file.files else []
+            )
         self._open(0)
 
     def need(self, wanted: np.ndarray) -> None:
@@ -133,11 +137,11 @@ class KnownBase:
                 "delete this folder"
             )
         plate.adopt(self._known, self.compliance)
-        plate.need(_under(self.grid.points, self._foot, self._allowance * 2**reach))
-        _keep_base(plate, lambda name: self._file(name, reach))
+        plate.need(under(self.grid.points, self._feet, self._allowance * 2**reach))
+        keep_base(plate, lambda name: self._file(name, reach))
 
 
-def _keep_base(plate, file) -> None:
+def keep_base(plate, file) -> None:
     """Write what is known of a plate; `known` comes last and says that all is there."""
     for name, values in (
         ("compliance", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3))),
@@ -263,7 +267,7 @@ def _make(case: ShortForm, folder: Path) -> None:
     )
     if plate:
         allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
-        plate.need(_under(plate.grid.points, model.reference, allowance))
+        plate.need(under(plate.grid.points, [model.reference], allowance))
         base = dict(
             points=plate.grid.points,
             frequency=plate.frequency,
@@ -288,7 +292,7 @@ def _make(case: ShortForm, folder: Path) -> None:
             with open(partial / f"{name}.npz", "wb") as file:
                 np.savez(file, **values)
         if plate:
-            _keep_base(plate, lambda name: partial / f"{name}-0.npy")
+            keep_base(plate, lambda name: partial / f"{name}-0.npy")
         np.save(partial / "fields.npy", fields)
         os.replace(partial, folder)
     except OSError:
@@ -299,15 +303,19 @@ def _make(case: ShortForm, folder: Path) -> None:
         shutil.rmtree(partial, ignore_errors=True)
 
 
-def _under(points, foot, allowance: float) -> np.ndarray:
-    """Top nodes (k,) that a foot at (n, 3) [m] may press when it slides by `allowance` [m] to any
-    side.
+def under(points, feet, allowance: float) -> np.ndarray:
+    """Top nodes (k,) that feet, each at (n, 3) [m], may press when they slide by `allowance` [m] to
+    any side.
     """
-    x, y = (np.unique(np.round(points[:, axis], 12)) for axis in (0, 1))
-    cell = max(
-        np.diff(lines[np.abs(lines) <= np.abs(foot[:, :2]).max() + allowance]).max()
-        for lines in (x, y)
-    )
-    radius = np.linalg.norm(foot[:, :2], axis=1)
-    distance, reach = np.linalg.norm(points[:, :2], axis=1), allowance + 1.5 * cell
-    return np.flatnonzero((distance <= radius.max() + reach) & (distance >= radius.min() - reach))
+    found = np.zeros(len(points), bool)
+    for foot in feet:
+        middle = (foot[:, :2].min(axis=0) + foot[:, :2].max(axis=0)) / 2
+        place, own = points[:, :2] - middle, foot[:, :2] - middle
+        cell = max(
+            np.diff(lines[np.abs(lines) <= np.abs(own).max() + allowance]).max()
+            for lines in (np.unique(np.round(place[:, axis], 12)) for axis in (0, 1))
+        )
+        radius = np.linalg.norm(own, axis=1)
+        distance, reach = np.linalg.norm(place, axis=1), allowance + 1.5 * cell
+        found |= (distance <= radius.max() + reach) & (distance >= radius.min() - reach)
+    return np.flatnonzero(found)

@@ -8,7 +8,7 @@ from fecolumn._compiled import compile_for, interpreted
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.joints import left_faces
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, frames_at, poses_of
+from fecolumn.contact.pose import SLAVE, frames_at, grounds_at, poses_of
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
     ENDED,
@@ -22,7 +22,7 @@ from fecolumn.contact.problem import (
     OK,
     ROLLS_FAST,
 )
-from fecolumn.contact.projection import base_for_steps
+from fecolumn.contact.projection import grounds_for_steps
 from fecolumn.dynamics.cuts import SUBSTEPS, StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.links import span
@@ -65,7 +65,7 @@ def column_engine(
     def build(hht):
         return structure_of(model, hht, gravity, damping_ratio=damping_ratio, **laws)
 
-    return Engine(build, base, eye, hht, start, max_cuts, model, substeps)
+    return Engine(build, (base,), eye, hht, start, max_cuts, model, substeps)
 
 
 class Engine:
@@ -76,8 +76,9 @@ class Engine:
     build
         function of an HHT that returns Structure and points, see `model.structure_of` and
         `structure.structure_of`.
-    base
-        BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
+    bases
+        of each ground a BasePlate, or another holder of its compliance with `grid`, `slot`,
+        `compliance` and `need`.
     eye
         View.
     hht
@@ -93,7 +94,7 @@ class Engine:
     def __init__(
         self,
         build,
-        base,
+        bases,
         eye,
         hht: HHT,
         start,
@@ -101,9 +102,9 @@ class Engine:
         model=None,
         substeps: str = "rolling",
     ):
-        self.model, self.base, self.eye, self.hht, self.max_cuts, self.substeps = (
+        self.model, self.bases, self.eye, self.hht, self.max_cuts, self.substeps = (
             model,
-            base,
+            bases,
             eye,
             hht,
             max_cuts,
@@ -117,8 +118,9 @@ class Engine:
         )
         self._schemes = {}
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
-        turns = np.tile(np.eye(3), (len(eye.center), 1, 1))
-        self.know_base(base.grid.around(self.ground_places(eye.center, turns), 0))
+        upright = np.tile(np.eye(3), (len(eye.center), 1, 1))
+        self._need_below(eye.center, upright, self.spare.grounds, 0)
+        self.surface = grounds_for_steps(self.bases)
         compile_for(advance, self._arguments(self._schemes_of(hht), self.spare, self.spare))
         self.motion = start(self)
         self.ledger[0] = self.mechanical()
@@ -132,22 +134,28 @@ class Engine:
             len(structure.squares),
             len(structure.interfaces),
             len(structure.links),
+            self.eye.levels,
         )
 
-    def ground_places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Places (k, 3) [m] of the nodes that may touch the base, of bodies with centres of mass
-        (nb, 3) turned by (nb, 3, 3).
+    def _need_below(self, centers, rotations, grounds: np.ndarray, rows: int) -> None:
+        """Make the compliance of the grounds known below the nodes that may touch them, of bodies
+        with centres of mass (nb, 3) turned by (nb, 3, 3), and so many rows of nodes around.
         """
-        points = self.points[self.points["master"] == BASE]
-        arms = self.structure.bodies.arms[points["node"]]
-        return centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
+        standing = self.points[self.points["master"] == BASE]
+        for number, (base, ground) in enumerate(zip(self.bases, grounds)):
+            points = standing[standing["ground"] == number]
+            if len(points):
+                arms, slaves = self.structure.bodies.arms[points["node"]], points["slave"]
+                places = centers[slaves] + np.einsum("pab,pb->pa", rotations[slaves], arms)
+                base.need(base.grid.around(places - ground["place"], rows))
 
     def places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Places (P, 3) [m] of the points in the frames of their interfaces, of bodies with centres
         of mass (nb, 3) turned by (nb, 3, 3).
         """
         points, interfaces = self.points, self.structure.interfaces
-        each, offsets = poses_of(interfaces, centers, rotations), np.zeros((len(interfaces), 3))
+        each = poses_of(interfaces, centers, rotations, grounds_at(self.eye.levels))
+        offsets = np.zeros((len(interfaces), 3))
         for interface, pose, offset in zip(interfaces, each, offsets):
             interpreted(from_center)(interface, pose["turned"][SLAVE, 2], offset)
         poses, arms = (
@@ -159,10 +167,10 @@ class Engine:
 
     def link_lengths(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Lengths (nl,) [m] of the links; arguments as of `places`."""
-        frames = frames_at(centers)
+        frames, grounds = frames_at(centers), grounds_at(self.eye.levels)
         return np.array(
             [
-                interpreted(span)(link, frames, rotations, np.empty(3))
+                interpreted(span)(link, grounds, frames, rotations, np.empty(3))
                 for link in self.structure.links
             ]
         )
@@ -178,12 +186,13 @@ class Engine:
         schemes,
         motion,
         spare,
-        grounds=np.empty((0, 3)),
+        grounds=None,
         steepest=np.empty(0),
         rest=_NO_REST,
         rows=None,
     ) -> tuple:
         rows = np.empty((0, self.eye.width)) if rows is None else rows
+        grounds = np.empty((0, 3 * len(self.bases))) if grounds is None else grounds
         course = Course(motion, spare, self.kept, self.ledger, self.counts)
         chunk = Chunk(grounds, steepest, rest, self.substeps, rows)
         return self.structure, self.surface, schemes, self.work, self.eye, course, chunk
@@ -225,7 +234,7 @@ class Engine:
         Parameters
         ----------
         grounds
-            (k, 3).
+            (k, 3) of all grounds, or (k, 3 G) of each.
         steepest
             (k,) as of `overturning.steepest_to_come`; of these grounds alone unless given.
         rest
@@ -243,8 +252,10 @@ class Engine:
         grounds, done = np.array(grounds, float), 0
         if not np.isfinite(grounds).all():
             raise ValueError("a ground acceleration is not a finite number")
+        if grounds.shape[1] == 3:
+            grounds = np.tile(grounds, len(self.bases))
         steepest = (
-            steepest_to_come(self.structure.gravity, grounds)
+            steepest_to_come(self.structure.gravity, np.ascontiguousarray(grounds[:, :3]))
             if steepest is None
             else np.asarray(steepest, float)
         )
@@ -309,7 +320,7 @@ class Engine:
             in_halves(
                 take,
                 None,
-                self.motion.whole["ground"][0].copy(),
+                self._accelerations(),
                 ground,
                 self.hht,
                 self.max_cuts,
@@ -322,6 +333,17 @@ class Engine:
             if isinstance(error, StepFailed):
                 raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None
             raise
+
+    def _accelerations(self) -> np.ndarray:
+        """Accelerations (3 G,) of the grounds now [m/s2]."""
+        found = self.motion.grounds["acceleration"].ravel().copy()
+        found[:3] = self.motion.whole["ground"][0]
+        return found
+
+    def begin_shaking(self, accelerations: np.ndarray) -> None:
+        """Let the grounds begin with accelerations (3 G,) [m/s2]."""
+        self.motion.whole["ground"] = accelerations[:3]
+        self.motion.grounds["acceleration"] = accelerations.reshape(-1, 3)
 
     def _left(self, answer) -> str:
         """Which interface a body has left and what helps, after a step that failed with OFF_PATCH."""
@@ -339,12 +361,15 @@ class Engine:
         return self._schemes[hht]
 
     def extend_base(self, motion) -> None:
-        """Make the base's compliance known under the foot and two rows of its nodes around."""
-        self.know_base(
-            self.base.grid.around(self.ground_places(motion.frames["center"], motion.rotation), 2)
-        )
+        """Make the grounds' compliance known under the feet and two rows of its nodes around."""
+        self._need_below(motion.frames["center"], motion.rotation, motion.grounds, 2)
+        self.surface = grounds_for_steps(self.bases)
 
     def know_base(self, nodes: np.ndarray) -> None:
-        """Make the base's compliance known at top nodes (k,) of it."""
-        self.base.need(nodes)
-        self.surface = base_for_steps(self.base)
+        """Make the grounds' compliance known at top nodes (k,) of all of them, one after another."""
+        first = 0
+        for base in self.bases:
+            last = first + len(base.grid.points)
+            base.need(nodes[(nodes >= first) & (nodes < last)] - first)
+            first = last
+        self.surface = grounds_for_steps(self.bases)

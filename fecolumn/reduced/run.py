@@ -163,8 +163,10 @@ def advance(structure, base, schemes, work, eye, course, chunk):
         False,
         0,
         OK,
-        np.empty(3),
+        np.empty(grounds.shape[1]),
     )
+    for a in range(3):
+        motion.grounds[0].acceleration[a] = motion.whole[0].ground[a]
     for k in range(len(grounds)):
         before = counts[N_ITERATIONS]
         put(ledger, booked)
@@ -178,8 +180,8 @@ def advance(structure, base, schemes, work, eye, course, chunk):
             halved, whole = 0, PARTS
             while whole > part:
                 halved, whole = halved + 1, whole // 2
-            for a in range(3):
-                first = kept.whole[0].ground[a] if part < PARTS else 0.0
+            for a in range(grounds.shape[1]):
+                first = kept.grounds[a // 3].acceleration[a % 3] if part < PARTS else 0.0
                 target[a] = first + (done + part) / PARTS * (grounds[k, a] - first)
             struck = counts[N_IMPACTS]
             put(ledger, held)
@@ -240,7 +242,10 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     for i in range(len(motion.contact)):
         work.before[i] = motion.contact[i]
     for when in (START, END):
-        find_poses(structure.interfaces, motion.frames, motion.rotation, work.poses[when])
+        find_poses(
+            structure.interfaces, motion.grounds, motion.frames, motion.rotation, work.poses[when]
+        )
+    motions.copy_grounds(motion, spare)
     for k in range(len(structure.interfaces)):
         spare.rims[k] = motion.rims[k]
         if structure.interfaces[k].ball > 0.0:
@@ -263,6 +268,12 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     )
     if answer == OK:
         spare.whole[0].static += end_links(
-            structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt
+            structure.links,
+            spare.grounds,
+            spare.frames,
+            spare.rotation,
+            motion.ties,
+            spare.ties,
+            scheme.dt,
         )[0]
     return answer

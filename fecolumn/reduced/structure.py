@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.joints import joints_of
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, poses_of
+from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.tolerances import RIGID_GIVE
 from fecolumn.dynamics.links import links_of
 from fecolumn.dynamics.overturning import never_alone
@@ -147,7 +147,7 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
         )
         if feet[0].ball:
             foot += feet[0].ball.radius * surface.normal
-    reference = poses_of(structure.interfaces, centers, rotations)
+    reference = poses_of(structure.interfaces, centers, rotations, grounds_at(model.levels))
     stance = never_alone(model.parts[body].model.inertia, weight, cap)
     return View(
         centers,
@@ -163,4 +163,5 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
         marks,
         shapes,
         len(structure.links),
+        np.array(model.levels, float),
     )

@@ -34,6 +34,7 @@ from fecolumn.files import is_file
 from fecolumn.paths import OF_BODIES as FILES
 from fecolumn.schema import InputError, build, meant, merge, nested, stated
 from fecolumn.short_form import ALIKE, ShortForm, full_tables, in_short_form, short_form
+from fecolumn.structures.check_grounds import check_grounds
 from fecolumn.structures.keys import (
     GROUND,
     KINDS,
@@ -79,7 +80,6 @@ class StructureCase:
 
     bodies: dict[str, Placed]
     materials: dict[str, Material]
-    grounds: dict[str, Ground]
     interfaces: dict[str, Interface]
     links: dict[str, LinkKeys]
     initial: dict[str, Initial]
@@ -121,6 +121,9 @@ class StructureCase:
         tables |= {
             name: section_table(name, getattr(self, name)) for name in COMMON if name not in _IDLE
         }
+        if self.grounds == {GROUND: Ground()}:
+            # as of cases that are older than grounds
+            del tables["grounds"]
         text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
 
@@ -251,6 +254,9 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
         return _of_short_form(tables, file)
     tables, errors, found = stated(tables), [], {}
     tables = _with_joints(tables, file)
+    if not tables.get("grounds"):
+        tables = tables | {"grounds": {GROUND: {}}}
+    grounds = set(tables["grounds"]) if isinstance(tables["grounds"], dict) else {GROUND}
     for key in tables:
         if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
             errors.append(
@@ -263,7 +269,7 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
                 )
             )
     for name, kind in NAMED.items():
-        found[name] = _named(name, kind, tables.get(name, {}), file, errors)
+        found[name] = _named(name, kind, tables.get(name, {}), grounds, file, errors)
     for name, kind in COMMON.items():
         table = tables.get(name, False)
         try:
@@ -313,8 +319,8 @@ def _with_joints(tables: dict, file) -> dict:
     return others | {"interfaces": older | joints}
 
 
-def _named(name: str, kind, tables, file, errors: list) -> dict:
-    """Sections by name of one table of tables."""
+def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
+    """Sections by name of one table of tables; grounds: names that no body can have."""
     if not isinstance(tables, dict):
         errors.append(
             InputError(file, name, tables, f"must hold tables by name, such as [{name}.NAME]")
@@ -330,26 +336,26 @@ def _named(name: str, kind, tables, file, errors: list) -> dict:
                     file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
                 )
             if name != "initial" and (
-                set(key) & _TAKEN or not key or name == "bodies" and key == GROUND
+                set(key) & _TAKEN or not key or name == "bodies" and key in grounds
             ):
                 raise InputError(
                     file,
                     f"{name}.{key}",
                     None,
-                    f'must be named by another word: not "{GROUND}", without blanks, '
+                    "must be named by another word: not that of a ground, without blanks, "
                     "dots, slashes and quotes",
                 )
             found[key] = _built(
                 _kind_of(name, key, table, kind, file), table, file, f"{name}.{key}."
             )
             if name == "interfaces":
-                found[key] = _between(found[key], file, f"{name}.{key}.")
+                found[key] = _between(found[key], grounds, file, f"{name}.{key}.")
         except InputError as error:
             errors.append(error)
     return found
 
 
-def _between(interface: Interface, file, prefix: str) -> Interface:
+def _between(interface: Interface, grounds: set, file, prefix: str) -> Interface:
     """The interface with its two bodies as slave and on."""
     if interface.between:
         if interface.slave or interface.on:
@@ -367,13 +373,13 @@ def _between(interface: Interface, file, prefix: str) -> Interface:
                 list(interface.between),
                 'must be two names, such as ["drum", "capital"]',
             )
-        bodies = sorted(interface.between, key=lambda one: one == GROUND)
-        if bodies[0] == GROUND:
+        bodies = sorted(interface.between, key=lambda one: one in grounds)
+        if bodies[0] in grounds:
             raise InputError(
                 file,
                 prefix + "between",
                 list(interface.between),
-                "must name a body: the ground does not touch itself",
+                "must name a body: grounds do not touch one another",
             )
         return dataclasses.replace(interface, between=(), slave=bodies[0], on=bodies[1])
     for key in ("slave", "on"):
@@ -406,6 +412,8 @@ def _kind_of(name: str, key: str, table: dict, kind, file):
 def _built(kind, table, file, prefix):
     """A section with its relative paths taken from the folder of `file`."""
     section, folder = build(kind, table, file, prefix), Path(file).resolve().parent
+    if kind is Ground and section.motion:
+        return dataclasses.replace(section, motion=located("motion", section.motion, file))
     files = {key: getattr(section, key) for key in FILES.get(table.get("kind", ""), ())}
     for key, path in files.items():
         if not is_file(path if Path(path).is_absolute() else str(folder / path)):
@@ -444,14 +452,14 @@ def check(case: StructureCase, file) -> None:
         _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
         _check_name(case, f"links.{name}.to", link.to, refuse)
         check_link(f"links.{name}", link, refuse)
-        if link.to != GROUND and len(case.meant_by(link.to)[1]) > 1:
+        if link.to not in case.grounds and len(case.meant_by(link.to)[1]) > 1:
             refuse(
                 f"links.{name}.to",
                 link.to,
                 f'must be one of its copies, such as "{case.names_of(link.to)[0]}"',
             )
         if (
-            link.to != GROUND
+            link.to not in case.grounds
             and (own := case.meant_by(link.body))[0] == (other := case.meant_by(link.to))[0]
             and other[1][0] in own[1]
         ):
@@ -489,21 +497,23 @@ def check(case: StructureCase, file) -> None:
                 f'integration.engine = "reduced" with modes, of which {2 * body.floors} '
                 "are all",
             )
+    check_grounds(case, refuse)
     _check_integration(case, refuse)
 
 
 def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
-    if ground and name == GROUND:
+    if ground and name in case.grounds:
         return
     try:
         case.meant_by(name)
     except KeyError:
         known = (
-            [GROUND] * ground
+            list(case.grounds) * ground
             + list(case.bodies)
             + [copy for body in case.bodies for copy in case.names_of(body) if copy != body]
         )
-        refuse(key, name, f"no such body{meant(name, known)}; known: {', '.join(known)}")
+        what = "body or ground" if ground else "body"
+        refuse(key, name, f"no such {what}{meant(name, known)}; known: {', '.join(known)}")
 
 
 def _check_integration(case, refuse) -> None:
@@ -527,7 +537,7 @@ def _check_integration(case, refuse) -> None:
     for section, key, needed in (
         ("integration", "kinematics", "corotated"),
         ("contact", "impact", "plastic"),
-        ("contact", "rolling_resistance", 0.0),
+        *([("contact", "rolling_resistance", 0.0)] if plan.engine == "full" else []),
     ):
         if (value := getattr(getattr(case, section), key)) != needed:
             refuse(f"{section}.{key}", value, f"must be {needed} for a structure of [bodies]")

@@ -58,7 +58,7 @@ def engine_of(case, model: StructureModel, file) -> Engine:
     eye = view_of(standing, structure, weight, case.overturn.displacement_m)
     return Engine(
         build,
-        model.base,
+        model.bases,
         eye,
         hht,
         lambda engine: of_parts(engine, model.parts, stands),

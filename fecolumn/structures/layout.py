@@ -81,7 +81,12 @@ def layout_of(case, file) -> Layout:
     patches, contacts, edges = (
         {name: {} for name in case.bodies},
         [],
-        edges_of(case, drawings, meetings),
+        # the points of a pad are those of one face, however the other one lies below it
+        edges_of(
+            case,
+            drawings,
+            [one for one in meetings if case.interfaces[one.interface].stiffness_n_m3 is None],
+        ),
     )
     for body in case.bodies:
         patches[body] = _touching(case, body, drawings[body], meetings, edges)

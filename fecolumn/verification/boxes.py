@@ -110,7 +110,7 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     eye = view_of(model, structure, structure.bodies.body["mass"].sum() * case.GRAVITY)
     return Engine(
         lambda step: structure_of(model, step, GRAVITY),
-        base,
+        (base,),
         eye,
         hht,
         lambda made: of_parts(made, parts, stands),

@@ -188,7 +188,6 @@ class ReducedTrial(Trial):
     def __init__(self, system, start=standing, n_modes: int = N_MODES):
         self.system, self.penetration = system, 0.0
         self.reduction = Reduction.of(system, n_modes)
-        interface = system.interface
         first = None if start is standing else start(system)
 
         def begin(engine):

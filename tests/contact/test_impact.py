@@ -8,7 +8,7 @@ from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact, landing_moment, mark_landing, touched
 from fecolumn.contact.interface import interface_of
-from fecolumn.contact.pad import Springs
+from fecolumn.contact.pad import no_pads
 from fecolumn.contact.points import BASE, CONTACT, node_points
 from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import N_COUNTS, OK
@@ -72,7 +72,7 @@ def struck(
         NO_BASE,
         points,
         interface,
-        Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0),
+        no_pads(np.zeros((n, 3))),
         union,
         points["arm"].copy(),
         poses_on_base(np.eye(3)[None]),
@@ -307,7 +307,7 @@ def test_an_impact_is_plastic_whatever_the_step_and_the_faces(made, give, parts)
         NO_BASE,
         points,
         interface,
-        Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0),
+        no_pads(np.zeros((n, 3))),
         listed,
         points["arm"].copy(),
         poses,
@@ -364,7 +364,7 @@ def test_a_frame_keeps_what_the_theory_of_rocking_frames_says(slab):
         NO_BASE,
         points,
         interface,
-        Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0),
+        no_pads(np.zeros((n, 3))),
         listed,
         points["arm"].copy(),
         poses,

@@ -175,7 +175,7 @@ class Structure:
         eye = view_of(model, structure, structure.bodies.body["mass"].sum() * 9.81)
         return Engine(
             lambda step: structure_of(model, step, GRAVITY),
-            model.base,
+            model.bases,
             eye,
             hht,
             lambda made: reduced_of_parts(made, model.parts, stands),

@@ -60,7 +60,7 @@ def test_gravity_equilibrium_is_that_of_the_full_order(system):
     np.testing.assert_allclose(
         own.state.forces,
         projected.state.forces,
-        atol=SOLVED * system.interface.width / compliance[0, 0],
+        atol=SOLVED * system.interface.interfaces["width"][0] / compliance[0, 0],
     )
     np.testing.assert_allclose(own.state.x, projected.state.x, atol=1e-12)
 
