@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from fecolumn.structures.keys import Ground
 
-# Keys that say something of some kinds of ground alone
-_OF_KINDS = {
+#: Keys that say something of some kinds of ground alone, and these.
+OF_KINDS = {
     **dict.fromkeys(("length_m", "width_m"), ("plate",)),
     **dict.fromkeys(
         ("thickness_m", "slide_allowance_m", "element_size_m", "coarse_size_m"),
@@ -35,7 +35,7 @@ def check_grounds(case, refuse) -> None:
 
 
 def _check_keys(case, key: str, ground: Ground, refuse) -> None:
-    for one, kinds in _OF_KINDS.items():
+    for one, kinds in OF_KINDS.items():
         if (value := getattr(ground, one)) and ground.kind not in kinds:
             refuse(
                 f"{key}.{one}",

@@ -50,6 +50,8 @@ def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces) -
                 pad=pad_below(pads[k][0], area, mass or _own_mass(standing, joints[k], area)),
                 restitution=0.0,
                 rolling=0.0,
+                # a node of a rim that comes down on a pad presses a spring
+                round=False,
             )
     return found
 
