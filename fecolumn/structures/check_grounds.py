@@ -26,7 +26,7 @@ def check_grounds(case, refuse) -> None:
         used = [one.on for one in case.interfaces.values()] + [
             one.to for one in case.links.values()
         ]
-        if name not in used:
+        if name not in used and ground != Ground():
             refuse(f"grounds.{name}", None, "nothing stands on it, and no link is held by it")
     for name, interface in case.interfaces.items():
         _check_interface(case, f"interfaces.{name}", interface, refuse)

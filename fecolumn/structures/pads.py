@@ -28,11 +28,16 @@ def pad_keys(case, interface):
     return None, ""
 
 
-def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces) -> list[Joint]:
+def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, file) -> list[Joint]:
     """The joints, those on a pad with its springs; interfaces: names of theirs.
 
     One relaxation time for all joints of a pad: that at which the dashpots give what the pad
     carries, on all its area, the stated damping ratio.
+
+    Raises
+    ------
+    InputError
+        a pad that yields under the weight on it.
     """
     pads = [pad_keys(case, name) for name in interfaces]
     found, carried = list(joints), loads(standing, joints)
@@ -45,6 +50,15 @@ def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces) -
         load = {(joints[k].slave, joints[k].master): carried[k] for k in own}
         mass = sum(load.values()) / GRAVITY / sum(one.sum() for one in areas)
         for k, area in zip(own, areas):
+            keys, pressure = pads[k][0], carried[k] / area.sum()
+            if keys.yield_pa and pressure >= keys.yield_pa:
+                raise InputError(
+                    file,
+                    f"{where}.yield_pa",
+                    keys.yield_pa,
+                    f'must be more than {pressure:.4g} Pa, with which "'
+                    f'{standing[joints[k].slave].name}" presses on it at rest',
+                )
             found[k] = dataclasses.replace(
                 joints[k],
                 pad=pad_below(pads[k][0], area, mass or _own_mass(standing, joints[k], area)),
