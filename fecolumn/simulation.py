@@ -112,14 +112,14 @@ def _analysis_class(case, comm, file) -> type[Analysis]:
             case.integration.engine,
             "runs on one process: start it without mpirun",
         )
-    if structure:
-        from fecolumn.structures.analysis import StructureAnalysis
-
-        return StructureAnalysis
     if case.integration.engine in MODEL_ENGINES:
         from fecolumn.rocking.analysis import ModelAnalysis
 
         return ModelAnalysis
+    if structure:
+        from fecolumn.structures.analysis import StructureAnalysis
+
+        return StructureAnalysis
     from fecolumn.reduced.analysis import ReducedAnalysis
 
     return ReducedAnalysis
