@@ -451,7 +451,9 @@ def full_tables(form: ShortForm) -> dict:
     full["bodies"]["column"] |= {"kind": kind, "material": "column"}
     ground = full["grounds"]["ground"] | {"element_size_m": form.mesh.fine_size_m}
     full["grounds"]["ground"] = {
-        key: value for key, value in ground.items() if form.base.kind in OF_KINDS.get(key, form.base.kind)
+        key: value
+        for key, value in ground.items()
+        if form.base.kind in OF_KINDS.get(key, form.base.kind)
     }
     full["joints"] = {"foot": {"between": ["column", "ground"]}}
     return full

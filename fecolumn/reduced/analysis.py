@@ -27,7 +27,7 @@ from fecolumn.progress import Progress
 from fecolumn.reduced import start
 from fecolumn.reduced.cache import load_model
 from fecolumn.reduced.engine import Engine, column_engine
-from fecolumn.reduced.observe import COLUMNS, view
+from fecolumn.reduced.observe import COLUMNS, place_of, view
 from fecolumn.reduced.rigid_loss import loss_share
 from fecolumn.reduced.run import advance
 from fecolumn.reduced.states import States, state_of
@@ -160,7 +160,11 @@ class ReducedAnalysis(Analysis):
                 last = engine.made[-1]
                 progress.show(
                     self.step,
-                    dict(time=last[0], tilt=last[4], active_nodes=int(last[11])),
+                    {
+                        "time": last[place_of("time")],
+                        "tilt": last[place_of("tilt")],
+                        "active_nodes": int(last[place_of("active_nodes")]),
+                    },
                     engine.record,
                 )
                 self._keep()

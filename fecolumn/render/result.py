@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.case import MODEL_ENGINES
 from fecolumn.case import read_case as Case
 from fecolumn.dynamics.history import read_history
 from fecolumn.files import Unreadable, is_file, read_json
@@ -182,10 +183,11 @@ def read_result(folder, body: str = ""):
             f"{folder / 'analyses'}/CASE_ID",
         )
     case, _ = read_folder_case(folder)
-    if hasattr(case, "table"):
+    model = isinstance(case, StructureCase) and case.integration.engine in MODEL_ENGINES
+    if hasattr(case, "table") or model:
         raise InputError(
             folder,
-            case.table,
+            "integration.engine" if model else case.table,
             None,
             "is a rocking model of rigid bodies: nothing is meshed that could be "
             "drawn; its history has figures",

@@ -16,9 +16,9 @@ from fecolumn.ending import SLID_OFF, Ending
 from fecolumn.reduced.analysis import ReducedAnalysis
 from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.reduced.run import advance
-from fecolumn.reduced.structure import LOST
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.engine import engine_of, leans, upright
+from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import GROUND, StructureModel
 from fecolumn.structures.pads import warn_of_grounds
 from fecolumn.structures.structure import standing_of, structure_model
@@ -70,9 +70,13 @@ class OfStructure:
         return dict(critical_tilt_rad=min(tilts, default=None), u_critical_m=None)
 
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
-        tilts = {part.name: float(last[f"body/{part.name}/tilt"]) for part in self.structure.parts}
-        name = max(tilts, key=tilts.get)
-        return f'"{name}" has tilted by {tilts[name]:.3g} rad, limit {LOST:.3g} rad'
+        parts = self.structure.parts
+        tilts = np.array([float(last[f"body/{part.name}/tilt"]) for part in parts])
+        limits = limits_of(self.structure, standing_of(self.case, self.structure))
+        far, critical = tilts > limits.tilts, limits.standing["critical"]
+        b = int(np.argmax(np.where(far, tilts, 0.0) if far.any() else tilts - critical))
+        told = f"limit {limits.tilts[b]:.3g}" if far.any() else f"critical {critical[b]:.3g}"
+        return f'"{parts[b].name}" has tilted by {tilts[b]:.3g} rad, {told} rad'
 
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
         if fallen != FELL:
@@ -92,18 +96,13 @@ class OfStructure:
         }
         return min(heights, key=heights.get)
 
-    def finish(self, ending, dofs: int, record, factorizations: int) -> dict:
-        from fecolumn.atomic import write_json
-        from fecolumn.summary import NAME
-
-        summary = super().finish(ending, dofs, record, factorizations)
-        summary |= peaks(self.history.arrays(), self.structure)
-        if summary["slid_off"]:
+    def results(self, ending) -> dict:
+        """Of the summary: what bodies, interfaces, storeys and links have reached."""
+        found = peaks(self.history.arrays(), self.structure)
+        if ending.outcome == SLID_OFF:
             way = self.history.last()[f"body/{self._off or self._lowest()}/displacement"]
-            summary["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
-        if self.comm.rank == 0:
-            write_json(self.folder / NAME, summary)
-        return summary
+            found["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
+        return found
 
 
 class StructureAnalysis(OfStructure, ReducedAnalysis):

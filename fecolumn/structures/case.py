@@ -529,12 +529,6 @@ def _check_integration(case, refuse) -> None:
                         'must be left out with integration.engine = "full": feet that '
                         "are not flat are computed by the reduced and the rigid engine",
                     )
-    if plan.engine not in ("full", "reduced", "rigid", "housner", "wobbling"):
-        refuse(
-            "integration.engine",
-            plan.engine,
-            "must be full, reduced or rigid for a structure of [bodies]",
-        )
     for section, key, needed in (
         ("integration", "kinematics", "corotated"),
         ("contact", "impact", "plastic"),

@@ -18,7 +18,9 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
         from fecolumn.dynamics.hht import HHT
         from fecolumn.dynamics.structure import structure_system
         from fecolumn.structures.elements import structure_of_elements
+        from fecolumn.structures.lost import limits_of
         from fecolumn.structures.observer import StructureObserver
+        from fecolumn.structures.structure import standing_of
 
         case, plan = self.case, self.case.integration
         self.structure, self.meshed = structure_of_elements(case, self.comm, file)
@@ -38,8 +40,9 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
         except ValueError as error:
             name, _, told = str(error).partition(": ")
             raise InputError(file, name, None, told) from None
+        limits = limits_of(self.standing, standing_of(case, self.standing))
         return system, StructureObserver(
-            system, self.meshed, self.standing, case.overturn.displacement_m
+            system, self.meshed, self.standing, limits, case.overturn.displacement_m
         )
 
     @property

@@ -10,6 +10,7 @@ from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.overturning import Limits
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.dynamics.structure import released, structure_system
 from fecolumn.fem.body import Body
@@ -172,7 +173,12 @@ class Structure:
     def reduced(self, dt=1e-3, alpha=-0.05, modes=ALL, stands=True):
         model, hht = self.model(modes), HHT(dt, alpha)
         structure, _ = structure_of(model, hht, GRAVITY)
-        eye = view_of(model, structure, structure.bodies.body["mass"].sum() * 9.81)
+        eye = view_of(
+            model,
+            structure,
+            structure.bodies.body["mass"].sum() * 9.81,
+            Limits.of_tilt(len(model.parts)),
+        )
         return Engine(
             lambda step: structure_of(model, step, GRAVITY),
             model.bases,
