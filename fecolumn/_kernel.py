@@ -89,7 +89,8 @@ class _Library(JITCodeLibrary):
 
     def _callees(self) -> list:
         """Libraries of all functions called from here, directly or not, each once."""
-        found, waiting = {}, list(self._linking_libraries)
+        found: dict = {}
+        waiting = list(self._linking_libraries)
         while waiting:
             library = waiting.pop(0)
             if library not in found:

@@ -39,7 +39,10 @@ class Finding:
 
 def origin(name: str) -> str:
     """Debian, or the folder of a wheel; without importing the module."""
-    folder = str(Path(importlib.util.find_spec(name).origin).parent.parent)
+    found = importlib.util.find_spec(name)
+    if found is None or found.origin is None:
+        raise ModuleNotFoundError(f"No module named {name!r}")
+    folder = str(Path(found.origin).parent.parent)
     return "Debian" if folder.startswith("/usr/lib/") else folder
 
 

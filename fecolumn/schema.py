@@ -43,7 +43,7 @@ class InputError(ValueError):
             _in_text(allowed),
         )
         told = f" = {shown(value)}" if value is not None else ""
-        self.all = (self,)
+        self.all: tuple[InputError, ...] = (self,)
         super().__init__(
             f"{self.file}: {_in_text(key)}{told}: {self.allowed}"
             if key

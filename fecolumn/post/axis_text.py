@@ -62,7 +62,7 @@ def axis_unit(key: str) -> str:
     """
     section, _, name = key.partition(".")
     kind = typing.get_type_hints(Case).get(section)
-    owners = (
+    owners: list = (
         [one for one in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(one)]
         if kind
         else [Case]

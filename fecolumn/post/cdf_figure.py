@@ -68,10 +68,9 @@ def cdf_figure(
     )
     rows = math.ceil(len(panels) / columns)
     deepest = max(len(panel.lines) for panel in panels)
-    looks = {
-        label: None for panel in panels for label, _ in panel.lines
-    }  # one look a label, whatever a panel lacks
-    looks = {label: LINES[number % len(LINES)] for number, label in enumerate(looks)}
+    # one look a label, whatever a panel lacks
+    labels = dict.fromkeys(label for panel in panels for label, _ in panel.lines)
+    looks = {label: LINES[number % len(LINES)] for number, label in enumerate(labels)}
     legend_in = 0.3 + 0.145 * (
         deepest + 1 + (1e3 * max(peaks, default=0.0) > limit_mm)
     )  # the legend has a strip of its own: a line of points leaves no free corner

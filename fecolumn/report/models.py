@@ -131,7 +131,7 @@ def models(sweep: Sweep, gallery: Gallery) -> Section | None:
     columns = (
         *axis_columns(others),
         *named,
-        Column("engine", "engine", lambda one: NAMES.get(one, one), text=True),
+        Column("engine", "engine", lambda one: str(NAMES.get(one, one)), text=True),
         Column("n", "n"),
         Column("overturned", "over\N{SOFT HYPHEN}turned"),
         Column("p_overturn", "P(overturn)", percent),

@@ -107,7 +107,7 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
         )
         for r in ranks
     ]
-    columns = (
+    heads = (
         Column("axis from to", "parameter", _span, text=True),
         Column("settings", "settings"),
         Column("n", "motions"),
@@ -131,7 +131,7 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
             figure,
             Table(
                 "ranking",
-                columns,
+                heads,
                 rows,
                 "Parameters ranked by the largest distance of the CDF between their "
                 "extreme levels (of a sampled "

@@ -73,7 +73,8 @@ class Pair:
     @property
     def peaks(self) -> tuple[float, float]:
         """Largest magnitude of a and of b."""
-        return tuple(float(np.linalg.norm(values, axis=1).max()) for values in (self.a, self.b))
+        a, b = (float(np.linalg.norm(values, axis=1).max()) for values in (self.a, self.b))
+        return a, b
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,11 +143,8 @@ def parting(a: AnalysisResult, b: AnalysisResult, tolerance: float = TOLERANCE) 
     lifts = any(lifted)
 
     def pair(values, judged=True) -> Pair:
-        return Pair.of(
-            *(_at(time, history["time"], one) for history, one in zip(histories, values)),
-            tolerance,
-            judged,
-        )
+        first, second = (_at(time, history["time"], one) for history, one in zip(histories, values))
+        return Pair.of(first, second, tolerance, judged)
 
     quantities = {
         "top": pair([history["u_top"][:, :2] for history in histories]),
@@ -209,7 +207,7 @@ def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:
             and values[0] != values[1]
             and not (
                 all(isinstance(value, str) for value in values)
-                and content(values[0]) == content(values[1])
+                and content(str(values[0])) == content(str(values[1]))
             )
         ):
             found.append((key, *values))
@@ -236,7 +234,7 @@ def _at_default(a: Case, b: Case, section: str) -> list[str]:
 
 def _flat(tables: dict, before: str = "") -> dict:
     """Tables as one, by dotted key."""
-    flat = {}
+    flat: dict = {}
     for key, value in tables.items():
         flat.update(
             _flat(value, f"{before}{key}.")

@@ -108,7 +108,7 @@ def _spectrum(args, folder) -> None:
     )
     overturning_figure(rows, rocker.alpha[0], folder / "overturning")
     slenderness_figure(folder / "slenderness")
-    lowest = {}
+    lowest: dict = {}
     for shape, frequency, band in rows:
         lowest.setdefault((shape, frequency), band)
     p = rocker.p2[0] ** 0.5

@@ -292,20 +292,15 @@ def _programme(wall: Wall, slope, kept, near=None):
     equal = coo_matrix((values, (rows, columns)), shape=(3 * blocks, size)).tocsr()
     right = np.zeros(3 * blocks)
     right[1::3] = wall.weights / scale
-    number, ones = np.arange(joints), np.ones(joints)
-    first, second, shear, distance = (
-        3 * number,
-        3 * number + 1,
-        3 * number + 2,
-        3 * joints + 1 + number,
-    )
+    every, ones = np.arange(joints), np.ones(joints)
+    first, second, shear, distance = 3 * every, 3 * every + 1, 3 * every + 2, 3 * joints + 1 + every
 
     def limit(*terms):
         """Rows of sum of (coefficients, columns)."""
         return coo_matrix(
             (
                 np.concatenate([coefficients for coefficients, _ in terms]),
-                (np.tile(number, len(terms)), np.concatenate([at for _, at in terms])),
+                (np.tile(every, len(terms)), np.concatenate([at for _, at in terms])),
             ),
             shape=(joints, size),
         )
@@ -320,7 +315,12 @@ def _programme(wall: Wall, slope, kept, near=None):
     ).tocsr()
     near = np.zeros(joints) if near is None else near
     most = np.concatenate([kept, kept, near, -near]) / scale
-    bounds = [(0, None), (0, None), (None, None)] * joints + [(None, None)] + [(0, None)] * joints
+    free, positive = (None, None), (0.0, None)
+    bounds: list[tuple[float | None, float | None]] = [
+        *[positive, positive, free] * joints,
+        free,
+        *[positive] * joints,
+    ]
     cost = np.zeros(size)
     cost[3 * joints] = -1
     found = linprog(

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import importlib
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from fecolumn.schema import InputError
 
@@ -155,7 +155,7 @@ class Model(Protocol):
         """
 
 
-def model_class(name: str) -> type:
+def model_class(name: str) -> Any:
     """Class of a model of MODELS."""
     module, _, attribute = MODELS[name].partition(":")
     return getattr(importlib.import_module(f"fecolumn.rocking.{module}"), attribute)

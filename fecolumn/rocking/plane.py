@@ -270,7 +270,8 @@ def respond(
     found = [one if len(one.states) == rows else _held(one, rows, motion.dt) for one in found]
     ground = np.zeros((rows, 3))
     ground[: min(rows, len(motion.acceleration))] = motion.acceleration[:rows]
-    notes, peaks, u_top, tilts = [], {}, np.zeros((rows, 3)), np.zeros(rows)
+    peaks: dict[str, float] = {}
+    notes, u_top, tilts = [], np.zeros((rows, 3)), np.zeros(rows)
     for one in found:
         states, axis = one.states, one.plane.axis
         moved = one.plane.moved(np.abs(states[:, TILT]), states[:, EDGE])

@@ -13,8 +13,6 @@ output.states_every_s = 0.
 
 from __future__ import annotations
 
-from typing import Any
-
 import dataclasses
 import hashlib
 import itertools
@@ -23,6 +21,7 @@ import math
 import typing
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from fecolumn.case import (
     SECTIONS,

@@ -7,6 +7,7 @@ above has closed forms. Stones are so stiff that what their modes store is not s
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -66,7 +67,7 @@ class Rocks(NamedTuple):
     rates' ratio over it.
     """
 
-    of: callable
+    of: Callable[[float], np.ndarray]
     impact: float
     ratio: float
 

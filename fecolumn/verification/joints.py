@@ -63,16 +63,16 @@ def draw(engine: str, figure) -> None:
     small = np.logspace(-9, np.log10(0.05), 24)
     ways = np.concatenate([-small[::-1], [0.0], small])
     off = np.array([displaced(engine, way) for way in ways])[:, 1:3]
-    exact = []
+    rates = []
     for way in ways:
         one = rocks(*arms(way))
-        exact.append(
+        rates.append(
             [
                 -(one.of(one.impact + end)[0] - one.of(one.impact + start)[0]) / 0.01
                 for start, end in ((-0.0125, -0.0025), (0.0025, 0.0125))
             ]
         )
-    exact = np.array(exact)
+    exact = np.array(rates)
     for axes, place, label in zip(
         figure.subplots(1, 2), (0, 1), ("before the impact", "after the impact")
     ):

@@ -34,7 +34,8 @@ class MovingInterface(Interface):
 
     def __init__(self, still: Interface):
         super().__init__(still.column, still.foot, still.base, still.joints, still.laws)
-        self.position, self.first, self.known_velocities = np.zeros(3), np.zeros(3), []
+        self.position, self.first = np.zeros(3), np.zeros(3)
+        self.known_velocities: list = []
 
     def begin_step(self, *args):
         """Begin a step with the base where it was at the start of it."""

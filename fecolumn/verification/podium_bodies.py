@@ -29,6 +29,7 @@ slab's way in a swing over the columns' width, by which inertia and weight chang
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -54,7 +55,7 @@ FALL = 0.32
 _ALLOWED = 3e-3
 
 
-def podium_rows() -> list[Row]:
+def podium_rows() -> Iterator[Row]:
     """Rows of all periods."""
     for period in PERIODS:
         found, words = struck(period), f"podium below a storey of {period:g} s"

@@ -23,7 +23,7 @@ from fecolumn.reduced.run import column_engine
 from fecolumn.verification.trial import N_MODES, Trial
 
 # what is known of a body: making it takes seconds, and one body serves many trials
-_REDUCED = WeakKeyDictionary()
+_REDUCED: WeakKeyDictionary = WeakKeyDictionary()
 
 
 class Reduction:

@@ -81,7 +81,10 @@ def verify(pairs, folder: Path, long: bool = False, workers: int = 1, show=print
     show(header())
     found = {}
     with ProcessPoolExecutor(max_workers=workers, mp_context=get_context("spawn")) as pool:
-        futures = {pool.submit(run_case, *pair, folder, long): pair for pair in pairs}
+        futures = {
+            pool.submit(run_case, case, engine, folder, long): (case, engine)
+            for case, engine in pairs
+        }
         for future in as_completed(futures):
             found[futures[future]] = future.result()
             show(lines(future.result()))

@@ -194,16 +194,16 @@ def roll(
     their courses.
     """
     trial, dt = begin_trial(engine, system, rolling(rim, tilt, spin)), system.hht.dt
-    energy, turned = rim.energy(tilt, spin), [0.0]
-    energies = [trial.mechanical()]
+    energy, azimuths = rim.energy(tilt, spin), [0.0]
+    mechanical = [trial.mechanical()]
     for _ in range(steps):
         trial.step()
-        turned.append(azimuth(trial))
-        energies.append(trial.mechanical())
-    turned = np.unwrap(turned)
+        azimuths.append(azimuth(trial))
+        mechanical.append(trial.mechanical())
+    turned = np.unwrap(azimuths)
     # the ledger measures gravity energy from the reference configuration: shifted to that above
     # standing
-    energies = np.array(energies) - energies[0] + energy
+    energies = np.array(mechanical) - mechanical[0] + energy
     path = rim.polygon(tilt, spin, corners, steps * dt)
     return dict(
         rim=rim,
