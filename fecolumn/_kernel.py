@@ -168,9 +168,8 @@ class Kernel(CPUDispatcher):
 
     def compile(self, sig):
         with contextlib.ExitStack() as stack:
-            if not self._keeps(
-                sig
-            ):  # one process of this machine compiles; others wait and open what it made
+            # one process of this machine compiles; others wait and open what it made
+            if not self._keeps(sig):
                 stack.enter_context(alone(Path(self.stats.cache_path) / self.__name__))
             stack.enter_context(_one_piece(self.py_func))
             return super().compile(sig)

@@ -25,9 +25,8 @@ class Bar:
         keep: bool = True,
     ):
         self.total, self._quiet, self._stream, self._keep = total, quiet, stream or sys.stderr, keep
-        self._in_place = (
-            self._stream.isatty() or "ipykernel" in type(self._stream).__module__
-        )  # a notebook's
+        # a notebook's
+        self._in_place = self._stream.isatty() or "ipykernel" in type(self._stream).__module__
         self._pause_s = pause_s if self._in_place else 10.0
         self._bar: Any = None
         self._began = self._shown = time.monotonic()

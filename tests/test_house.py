@@ -1,4 +1,4 @@
-"""The code as a house: form, types, imports that go down, sizes of functions and names used once."""
+"""Form, types, imports that go down, arguments of functions, names defined once."""
 
 import ast
 import collections

@@ -33,9 +33,8 @@ def _fall(a: float, tp: float) -> list[list[np.ndarray]]:
     ground, drums, drawn = pulse(a, tp, _DRAWN[-1]), drums_of_column(), []
     centers = engine.motion.frames["center"].copy()
     for step in range(round(_DRAWN[-1] / DT)):
-        engine.advance(
-            ground[step : step + 1]
-        )  # step by step, for past its point of no return it would end
+        # step by step, for past its point of no return it would end
+        engine.advance(ground[step : step + 1])
         if len(drawn) < len(_DRAWN) and step + 1 == round(_DRAWN[len(drawn)] / DT):
             places = zip(
                 drums,

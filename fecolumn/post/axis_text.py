@@ -17,10 +17,11 @@ _SYMBOLS = {
     "material.youngs_modulus_pa": "$E$",
 }
 _NAMED = ("base", "cap")  # parts whose keys other parts have, too
+# of keys that are no words for their values
 _WORDS = {
     "podium.impact": "law of impact",
     "podium.storeys": "number of storeys",
-}  # of keys that are no words for their values
+}
 
 
 def axis_text(key: str, value) -> str:

@@ -71,9 +71,8 @@ def cdf_figure(
     # one look a label, whatever a panel lacks
     labels = dict.fromkeys(label for panel in panels for label, _ in panel.lines)
     looks = {label: LINES[number % len(LINES)] for number, label in enumerate(labels)}
-    legend_in = 0.3 + 0.145 * (
-        deepest + 1 + (1e3 * max(peaks, default=0.0) > limit_mm)
-    )  # the legend has a strip of its own: a line of points leaves no free corner
+    # the legend has a strip of its own: a line of points leaves no free corner
+    legend_in = 0.3 + 0.145 * (deepest + 1 + (1e3 * max(peaks, default=0.0) > limit_mm))
     with styled():
         figure = new_figure(
             width_in if columns > 1 else min(width_in, 0.6 * PAGE_WIDTH_IN),

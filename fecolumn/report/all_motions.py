@@ -30,9 +30,8 @@ def all_motions(sweep: Sweep, histories: Histories, gallery: Gallery) -> Section
         return None
     shown = sweep.reference if sweep.reference in drawn else drawn[0]
     limit, own = 1.03 * sweep.limit_m, histories.of(shown)
-    in_plan = any(
-        trace.u_top[:, 1].any() for trace in own
-    )  # a model of a plane has no path in plan
+    # a model of a plane has no path in plan
+    in_plan = any(trace.u_top[:, 1].any() for trace in own)
     caption = (
         f"{_what(sweep)} in {count(len(own), 'motion')} {sweep.at(shown.values)}, against "
         f"time. {_marked(sweep, shown)}"

@@ -124,9 +124,8 @@ def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
 def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
     if axis is None:
         chosen = sweep.done
-        if (
-            len(chosen) > _LINES
-        ):  # of many unordered ones the least, the middle and the most dangerous
+        # of many unordered ones the least, the middle and the most dangerous
+        if len(chosen) > _LINES:
             ranked = sorted(
                 chosen,
                 key=lambda one: (one.column("overturned").mean(), percentile(*one.peaks(), 0.5)),

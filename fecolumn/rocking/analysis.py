@@ -33,9 +33,8 @@ class ModelAnalysis(Analysis):
             if isinstance(case, TableCase)
             else model_class(case.integration.engine).of_case(case, file)
         )
-        self.model.respond(
-            GroundMotion(np.zeros((2, 3)), 1e-3, "", "")
-        )  # compiles what is missing on this machine
+        # compiles what is missing on this machine
+        self.model.respond(GroundMotion(np.zeros((2, 3)), 1e-3, "", ""))
         self.began, self.cpu_began = time.perf_counter(), time.process_time()
 
     @property

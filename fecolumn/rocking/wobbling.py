@@ -287,9 +287,8 @@ class Wobbling:
         if not upward.any():
             return [], {}
         foot = foot[upward]
-        if not self.body[
-            4
-        ]:  # a column's tendon presses it on the ground, a frame's one is between column and slab
+        # a column's tendon presses it on the ground, a frame's one is between column and slab
+        if not self.body[4]:
             stretch = 2 * self.body[0] * np.sin(rows[upward, 1] / 2)
             pull = self.body[8] + self.body[7] * stretch
             foot = foot + pull[:, None] * np.column_stack(

@@ -123,9 +123,10 @@ class DaskTeam:
 
     def give(self, batch: list[Task]) -> None:
         """Submit a batch to the scheduler, with absolute paths: workers run in other folders."""
+        # workers have folders of their own
         batch = [
             task._replace(folder=task.folder.resolve(), log=task.log.resolve()) for task in batch
-        ]  # workers have folders of their own
+        ]
         future = self._client.submit(_serve, batch, *self._told, pure=False)
         self._in_hand[future.key] = future, batch
 

@@ -79,9 +79,8 @@ class Ledger:
                 raise sqlite3.DatabaseError("no file")
             self._open(file)
         except sqlite3.DatabaseError as error:
-            if isinstance(
-                error, sqlite3.OperationalError
-            ):  # cannot be opened, or the disk is full: it may be as good as ever
+            # cannot be opened, or the disk is full: it may be as good as ever
+            if isinstance(error, sqlite3.OperationalError):
                 raise
             self.put_aside = file.with_name(f"{file.name}.damaged")
             for name in files_of(file):

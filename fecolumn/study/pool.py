@@ -121,9 +121,8 @@ class _Worker:
     """
 
     def __init__(self, entry: str, file: str) -> None:
-        context = multiprocessing.get_context(
-            "spawn"
-        )  # a fork would copy the driver's MPI and threads
+        # a fork would copy the driver's MPI and threads
+        context = multiprocessing.get_context("spawn")
         self.connection, far_end = context.Pipe()
         self.process = context.Process(target=_serve, args=(far_end, entry, file), daemon=True)
         self.tasks: dict[str, Task] = {}

@@ -34,7 +34,6 @@ def preparation(analyses: Iterable[Any]) -> str:
         held(lock) for name in ("model", "body") for lock in cache_folder().glob(f".{name}-*.lock")
     ):
         return MODELLING
-    kept = any(
-        Path(compiled_folder()).glob("*/*.advance-*.nbi")
-    )  # the one function of the engine that Python calls, see reduced.run
+    # the one function of the engine that Python calls, see reduced.run
+    kept = any(Path(compiled_folder()).glob("*/*.advance-*.nbi"))
     return "" if kept or numba.config.DISABLE_JIT else COMPILING

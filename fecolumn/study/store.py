@@ -134,9 +134,8 @@ class Store:
         )
         for case_id, state in self.ledger.states().items():
             outcome = finished(case_id, self.result_folder(case_id)) if case_id in there else None
-            if outcome and not self.ledger.agrees(
-                outcome
-            ):  # not done yet by the ledger, or it says something else
+            # not done yet by the ledger, or it says something else
+            if outcome and not self.ledger.agrees(outcome):
                 self.ledger.end(outcome)
             elif not outcome and state == DONE:
                 self.ledger.plan_again(case_id=case_id)

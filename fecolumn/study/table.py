@@ -119,9 +119,8 @@ def _analysis_row(row: dict[str, Any]) -> list[Any]:
     texts, summary = [row["id"], *row["axes"].values(), row["state"]], row["summary"]
     if not summary:
         return texts + [""] * len(_ANALYSES)
-    peak = (
-        "" if lost(summary) else f"{summary['u_max_m']:.6e}"
-    )  # what overturned or slid off has none
+    # what overturned or slid off has none
+    peak = "" if lost(summary) else f"{summary['u_max_m']:.6e}"
     return [
         *texts,
         peak,

@@ -66,10 +66,11 @@ SIDE, HEIGHT = 1.0, 0.5  # [m] of each block
 SOFT = Material(youngs_modulus_pa=1e9, poissons_ratio=0.0, density_kg_m3=2000.0)
 GRADED = SIDE * np.array([0.0, 0.08, 0.2, 0.4, 0.55, 0.8, 1.0])
 SQUARE = 1.12  # displacement of a loaded square's centre, times E / (pressure side)
+# of bricks of the foot on bricks of the base
 COLOURS = {
     (3, 2): ("#0072B2", "o"),
     (2, 3): ("#D55E00", "s"),
-}  # of bricks of the foot on bricks of the base
+}
 
 
 def run(engine: str, long: bool) -> Result:

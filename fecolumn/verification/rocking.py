@@ -333,9 +333,8 @@ def overturning(engine: str) -> Row:
 
     def overturns(amplitude):
         trial = begin_trial(engine, system)
-        onset = (
-            np.arcsin(GRAVITY * np.tan(rigid.slenderness) / amplitude) / frequency
-        )  # Shi's pulse starts where it lifts the column
+        # Shi's pulse starts where it lifts the column
+        onset = np.arcsin(GRAVITY * np.tan(rigid.slenderness) / amplitude) / frequency
         while True:
             time = trial.state.time + system.hht.dt
             phase = frequency * (onset + time)

@@ -69,9 +69,8 @@ def test_falling_filter_frequency_lowers_the_crossing_rate():
         dataclasses.replace(ONE, frequency_hz=6.0, frequency_slope_hz_s=-0.5, damping=0.1)
     )
     ups = (motions[:-1] <= 0) & (motions[1:] > 0)
-    rates = [
-        ups[start : start + 300].mean() / FLAT.dt for start in (500, 1100)
-    ]  # 5-8 s and 11-14 s
+    # 5-8 s and 11-14 s
+    rates = [ups[start : start + 300].mean() / FLAT.dt for start in (500, 1100)]
     assert rates[1] - rates[0] == pytest.approx(-0.5 * 6, abs=0.4)
 
 

@@ -123,9 +123,8 @@ def test_other_cases_and_engines_are_compared_in_their_common_time(folders, caps
             "integration.duration_s",
         )
     )
-    assert (
-        "from 0 to 0.2 s" in said and "They part at 0.0000 s, first in top displacement" in said
-    )  # 0.05 and 0.055 rad are a tenth apart
+    # 0.05 and 0.055 rad are a tenth apart
+    assert "from 0 to 0.2 s" in said and "They part at 0.0000 s, first in top displacement" in said
 
 
 def test_a_column_that_only_stands_has_no_tilt_to_part(tmp_path, capsys):

@@ -162,9 +162,8 @@ def test_whatever_is_killed_the_tables_are_those_of_local_processes(tmp_path, cl
     assert {pid for pids in calls.values() for pid in pids} == {
         str(worker.pid) for worker in three.workers
     }
-    assert (
-        sum(map(len, calls.values())) <= 28 + 2 * 4 + 2 + 4
-    )  # else only what was in hand, and what diverges
+    # else only what was in hand, and what diverges
+    assert sum(map(len, calls.values())) <= 28 + 2 * 4 + 2 + 4
     assert _tables(out) == _local(tmp_path, study)
 
 

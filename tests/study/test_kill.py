@@ -116,9 +116,8 @@ def test_killed_at_random_moments_a_study_gives_the_bytes_of_an_uninterrupted_on
             driver.wait(draw.uniform(0.1, 1.0))
         with contextlib.suppress(ProcessLookupError):
             driver.kill()
-        driver.communicate(
-            timeout=60
-        )  # workers left alone go too, and so does their end of the pipe
+        # workers left alone go too, and so does their end of the pipe
+        driver.communicate(timeout=60)
         for name, content in kept.items():  # nothing finished is lost or done again
             assert (out / "analyses" / name / "summary.json").read_bytes() == content
         for file in out.glob("analyses/*/summary.json"):
@@ -137,9 +136,8 @@ def test_killed_at_random_moments_a_study_gives_the_bytes_of_an_uninterrupted_on
         file.parent.name: len(file.read_text().splitlines())
         for file in out.glob("analyses/*/calls")
     }
-    assert (
-        sum(calls.values()) - len(calls) <= 4 * 9 + 2 * 8 * 3
-    )  # what diverges is tried again each time, else only what was in hand
+    # what diverges is tried again each time, else only what was in hand
+    assert sum(calls.values()) - len(calls) <= 4 * 9 + 2 * 8 * 3
 
 
 def _limit_file_size():

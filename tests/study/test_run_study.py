@@ -313,9 +313,8 @@ def test_tables_count_what_failed_and_what_overturned(tmp_path):
         line.split(",") for line in (tmp_path / "out" / "analyses.csv").read_text().splitlines()
     ]
     analyses = [dict(zip(header, line)) for line in lines]
-    assert all(
-        (one["u_max_m"] == "") == (one["overturned"] != "0") for one in analyses
-    )  # what overturned, or failed, has no peak
+    # what overturned, or failed, has no peak
+    assert all((one["u_max_m"] == "") == (one["overturned"] != "0") for one in analyses)
     assert (
         "wall" not in ",".join(header) and "wall_s" in (tmp_path / "out" / "timing.csv").read_text()
     )
@@ -333,9 +332,8 @@ def test_progress_judges_the_rest_by_its_effort(tmp_path):
     plan = read_plan(write_study(tmp_path, dt=[0.02, 1e-3], alpha=[0], pulses=[1]))
     progress = Progress({"planned": 2}, sum(a.effort for a in plan.analyses), 2, io.StringIO())
     long = plan.analyses[1]
-    progress.count(
-        Outcome(long.id, "done", wall_s=90.0, started=1.0, overturned=True), long.effort
-    )  # 2000 of 3050
+    # 2000 of 3050
+    progress.count(Outcome(long.id, "done", wall_s=90.0, started=1.0, overturned=True), long.effort)
     assert (
         progress.line(100.0)
         == "1/2 analyses, 0.6 a minute, 52 s to go, 1 overturned, 0 failed, workers 45 % busy"
