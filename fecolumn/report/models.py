@@ -173,9 +173,16 @@ def models(sweep: Sweep, gallery: Gallery) -> Section | None:
 class _Beside:
     """Engines that share all else, each on the motions that it has in common with the reference.
 
-    others: values of the other axes. settings: with at least one such motion. reference: the engine
-    nearest to the whole of those with most motions; None of models alone. fewer: names of the
-    engines that have not all of its motions.
+    Attributes
+    ----------
+    others
+        values of the other axes.
+    settings
+        with at least one such motion.
+    reference
+        the engine nearest to the whole of those with most motions; None of models alone.
+    fewer
+        names of the engines that have not all of its motions.
     """
 
     others: dict

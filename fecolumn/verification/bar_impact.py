@@ -66,10 +66,20 @@ BRICKS = (16, 32, 64, 128)
 class Strike:
     """One impact, over 1.25 contact times.
 
-    time, force: (m,) from the moment of contact [s], and [N]. rebound: velocity of the centre of
-    mass [m/s]. contact, damping: energy that contact and impact law, and HHT took [J]; landing: the
-    first of these in the first step of contact. foot: mass m_e of the filtered foot [kg], 0 without
-    the impact law. closure: of the ledger [J].
+    Attributes
+    ----------
+    time, force
+        (m,) from the moment of contact [s], and [N].
+    rebound
+        velocity of the centre of mass [m/s].
+    contact, damping
+        energy that contact and impact law, and HHT took [J].
+    landing
+        the first of these in the first step of contact.
+    foot
+        mass m_e of the filtered foot [kg], 0 without the impact law.
+    closure
+        of the ledger [J].
     """
 
     time: np.ndarray

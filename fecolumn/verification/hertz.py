@@ -63,8 +63,18 @@ QUANTITIES = {"radius": "o-", "peak": "s:", "spread": "^--"}  # errors of Presse
 
 @dataclass(frozen=True, slots=True)
 class Hertz:
-    """Exact solution. axes: along which the surface is curved; poisson: of both; moduli: of block
-    and base [Pa]; size: L / a.
+    """Exact solution.
+
+    Attributes
+    ----------
+    axes
+        along which the surface is curved.
+    poisson
+        of both.
+    moduli
+        of block and base [Pa].
+    size
+        L / a.
     """
 
     axes: int
@@ -116,9 +126,22 @@ class Hertz:
 class Pressed:
     """A block on bricks of side h [m] under one load.
 
-    a: exact radius [m]. place: (n,) r of the foot's nodes over a; pressures: (n,) over p0. radius,
-    peak: relative errors. spread: of the pressures, root of the mean square over the contact.
-    approach: settlement of the block [m]. friction: largest share of p0.
+    Attributes
+    ----------
+    a
+        exact radius [m].
+    place
+        (n,) r of the foot's nodes over a.
+    pressures
+        (n,) over p0.
+    radius, peak
+        relative errors.
+    spread
+        of the pressures, root of the mean square over the contact.
+    approach
+        settlement of the block [m].
+    friction
+        largest share of p0.
     """
 
     h: float

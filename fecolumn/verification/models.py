@@ -43,8 +43,8 @@ TONES = ((1, np.array([30.0, 31.0, 1.0])), (-1, np.array([75.0, 73.0, 1.0])))
 
 
 def column_case(engine: str, **tables):
-    """Case of the coarse specimen; `tables` are merged over it, e.g.
-    contact={"friction_coefficient": 0.8}.
+    """Case of the coarse specimen; `tables`, such as contact={"friction_coefficient": 0.8}, are
+    merged over it.
     """
     key = "engine" if engine in REDUCED else "kinematics"
     return case_from_tables(

@@ -66,7 +66,9 @@ class MovingStepper(Stepper):
     ----------
     base
         Base at the end of the last step, or of the part of one that a fast rolling rim makes by
-        itself. work: of the base so far [J].
+        itself.
+    work
+        of the base so far [J].
     """
 
     def __init__(self, system, ledger, path):

@@ -221,9 +221,22 @@ def block_on_block(engine: str, foot, base, distortion: float = 0.0):
 class Standing:
     """A block at rest on its base; largest errors, relative to the exact.
 
-    size: base brick / height [-]. pressure: at the foot's nodes. sinking: displacement of the
-    base's top, deep: halfway down, both relative to the top's. imbalance: largest e_j. place: (2,
-    n, n) [m] of the foot's nodes; pressures: (n, n) relative to the exact.
+    Attributes
+    ----------
+    size
+        base brick / height [-].
+    pressure
+        at the foot's nodes.
+    sinking
+        displacement of the base's top.
+    deep
+        the same halfway down the base, relative to the top's.
+    imbalance
+        largest e_j.
+    place
+        (2, n, n) [m] of the foot's nodes.
+    pressures
+        (n, n) relative to the exact.
     """
 
     size: float
