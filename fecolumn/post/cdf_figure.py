@@ -25,7 +25,7 @@ SHADES, BARS = "shades: pointwise 95 % bands", "bars: pointwise 95 % bands"
 
 
 @dataclass(frozen=True, slots=True)
-class Panel:
+class CdfPanel:
     """One set of axes: its title, a label with a distribution of u_max [m] for each line, and what
     its legend calls the share beyond.
     """
@@ -36,7 +36,7 @@ class Panel:
 
 
 def cdf_figure(
-    panels: list[Panel], path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN
+    panels: list[CdfPanel], path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN
 ) -> list[Path]:
     """Write the figure, as PNG and PDF unless told otherwise.
 
@@ -126,7 +126,7 @@ def common(peaks) -> list[float]:
     return [peak for peak in peaks if peak <= _FAR * np.quantile(peaks, 0.95)]
 
 
-def _beyond(panel: Panel, limit_mm: float) -> str:
+def _beyond(panel: CdfPanel, limit_mm: float) -> str:
     """A line on the peaks beyond the axis, "" where there are none."""
     beyond = [
         1e3 * peak
@@ -137,7 +137,7 @@ def _beyond(panel: Panel, limit_mm: float) -> str:
     return f"\n{len(beyond)} beyond the axis, up to {max(beyond):.0f} mm" if beyond else ""
 
 
-def _draw(axes, panel: Panel, looks: dict, limit_mm: float) -> str:
+def _draw(axes, panel: CdfPanel, looks: dict, limit_mm: float) -> str:
     """Bands below, lines above; what the bands are."""
     shaded = len(panel.lines) <= SHADED
     for number, (label, distribution) in enumerate(panel.lines):

@@ -34,7 +34,7 @@ QUANTITIES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class QuantityPair:
     """One quantity of both analyses on common times.
 
     Attributes
@@ -60,7 +60,9 @@ class Pair:
     judged: bool = True
 
     @classmethod
-    def of(cls, a: np.ndarray, b: np.ndarray, tolerance: float, judged: bool = True) -> Pair:
+    def of(
+        cls, a: np.ndarray, b: np.ndarray, tolerance: float, judged: bool = True
+    ) -> QuantityPair:
         """The pair of (n, k) arrays, or (n,) as such of one column."""
         a, b = (values.reshape(len(values), -1) for values in (a, b))
         peak = max(float(np.linalg.norm(values, axis=1).max()) for values in (a, b))
@@ -98,8 +100,8 @@ class Parting:
 
     time: np.ndarray
     tolerance: float
-    quantities: dict[str, Pair]
-    energy: dict[str, Pair]
+    quantities: dict[str, QuantityPair]
+    energy: dict[str, QuantityPair]
     keys: list[tuple[str, object, object]]
 
     @property
@@ -142,9 +144,9 @@ def parting(a: AnalysisResult, b: AnalysisResult, tolerance: float = TOLERANCE) 
     heights, lifted = zip(*(_uplift(case, history) for case, history in zip(cases, histories)))
     lifts = any(lifted)
 
-    def pair(values, judged=True) -> Pair:
+    def pair(values, judged=True) -> QuantityPair:
         first, second = (_at(time, history["time"], one) for history, one in zip(histories, values))
-        return Pair.of(first, second, tolerance, judged)
+        return QuantityPair.of(first, second, tolerance, judged)
 
     quantities = {
         "top": pair([history["u_top"][:, :2] for history in histories]),
@@ -244,7 +246,7 @@ def _flat(tables: dict, before: str = "") -> dict:
     return flat
 
 
-def quantity_of(name: str, pair: Pair) -> Quantity:
+def quantity_of(name: str, pair: QuantityPair) -> Quantity:
     """How a quantity is written: its unit with a prefix that suits the peak."""
     words, unit, _ = QUANTITIES[name]
     return Quantity.of(words, unit, pair.peak)

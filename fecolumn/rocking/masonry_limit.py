@@ -26,7 +26,7 @@ _CLOSE = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Joint:
+class StraightJoint:
     """Straight contact between two blocks.
 
     Attributes
@@ -97,7 +97,7 @@ class Wall:
 
     boxes: np.ndarray
     weights: np.ndarray
-    joints: tuple[Joint, ...]
+    joints: tuple[StraightJoint, ...]
     loads: np.ndarray
 
     @property
@@ -125,12 +125,14 @@ def wall_of_boxes(boxes, unit_weight: float, depth: float = 1.0) -> Wall:
     for i, (left, bottom, right, top) in enumerate(boxes):
         if bottom < ground + near:
             joints.append(
-                Joint(i, -1, np.array([[left, bottom], [right, bottom]]), np.array([0.0, 1.0]))
+                StraightJoint(
+                    i, -1, np.array([[left, bottom], [right, bottom]]), np.array([0.0, 1.0])
+                )
             )
         for j, (x0, y0, x1, y1) in enumerate(boxes):
             if abs(bottom - y1) < near and min(right, x1) - max(left, x0) > near:
                 joints.append(
-                    Joint(
+                    StraightJoint(
                         i,
                         j,
                         np.array([[max(left, x0), bottom], [min(right, x1), bottom]]),
@@ -139,7 +141,7 @@ def wall_of_boxes(boxes, unit_weight: float, depth: float = 1.0) -> Wall:
                 )
             if abs(left - x1) < near and min(top, y1) - max(bottom, y0) > near:
                 joints.append(
-                    Joint(
+                    StraightJoint(
                         i,
                         j,
                         np.array([[left, max(bottom, y0)], [left, min(top, y1)]]),

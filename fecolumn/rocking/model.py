@@ -39,7 +39,7 @@ SAFE, OVERTURNED = "safe", "overturned"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Response:
+class ModelResponse:
     """How a model moved in one motion, relative to its base.
 
     Attributes
@@ -136,7 +136,7 @@ class Model(Protocol):
         tilt: float = 0.0,
         tilt_rate: float = 0.0,
         direction: float = 0.0,
-    ) -> Response:
+    ) -> ModelResponse:
         """Response to a motion, all of its components, from rest or from a tilt.
 
         Parameters

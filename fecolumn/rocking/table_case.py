@@ -169,7 +169,7 @@ def table_case(tables: dict, file, engine: str | None = None) -> TableCase:
     return case
 
 
-def type_of(key: str):
+def model_key_type(key: str):
     """Type of a dotted key of a model's table, such as podium.storeys, or None."""
     import typing
 

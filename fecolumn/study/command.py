@@ -193,7 +193,7 @@ def _run(
     and whether it was stopped.
     """
     from fecolumn.study.plan import read_plan
-    from fecolumn.study.run import ENTRY, StudyError, check_motions, run_study
+    from fecolumn.study.run import ENTRY, StudyError, check_motions, complete_study
 
     plan = read_plan(args.study)
     # an analysis function of the user's may read motions this package does not know
@@ -222,14 +222,13 @@ def _run(
 
     def work(only: set[str] | None = None) -> list[dict[str, Any]]:
         team = team_of(entry, args.output, share, plan.file) if team_of else None
-        return run_study(
+        return complete_study(
             plan,
             args.output,
-            workers=args.jobs or os.cpu_count() or 1,
+            workers=team or args.jobs or os.cpu_count() or 1,
             entry=entry,
             retry_failed=args.retry_failed,
             share=share,
-            team=team,
             only=only,
         )
 

@@ -38,7 +38,7 @@ from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.paths import taken_over
 from fecolumn.rocking.model import TABLES
 from fecolumn.schema import InputError, build, merge, nested, read_toml, shown
-from fecolumn.study.axes import Factor, hint, read_factors
+from fecolumn.study.axes import AxisFactor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
 
 # Axes that make the members of an ensemble; every other axis tells one ensemble from another.
@@ -228,7 +228,7 @@ class _Maker:
     values they depend on, and shared.
     """
 
-    def __init__(self, common: dict[str, Any], factors: list[Factor], path: Path):
+    def __init__(self, common: dict[str, Any], factors: list[AxisFactor], path: Path):
         self.common, self.factors, self.path = common, factors, path
         self.keys = tuple(key for factor in factors for key in factor.keys)
         # section: (place of the factor, place of the value in its level, key) of the values it

@@ -38,8 +38,8 @@ from fecolumn.verification.podium_structure import (
     ALPHA,
     GAMMA,
     HALF_DIAGONAL,
+    let_go,
     podium_case,
-    released,
     tilt_of,
 )
 from fecolumn.verification.result import Row
@@ -86,7 +86,7 @@ def struck(period: float, dt: float = DT) -> dict:
     carried, squared = 4 * GAMMA, math.sin(ALPHA) ** 2
     slab, floor = 4 / 3 + carried * (1 + squared), carried * (1 - squared)
     swing = 2 * math.pi / period * math.sqrt(1 + floor / slab)
-    history = released(
+    history = let_go(
         podium_case(1, period, SHARE * ALPHA, dt, building=dict(damping_ratio=0.0)),
         FALL + 2 * math.pi / swing,
     )

@@ -20,7 +20,7 @@ HALF_DIAGONAL, ALPHA, GAMMA = 1.5, math.atan(0.15), 10.0
 STIFF = 1e14
 
 
-def released(case, seconds: float) -> dict[str, np.ndarray]:
+def let_go(case, seconds: float) -> dict[str, np.ndarray]:
     """Columns of the history of a structure that is let go on ground at rest."""
     engine = engine_of(case, structure_model(case), "case")
     rows, _ = engine.advance(np.zeros((round(seconds / case.integration.dt_s), 3)))

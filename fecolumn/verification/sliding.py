@@ -45,7 +45,7 @@ from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
 from fecolumn.verification.coulomb_block import NewmarkBlock, TurningBlock
 from fecolumn.verification.models import block_system, box, column_system
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.rocking import ramp
 from fecolumn.verification.trial import Trial
 from fecolumn.verification.trials import begin_trial
@@ -69,12 +69,15 @@ MARKS = {
 }
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless
     `long`.
     """
-    result = Result(size=(7.2, 2.5))
-    result.rows += [creep(engine), *(row for share in (0.5, 0.9) for row in slope(engine, share))]
+    result = CaseRows(size=(7.2, 2.5))
+    result.rows += [
+        creep(engine),
+        *(row for share in (0.5, 0.9) for row in slope_slide(engine, share)),
+    ]
     if long or engine != "total_lagrangian":
         result.rows.append(threshold(engine))
     pulses = {dt: [one_sine(engine, dt, shift) for shift in SHIFTS] for dt in STEPS}
@@ -182,7 +185,7 @@ def creep(engine: str) -> Row:
     )
 
 
-def slope(engine: str, share: float) -> list[Row]:
+def slope_slide(engine: str, share: float) -> list[Row]:
     """Distance and friction energy of a block let go for 0.3 s."""
     trial = on_slope(engine, share)
     start = centre(trial)

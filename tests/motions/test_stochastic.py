@@ -10,7 +10,13 @@ import pytest
 from scipy.integrate import cumulative_trapezoid
 
 from fecolumn.case import GRAVITY
-from fecolumn.motions.stochastic import Component, Shape, amplitude, at_rest, bidirectional
+from fecolumn.motions.stochastic import (
+    Component,
+    EnsembleShape,
+    amplitude,
+    bidirectional,
+    brought_to_rest,
+)
 from fecolumn.motions.variability import (
     _CORRELATIONS,
     damping_of,
@@ -20,7 +26,7 @@ from fecolumn.motions.variability import (
     slope_score,
 )
 
-FLAT = Shape(
+FLAT = EnsembleShape(
     modulation_shape=10.0,
     corner_hz=0.1,
     frequencies_hz=np.array([0.1, 10.0]),
@@ -92,7 +98,7 @@ def test_velocity_and_displacement_end_at_zero():
 
 def test_correction_for_rest_leaves_a_motion_at_rest_as_it_is():
     motion = many(n=2)[:, 0]
-    assert at_rest(motion, FLAT.dt) == pytest.approx(motion, abs=1e-12)
+    assert brought_to_rest(motion, FLAT.dt) == pytest.approx(motion, abs=1e-12)
 
 
 def test_components_are_independent():

@@ -8,7 +8,7 @@ import pytest
 
 from fecolumn.ending import OVERTURNED, SLID_OFF
 from fecolumn.post.fan_figure import Fan, fan_figure
-from fecolumn.post.plan_figure import plan_figure
+from fecolumn.post.plan_figure import LostDirections, plan_figure
 from fecolumn.post.style import BLUE, COLUMN_WIDTH_IN, PURPLE, VERMILION
 
 
@@ -110,8 +110,7 @@ def test_rose_shows_the_share_of_each_sector_and_none_where_nothing_was_lost(tmp
     traces = [_trace(0.03), _trace(0.02, 0.1, OVERTURNED), _trace(0.02, 2.0, SLID_OFF)]
     (lost,) = plan_figure(
         traces,
-        ([0.0, 5.0, -10.0], [0.0, 5.0, -10.0]),
-        "lost",
+        LostDirections([0.0, 5.0, -10.0], [0.0, 5.0, -10.0], "lost"),
         None,
         0.05,
         0.1,
@@ -119,7 +118,7 @@ def test_rose_shows_the_share_of_each_sector_and_none_where_nothing_was_lost(tmp
         ("png",),
     )
     (stood,) = plan_figure(
-        traces[:1], ([], []), "lost", None, 0.05, 0.1, tmp_path / "stood", ("png",)
+        traces[:1], LostDirections([], [], "lost"), None, 0.05, 0.1, tmp_path / "stood", ("png",)
     )
     picture = _picture(lost)
     assert struct.unpack(">II", stood.read_bytes()[16:24])[0] < picture.shape[1] == 1440

@@ -21,7 +21,7 @@ from fecolumn.cli import main
 from fecolumn.schema import InputError
 from fecolumn.study import dask
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import StudyError, run_study
+from fecolumn.study.run import StudyError, complete_study
 from fecolumn.study.store import read_study
 from fecolumn.study.table import write_tables
 
@@ -132,7 +132,7 @@ def _local(tmp_path, study) -> list[bytes]:
     plan = read_plan(study)
     write_tables(
         plan,
-        run_study(plan, tmp_path / "local", workers=2, entry=ENTRY, stream=io.StringIO()),
+        complete_study(plan, tmp_path / "local", workers=2, entry=ENTRY, stream=io.StringIO()),
         tmp_path / "local",
     )
     return _tables(tmp_path / "local")
@@ -314,7 +314,7 @@ def test_workers_that_all_leave_stop_the_study(tmp_path, cluster, monkeypatch):
         team = dask.DaskTeam(client, ENTRY, tmp_path / "out", None, plan.file)
         one.workers[0].kill()
         with pytest.raises(StudyError, match="has had no workers for 2 s"):
-            run_study(plan, tmp_path / "out", entry=ENTRY, stream=io.StringIO(), team=team)
+            complete_study(plan, tmp_path / "out", entry=ENTRY, stream=io.StringIO(), workers=team)
 
 
 @pytest.mark.parametrize(

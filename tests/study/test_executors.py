@@ -18,7 +18,7 @@ from fecolumn._mpi import launch_environment
 from fecolumn.cli import main
 from fecolumn.schema import InputError
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.store import Store, read_study
 from fecolumn.study.table import write_tables
 
@@ -58,7 +58,7 @@ def expected(tmp_path_factory):
     plan = read_plan(write_study(folder, pulses=[*range(6), "diverges"]))
     write_tables(
         plan,
-        run_study(plan, folder / "out", workers=2, entry=ENTRY, stream=io.StringIO()),
+        complete_study(plan, folder / "out", workers=2, entry=ENTRY, stream=io.StringIO()),
         folder / "out",
     )
     return _tables(folder / "out")
