@@ -18,7 +18,7 @@ from fecolumn.verification.structures import (
     planar_restitution,
     restoring_force,
     rolling_start,
-    way,
+    slab_path,
 )
 
 MESHES = Path(__file__).parents[2] / "meshes"
@@ -94,7 +94,7 @@ def planar(seconds: float = 3.0):
     impacts = [
         (float(time[i]), after / before) for i, before, after in zip(passed, tops, tops[1:-1])
     ]
-    return rows, way(model, *PLANAR, time), impacts, planar_restitution(model) ** 2
+    return rows, slab_path(model, *PLANAR, time), impacts, planar_restitution(model) ** 2
 
 
 def rolled(seconds: float = 3.0):
@@ -103,4 +103,4 @@ def rolled(seconds: float = 3.0):
     """
     model = frame_model()
     rows = let_go(frame_of_elements(model, rolling_start(model, *ROUND)), seconds)
-    return rows, way(model, *ROUND, rows["time"])
+    return rows, slab_path(model, *ROUND, rows["time"])

@@ -107,10 +107,10 @@ class StudyLedger:
             raise
 
     def plan(self, rows: Iterable[tuple[str, int, str, str | None]]) -> None:
-        """Make (id, place, axes as JSON, motion) the analyses; what ran when the last writer ended
-        is planned again.
+        """Take analyses (id, place, axes as JSON, motion) into the ledger as planned.
 
-        Whatever else the ledger says of them is kept, but for what cannot be.
+        Analyses that the ledger knows keep their state. Those that ran when the last writer ended,
+        or have no valid state, are planned again. Rows of other analyses are deleted.
         """
         run = self._connection.execute
         run("CREATE TEMP TABLE wanted (id TEXT PRIMARY KEY, place, axes, motion)")

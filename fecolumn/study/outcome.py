@@ -77,17 +77,19 @@ def finished_outcome(case_id: str, folder: Path, **more: Any) -> TaskOutcome | N
 def outcomes_of_dead(
     tasks: Iterable[Task], reason: str, ready: bool = True
 ) -> Iterator[TaskOutcome]:
-    """Outcomes of what a dead worker had in hand, in its order: done where the result says so; the
-    next in turn has killed it.
+    """Outcomes of the tasks that a dead worker had, in their order.
+
+    A task with a valid result is done. The first task without one has failed: it killed the worker.
+    The tasks after it were never begun.
 
     Parameters
     ----------
     tasks
-        in hand.
+        that the worker had.
     reason
-        how it died.
+        how the worker died.
     ready
-        whether it had begun; else none is to blame.
+        whether the worker had begun; if not, no task killed it.
     """
     blamed = not ready
     for task in tasks:

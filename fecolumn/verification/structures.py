@@ -195,7 +195,7 @@ def _still(seconds: float, dt: float = 2e-3):
     return GroundMotion(np.zeros((round(seconds / dt) + 1, 3)), dt, "at rest", "")
 
 
-def way(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) -> np.ndarray:
+def slab_path(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) -> np.ndarray:
     """Displacement (n, 2) [m] of the slab at times by the model, as of
     `rolling_start`.
     """
@@ -210,7 +210,7 @@ def way(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) -> np.
 def _path(seconds: float):
     frame, tilt, turn = frame_model(), 0.05, 1.5
     rows = let_go(frame_case(frame, rolling_start(frame, tilt, turn), 1e-3), seconds)
-    exact = way(frame, tilt, turn, rows["time"])
+    exact = slab_path(frame, tilt, turn, rows["time"])
     off = np.linalg.norm(rows["body/slab/displacement"][:, :2] - exact, axis=1).max()
     yield Row(
         f"restrained frame that rolls round: slab off the model's way in {seconds:g} s "
