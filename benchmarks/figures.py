@@ -96,7 +96,7 @@ def standing_still():
             drifts.append(np.abs(run.state.x - run.start.x).max())
             changes.append(
                 abs(run.mechanical() - run.ledger.start)
-                / (run.system.weight * run.system.column.all_X[:, 2].max())
+                / (run.system.weight * run.system.body.all_X[:, 2].max())
             )
         yield f"standing, dt {dt:g} s, five alphas: drift [m]", 0.0, max(drifts), max(drifts) < 1e-7
         yield (

@@ -80,9 +80,9 @@ def lost(trial, tilt: float) -> float:
     it on the other, as in `impact`.
     """
     before, lean = None, 1.0
-    while lean > 0 or tilt_angle(trial.state.rotation) < tilt / 3:
+    while lean > 0 or tilt_angle(trial.state.rotation[0]) < tilt / 3:
         trial.step()
-        lean = trial.state.rotation[0, 2]
-        if lean > 0 and tilt_angle(trial.state.rotation) > tilt / 3:
+        lean = trial.state.rotation[0, 0, 2]
+        if lean > 0 and tilt_angle(trial.state.rotation[0]) > tilt / 3:
             before = trial.mechanical()
     return before - trial.mechanical()

@@ -149,10 +149,10 @@ def full_order(system, shaking) -> tuple[np.ndarray, list[int]]:
     """
     trial, rigid, path, impacts, seen = Trial(system), RigidRocking(system), [], [], 0.0
     main = 2e-4 * rigid.energy(rigid.slenderness)
-    nodes, weights = top_of(system.column, mesh())
+    nodes, weights = top_of(system.body, mesh())
     for step, ground in enumerate(shaking):
         state = trial.step(ground)
-        path.append(weights @ (state.x[nodes] - system.column.X[nodes])[:, :2])
+        path.append(weights @ (state.x[nodes] - system.body.X[nodes])[:, :2])
         if seen - trial.ledger.work["impact"] > main:
             seen = trial.ledger.work["impact"]
             if not impacts or (step - impacts[-1]) * system.hht.dt > 0.1:

@@ -29,7 +29,7 @@ class FullAnalysis(Analysis):
         began = time.perf_counter()
         self.system.interface.prepare(self.say)
         self.began += time.perf_counter() - began  # what is compiled is so for all analyses
-        self.warn_of_base(self.system.base.frequency, self.system.interface.pad, file)
+        self.warn_of_base(self.system.base.frequency, self.system.laws.get("pad"), file)
         self.ledger = Ledger(self.system)
         self.stepper = Stepper(
             self.system,
@@ -78,12 +78,12 @@ class FullAnalysis(Analysis):
         from fecolumn.post.fields import SpecimenFields
 
         plate = self.system.base if len(self.specimen.base.cells) else None
-        return SpecimenFields(self.system.column, plate, self.system.footprint, self.specimen)
+        return SpecimenFields(self.system.body, plate, self.system.footprint, self.specimen)
 
     def foot(self) -> tuple[np.ndarray, np.ndarray]:
         """Places (n, 3) [m] of what stands on the base, and velocities (n, 3) [m/s]."""
         return tuple(
-            self.system.column.gather(self.system.foot_nodes, values)
+            self.system.body.gather(self.system.footprint.nodes, values)
             for values in (self.state.x, self.state.v)
         )
 
@@ -134,7 +134,7 @@ class FullAnalysis(Analysis):
         from fecolumn.dynamics.static_rest import StaticRest
 
         system, state = self.system, self.state
-        interface, R, rows = system.interface, state.rotation, system.column.rows
+        interface, R, rows = system.interface, state.rotation, system.bodies.rows
         self.rest = self.rest or StaticRest(system)
         at_nodes, local = (
             interface.at_nodes(state.forces, R),
@@ -197,9 +197,9 @@ class FullAnalysis(Analysis):
                 ) from None
         finally:
             progress.end()
-        dofs = 3 * self.system.column.n_nodes + self.system.base.dofs
+        dofs = 3 * self.system.bodies.n_nodes + self.system.base.dofs
         return self.finish(
-            off or self.ending(fallen, self.state.rotation),
+            off or self.ending(fallen, self.state.rotation[self.observer.body]),
             dofs,
             self.stepper.record,
             self.system.factorizations,

@@ -49,6 +49,8 @@ class Corotated:
         """`internal` of copies of the body at each of the positions, for which the stiffness is
         read once.
         """
+        if len(places) == 1:
+            return [self.internal(places[0])]
         rotations, deformations = zip(*map(self._deformed, places))
         forces = self.body.apply(self.body.stiffness, np.stack(deformations))
         return [

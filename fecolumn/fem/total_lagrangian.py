@@ -57,6 +57,10 @@ class TotalLagrangian:
         energy = self.body.comm.allreduce(fem.assemble_scalar(self._energy), MPI.SUM)
         return self.rotation(x), force, float(energy)
 
+    def internal_of_copies(self, places: list) -> list[tuple]:
+        """`internal` of copies of the body at each of the positions."""
+        return [self.internal(x) for x in places]
+
     def tangent(self, x: np.ndarray) -> PETSc.Mat:
         """Reduced tangent stiffness at positions x, in the table frame."""
         self._set(x)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import dataclasses
 import typing
 
-from fecolumn.case import Cap, Case, Flange
+from fecolumn.case import Cap, Flange
 from fecolumn.rocking.model import TABLES, model_class
+from fecolumn.short_form import ShortForm
 from fecolumn.structures.case import NAMED
 from fecolumn.structures.keys import KINDS
 
@@ -62,11 +63,11 @@ def axis_unit(key: str) -> str:
     model; "-" where it has none.
     """
     section, _, name = key.partition(".")
-    kind = typing.get_type_hints(Case).get(section)
+    kind = typing.get_type_hints(ShortForm).get(section)
     owners: list = (
         [one for one in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(one)]
         if kind
-        else [Case]
+        else [ShortForm]
     )
     if section in TABLES:
         owners.append(model_class(TABLES[section]).SECTION)

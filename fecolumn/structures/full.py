@@ -55,7 +55,7 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
         from fecolumn.structures.fields import StructureFields
 
         return StructureFields(
-            self.system.column, self.meshed, self.standing, self.system.interface.points
+            self.system.bodies, self.meshed, self.standing, self.system.interface.points
         )
 
     def foot(self) -> tuple[np.ndarray, np.ndarray]:

@@ -28,10 +28,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fecolumn.case import Case
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.rocking.model import TABLES as TABLES_OF_MODELS
 from fecolumn.schema import InputError, build, meant
+from fecolumn.short_form import ShortForm
 from fecolumn.structures.case import type_of
 from fecolumn.study.keys import LatinHypercube
 
@@ -271,7 +271,7 @@ def _of_model(key: str) -> Any:
     return table_case.model_key_type(key)
 
 
-def _known_keys(section: Any = Case, prefix: str = "") -> dict[str, type]:
+def _known_keys(section: Any = ShortForm, prefix: str = "") -> dict[str, type]:
     """Types by dotted keys of a case, whole sections included: an axis of sections takes tables as
     values.
     """

@@ -124,14 +124,14 @@ def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float =
         gravity=(0, 0, -1e-6),
         filtered=impact == "plastic",
     )
-    still = np.zeros_like(system.column.X)
+    still = np.zeros_like(system.body.X)
     falling = still + [0, 0, -SPEED], still + system.gravity
     trial = begin_trial(
         engine,
         system,
         lambda system: afloat(system, still, *falling, height=arrival * SPEED * dt),
         impact,
-        n_modes=3 * system.column.n_nodes,
+        n_modes=3 * system.body.n_nodes,
     )
     time, force, taken = [-arrival * dt], [0.0], []
     while time[-1] < 1.25 * TIME:
@@ -141,11 +141,11 @@ def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float =
         force.append(state.forces[:, 2].sum())
         taken.append(-ledger["contact"] - ledger["impact"])
     landing = taken[np.flatnonzero(force)[0] - 1]
-    momentum = system.column.node_mass @ state.v[:, 2]
+    momentum = system.body.node_mass @ state.v[:, 2]
     return Strike(
         np.array(time),
         np.array(force),
-        momentum / system.column.total_mass,
+        momentum / system.body.total_mass,
         taken[-1],
         -ledger["algorithmic"],
         landing,

@@ -10,7 +10,7 @@ from fecolumn import case
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.hht import HHT
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
@@ -110,7 +110,7 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     eye = view_of(model, structure, structure.bodies.body["mass"].sum() * case.GRAVITY)
     return Engine(
         lambda step: structure_of(model, step, GRAVITY),
-        base,
+        (base,),
         eye,
         hht,
         lambda made: of_parts(made, parts, stands),

@@ -110,7 +110,7 @@ def error(
         gravity=(0, 0, -GRAVITY),
         order=degree,
     )
-    column = system.column
+    column = system.body
     mode, fall = np.stack(shape(column.X.T, np.sin, np.cos), axis=1), np.array([0.0, 0.0, -GRAVITY])
     still = np.zeros_like(mode)
     trial = Trial(

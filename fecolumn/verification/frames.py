@@ -226,7 +226,7 @@ def frame_ledgers(table: Trial, inertial: InertialTrial, drift: float) -> list[R
     of_table, of_inertial = table.energy(), inertial.trial.energy()
     gained = inertial.trial.mechanical() - inertial.trial.ledger.start
     lost = sum(of_table[name] for name in (*LOSSES, "closure"))
-    allowed = 2 * drift / np.sqrt(2 * gained / table.system.column.total_mass)
+    allowed = 2 * drift / np.sqrt(2 * gained / table.system.body.total_mass)
     return [
         Row("base moving: work of the base [J]", gained - lost, inertial.work, allowed),
         Row(

@@ -206,21 +206,21 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
         # at rest gravity and mass are one: of a material that there is, a small block needs more
         # than the Earth's
         system.weight = exact.load(a)
-        system.gravity = np.array([0.0, 0.0, -system.weight / system.column.total_mass])
+        system.gravity = np.array([0.0, 0.0, -system.weight / system.body.total_mass])
         found.append(measured_contact(exact, system, begin_trial(engine, system).start, a, h))
     return found
 
 
 def measured_contact(exact: Hertz, system, state, a: float, h: float) -> Pressed:
     """What a state at rest under the load of radius `a` [m] shows."""
-    squares, column = (system.interface.reference[:, : exact.axes] ** 2).sum(axis=1), system.column
+    squares, column = (system.interface.reference[:, : exact.axes] ** 2).sum(axis=1), system.body
     forces, p0 = state.forces[:, 2], exact.peak(a)
     radius = np.sqrt(forces @ squares / forces.sum() / exact.moment)
-    pressures = forces / system.areas / p0
+    pressures = forces / system.footprint.areas / p0
     wrong = pressures - np.sqrt(np.maximum(1 - squares / a**2, 0))
     contact = 2 * a * LENGTH if exact.axes == 1 else np.pi * a**2
     sunk = column.node_mass @ (column.X - state.x)[:, 2] / column.total_mass
-    rubbed = np.linalg.norm(state.forces[:, :2], axis=1) / system.areas / p0
+    rubbed = np.linalg.norm(state.forces[:, :2], axis=1) / system.footprint.areas / p0
     return Pressed(
         h,
         a,
@@ -228,7 +228,7 @@ def measured_contact(exact: Hertz, system, state, a: float, h: float) -> Pressed
         pressures,
         radius / a - 1,
         pressures[squares.argmin()] - 1,
-        np.sqrt(wrong**2 @ system.areas / contact),
+        np.sqrt(wrong**2 @ system.footprint.areas / contact),
         sunk,
         rubbed.max(),
     )

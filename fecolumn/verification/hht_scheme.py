@@ -106,13 +106,13 @@ class Mode:
         )
         rest, measure = (
             trial.state.x - scale[0] * start[0] * self.shape,
-            system.column.momentum(self.shape),
+            system.body.momentum(self.shape),
         )
         history, energy = [np.array(start, float)], [trial.mechanical()]
         for _ in range(count):
             state = trial.step()
             history.append(
-                [system.column.dot(measure, field) for field in (state.x - rest, state.v, state.a)]
+                [system.body.dot(measure, field) for field in (state.x - rest, state.v, state.a)]
                 / scale
             )
             energy.append(trial.mechanical())

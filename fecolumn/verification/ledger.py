@@ -126,4 +126,4 @@ def shaken_ledger(
         rows.append(list(trial.energy().values()))
         if np.linalg.norm(trial.top()[:2]) > 0.25:
             break
-    return dict(zip(TERMS, np.array(rows).T)), system.weight * system.column.all_X[:, 2].max()
+    return dict(zip(TERMS, np.array(rows).T)), system.weight * system.body.all_X[:, 2].max()

@@ -10,7 +10,7 @@ from typing import TypedDict, Unpack
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case import Material, case_from_tables
+from fecolumn.case import Material
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.footprint import Footprint
 from fecolumn.dynamics.assembly import build_system
@@ -18,12 +18,12 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System, one_column
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
-from fecolumn.fem.damping import ModalDamping
 from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
 from fecolumn.schema import merge
+from fecolumn.short_form import short_form
 from fecolumn.verification import REDUCED
 
 # The stout column on the coarsest mesh that keeps every part; meshes/stout.toml has the sources of
@@ -50,9 +50,7 @@ def column_case(engine: str, **tables):
     merged over it.
     """
     key = "engine" if engine in REDUCED else "kinematics"
-    return case_from_tables(
-        merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification"
-    )
+    return short_form(merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification")
 
 
 def column_system(engine: str, **tables) -> System:
@@ -150,7 +148,7 @@ def block_system(
     comm, given = MPI.COMM_SELF, BlockSettings(**{**_BLOCK, **settings})
     foot_height, damping_ratio = given["foot_height"], given["damping_ratio"]
     body = Body(comm, mesh, given["material"], given["order"])
-    kinematics = TotalLagrangian(body) if engine == "total_lagrangian" else Corotated(body)
+    kinematics = TotalLagrangian if engine == "total_lagrangian" else Corotated
     quads = boundary_faces(
         mesh, LOWER, foot_height / 2, foot_height / 2 + 1e-9 * np.ptp(mesh.points[:, 2])
     )
@@ -172,6 +170,6 @@ def block_system(
         given["gravity"],
         hht,
         filtered=given["filtered"],
-        damping=ModalDamping(body, DAMPED, damping_ratio) if damping_ratio else None,
+        damping=(DAMPED, damping_ratio),
         restitution=given["restitution"],
     )

@@ -33,7 +33,7 @@ class MovingInterface(Interface):
     """
 
     def __init__(self, still: Interface):
-        super().__init__(still.column, still.foot, still.base, still.joints, still.laws)
+        super().__init__(still.composite, still.foot, still.base, still.joints)
         self.position, self.first = np.zeros(3), np.zeros(3)
         self.known_velocities: list = []
 
@@ -99,7 +99,7 @@ class MovingStepper(Stepper):
         free = state.v + hht.dt * (
             (1 - hht.gamma) * state.a + hht.gamma * after.a + after.contact_a
         )
-        impulse = np.einsum("cna,na->c", self.system.column.unit_loads, after.v - free)
+        impulse = np.einsum("cna,na->c", self.system.body.unit_loads, after.v - free)
         self.work += float(after.forces.sum(axis=0) @ self._moved + last.velocity @ impulse)
         self.base, after.ground = last, np.array(ground, float)
         return after

@@ -211,7 +211,7 @@ def block_on_block(engine: str, foot, base, distortion: float = 0.0):
         filtered=not distortion,
     )
     if distortion:
-        column = system.column
+        column = system.body
         column.unit_loads = np.zeros_like(column.unit_loads)
         column.unit_loads[2, :, 2] = column.total_mass / SIDE**2 * end_areas(column, mesh, HEIGHT)
     return system
@@ -253,13 +253,13 @@ def stand(engine: str, foot, base, distortion: float = 0.0) -> StandingBlock:
     system = block_on_block(engine, foot, base, distortion)
     state, plate, points = standing(system), system.base, system.interface.reference
     exact = system.weight / SIDE**2
-    pressure = state.forces[:, 2] / (exact * system.areas)
+    pressure = state.forces[:, 2] / (exact * system.footprint.areas)
     nodes, weights = nodes_under(plate.grid, points)
     moved = plate.displacement(nodes, weights, -state.forces)[:, 2]
     above = plate.body.X[:, 2] + HEIGHT
     wrong = np.abs(moved * SOFT.youngs_modulus_pa / exact + above) / HEIGHT
     arrived, due = np.zeros((2, len(plate.nodes)))
-    np.add.at(arrived, nodes, weights * system.areas[:, None])
+    np.add.at(arrived, nodes, weights * system.footprint.areas[:, None])
     due[plate.grid.number] = np.outer(
         *(np.convolve(np.diff(lines), (0.5, 0.5)) for lines in (plate.grid.x, plate.grid.y))
     )
@@ -300,7 +300,7 @@ def shaken(engine: str) -> Row:
         forces = trial.step(
             (0.0, 0.0, 4.9 * np.sin(2 * np.pi * 50 * step * trial.system.hht.dt))
         ).forces[:, 2]
-        worst = max(worst, np.ptp(forces / trial.system.areas) * SIDE**2 / forces.sum())
+        worst = max(worst, np.ptp(forces / trial.system.footprint.areas) * SIDE**2 / forces.sum())
     return Row("pressure: spread under vertical shaking, graded bricks [-]", 0.0, worst, 1e-6)
 
 

@@ -40,7 +40,7 @@ class RollingRim:
         """That of a system's column, from its consistent mass and the farthest nodes of its
         foot.
         """
-        column = system.column
+        column = system.body
         turns = [np.cross(axis, column.X - column.center) for axis in np.eye(3)]
         transverse, _, axial = (column.dot(turn, column.momentum(turn)) for turn in turns)
         return cls(

@@ -99,7 +99,7 @@ def run(engine: str, long: bool) -> CaseRows:
             )
         )
         if size == 4:
-            speed = np.sqrt(2 * trial.energy()["base_work"] / trial.system.column.total_mass)
+            speed = np.sqrt(2 * trial.energy()["base_work"] / trial.system.body.total_mass)
             result.rows.append(
                 Row(
                     "size and E x 4: energy lost [J]",

@@ -154,7 +154,7 @@ def glued(system):
 
 def centre(trial: Trial) -> np.ndarray:
     """Position (3,) of the centre of mass [m]."""
-    column = trial.system.column
+    column = trial.system.body
     return column.node_mass @ trial.state.x / column.total_mass
 
 

@@ -22,7 +22,7 @@ def afloat(system, displacement, velocity, acceleration, height: float) -> State
 
     The acceleration must be that of gravity and internal forces: HHT remembers it.
     """
-    state = system.unstrained(system.column.X + [0.0, 0.0, height] + displacement)
+    state = system.unstrained(system.body.X + [0.0, 0.0, height] + displacement)
     return replace(state, v=np.array(velocity, float), a=np.array(acceleration, float))
 
 
@@ -66,14 +66,14 @@ class Trial:
         """Displacements (n, 2, 3) [m] of the middles of top and foot after each step under ground
         accelerations (n, 3) [m/s2].
         """
-        height = self.system.column.X[:, 2]
+        height = self.system.body.X[:, 2]
         ends = [
             np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height)),
-            self.system.foot_nodes,
+            self.system.footprint.nodes,
         ]
         path = []
         for ground in accelerations:
-            moved = self.step(ground).x - self.system.column.X
+            moved = self.step(ground).x - self.system.body.X
             path.append([moved[nodes].mean(axis=0) for nodes in ends])
         return np.array(path)
 
@@ -89,8 +89,8 @@ class Trial:
         """Displacement (3,) [m] of the highest node: any one serves to compare analyses of one
         mesh.
         """
-        node = np.lexsort(self.system.column.all_X.T)[-1]
-        return self.state.x[node] - self.system.column.X[node]
+        node = np.lexsort(self.system.body.all_X.T)[-1]
+        return self.state.x[node] - self.system.body.X[node]
 
 
 def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:
@@ -126,7 +126,7 @@ class RigidRocking:
 
     def __init__(self, system):
         column, radius = (
-            system.column,
+            system.body,
             np.linalg.norm(system.interface.reference[:, :2], axis=1).max(),
         )
         height = column.center[2]

@@ -184,7 +184,7 @@ def rolling(rim: RollingRim, tilt: float, spin: float):
 
 def azimuth(trial: Trial) -> float:
     """Where the body leans [rad]."""
-    return float(np.arctan2(trial.state.rotation[1, 2], trial.state.rotation[0, 2]))
+    return float(np.arctan2(trial.state.rotation[0, 1, 2], trial.state.rotation[0, 0, 2]))
 
 
 def roll(
@@ -312,9 +312,9 @@ def wobbling_column(
     system = column_system(
         engine, integration={"dt_s": COLUMN_DT}, contact={"friction_coefficient": 0.8}, **stiffness
     )
-    corners = len(system.interface.rim.nodes)
+    corners = len(system.laws["rim"].nodes)
     if not circle:
-        system.interface.take_rim_as_polygon()
+        system.take_rim_as_polygon()
     rim = RollingRim.of(system)
     spin = rim.untwisted(tilt)
     steps = round(np.pi / rim.rate(tilt, spin) / COLUMN_DT)

@@ -72,7 +72,10 @@ def _weight(out):
     from fecolumn.simulation import read_folder_case
 
     case, _ = read_folder_case(out)
-    return GRAVITY * mass_properties(specimen_mesh(case).body, case.material.density_kg_m3).mass
+    return (
+        GRAVITY
+        * mass_properties(specimen_mesh(case.short).body, case.short.material.density_kg_m3).mass
+    )
 
 
 def test_fields_open_in_pyvista_and_agree_with_the_history(whole):

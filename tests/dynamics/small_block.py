@@ -27,10 +27,10 @@ def trial(engine, system, start, n_modes=30):
 
 def centre(trial):
     """Centre of mass (3,) [m]."""
-    column = trial.system.column
+    column = trial.system.body
     return column.node_mass @ trial.state.x / column.total_mass
 
 
 def lowest(trial):
     """Height of the lowest foot node [m]."""
-    return trial.state.x[trial.system.foot_nodes, 2].min()
+    return trial.state.x[trial.system.footprint.nodes, 2].min()

@@ -137,11 +137,11 @@ def rolled(circle):
     nodes on the rim.
     """
     system = tube(1e-3)
-    rim, corners = RollingRim.of(system), len(system.interface.rim.nodes)
+    rim, corners = RollingRim.of(system), len(system.laws["rim"].nodes)
     spin = rim.untwisted(TILT)
     system = tube(2 * np.pi / rim.rate(TILT, spin) / (STEPS * corners))
     if not circle:
-        system.interface.take_rim_as_polygon()
+        system.take_rim_as_polygon()
     return system, rim, spin, corners
 
 

@@ -25,7 +25,7 @@ def system():
 
 def moving(system):
     """Turned and vibrating in its second elastic mode, flying and spinning."""
-    column, shape = system.column, free_modes(system.column, 9).shapes[7]
+    column, shape = system.body, free_modes(system.body, 9).shapes[7]
     arm = column.X - column.center
     turn = np.array([[np.cos(0.3), -np.sin(0.3), 0], [np.sin(0.3), np.cos(0.3), 0], [0, 0, 1.0]])
     moved = (arm + 1e-5 * shape) @ turn.T - arm + [0.02, 0.0, 0.0]
@@ -60,7 +60,7 @@ def test_gravity_equilibrium_is_that_of_the_full_order(system):
     np.testing.assert_allclose(
         own.state.forces,
         projected.state.forces,
-        atol=SOLVED * system.interface.width / compliance[0, 0],
+        atol=SOLVED * system.interface.interfaces["width"][0] / compliance[0, 0],
     )
     np.testing.assert_allclose(own.state.x, projected.state.x, atol=1e-12)
 
