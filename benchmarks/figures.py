@@ -109,7 +109,7 @@ def standing_still():
 
 def uplift():
     """Uplift on a slow ramp of the ground acceleration."""
-    row = rocking.uplift("corotated")
+    row = rocking.uplift_acceleration("corotated")
     yield row.quantity, row.exact, row.computed, row.ok
 
 

@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import io
 import os
 import sys
 import traceback
 import warnings
+from typing import cast
 
 
 def main(argv=None) -> int:
@@ -25,12 +27,10 @@ def main(argv=None) -> int:
     from fecolumn.atomic import disk_full
     from fecolumn.schema import InputError
 
-    for stream in (
-        sys.stdout,
-        sys.stderr,
-    ):  # a terminal that cannot write a folder's name must not end what is at work there
+    # a terminal that cannot write a folder's name must not end what is at work there
+    for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(AttributeError):
-            stream.reconfigure(errors="backslashreplace")
+            cast(io.TextIOWrapper, stream).reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
     try:
         code = args.command(args)
@@ -73,7 +73,7 @@ def _abandon_other_ranks(code: int) -> None:
         MPI.COMM_WORLD.Abort(code)
 
 
-def _show_warning(message, category, *_) -> None:
+def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:
     """One line, from one rank."""
     _refuse(f"warning: {message}", 0)
 

@@ -25,7 +25,7 @@ INSTALL = "run through ./containers/run, which installs it"
 
 
 @dataclass(frozen=True)
-class Finding:
+class LibraryFinding:
     """One line of the table; `warning` names a trap and its remedy, `fit` is False if no analysis
     can run.
     """
@@ -39,7 +39,10 @@ class Finding:
 
 def origin(name: str) -> str:
     """Debian, or the folder of a wheel; without importing the module."""
-    folder = str(Path(importlib.util.find_spec(name).origin).parent.parent)
+    found = importlib.util.find_spec(name)
+    if found is None or found.origin is None:
+        raise ModuleNotFoundError(f"No module named {name!r}")
+    folder = str(Path(found.origin).parent.parent)
     return "Debian" if folder.startswith("/usr/lib/") else folder
 
 
@@ -57,7 +60,7 @@ def loaded_libraries(pattern: str) -> list[str]:
     )
 
 
-def look_at_machine() -> list[Finding]:
+def look_at_machine() -> list[LibraryFinding]:
     """System, Python, compiler, cores, memory and environment variables."""
     release = dict(
         re.findall(r'^(\w+)="?(.*?)"?$', Path("/etc/os-release").read_text(), re.MULTILINE)
@@ -69,25 +72,27 @@ def look_at_machine() -> list[Finding]:
     foreign = "not the Python that Debian's dolfinx was built for: run through ./containers/run"
     crowded = "analyses side by side would fight for the cores: export OMP_NUM_THREADS=1"
     findings = [
-        Finding(
+        LibraryFinding(
             "system",
             release.get("PRETTY_NAME", "unknown"),
             platform.machine(),
             "" if known else untried,
         ),
-        Finding(
+        LibraryFinding(
             "Python",
             platform.python_version(),
             sys.prefix,
             "" if sys.base_prefix == "/usr" else foreign,
         ),
-        Finding("cores", str(len(os.sched_getaffinity(0))), f"of {os.cpu_count()}"),
-        Finding("memory", f"{memory:.1f} GiB"),
-        Finding("OMP_NUM_THREADS", threads or "unset", "", "" if threads == "1" else crowded),
+        LibraryFinding("cores", str(len(os.sched_getaffinity(0))), f"of {os.cpu_count()}"),
+        LibraryFinding("memory", f"{memory:.1f} GiB"),
+        LibraryFinding(
+            "OMP_NUM_THREADS", threads or "unset", "", "" if threads == "1" else crowded
+        ),
     ]
     if not (shutil.which("mpicc") or shutil.which("cc")):
         findings.append(
-            Finding(
+            LibraryFinding(
                 "C compiler", "missing", "", f"dolfinx compiles forms with it: {INSTALL}", fit=False
             )
         )
@@ -96,10 +101,10 @@ def look_at_machine() -> list[Finding]:
             "Open MPI refuses root: export OMPI_ALLOW_RUN_AS_ROOT=1 "
             "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"
         )
-        findings.append(Finding("mpirun", "as root", "", remedy))
+        findings.append(LibraryFinding("mpirun", "as root", "", remedy))
     if importlib.util.find_spec("netCDF4") and origin("netCDF4") != "Debian":
         findings.append(
-            Finding("netCDF4", "wheel", "", "crashes beside dolfinx: pip uninstall netCDF4")
+            LibraryFinding("netCDF4", "wheel", "", "crashes beside dolfinx: pip uninstall netCDF4")
         )
     return findings
 
@@ -275,10 +280,10 @@ LIBRARIES = {
 OPTIONAL = {"matplotlib", "pyvista", "CHOLMOD"}
 
 
-def look_at_library(name: str) -> Finding:
+def look_at_library(name: str) -> LibraryFinding:
     """One library's line, whatever its import raises."""
     try:
-        return Finding(name, *LIBRARIES[name]())
+        return LibraryFinding(name, *LIBRARIES[name]())
     except Exception as error:  # noqa: BLE001  a broken library may raise anything
         state = (
             "missing"
@@ -287,10 +292,10 @@ def look_at_library(name: str) -> Finding:
         )
         reason = " ".join(str(error).split())[:200]
         remedy = reason if re.search("pip |apt ", reason) else f"{reason}: {INSTALL}"
-        return Finding(name, state, "", remedy, fit=name in OPTIONAL)
+        return LibraryFinding(name, state, "", remedy, fit=name in OPTIONAL)
 
 
-def look_at_libraries() -> list[Finding]:
+def look_at_libraries() -> list[LibraryFinding]:
     """Every library's line, from a child process, and another child after each crash."""
     # a child is no rank of the MPI job that the doctor may be part of
     environment = {
@@ -303,7 +308,7 @@ def look_at_libraries() -> list[Finding]:
             command, env=environment, capture_output=True, text=True, check=False
         )
         found = [
-            Finding(**json.loads(line[1:]))
+            LibraryFinding(**json.loads(line[1:]))
             for line in child.stdout.splitlines()
             if line.startswith("@{")
         ]
@@ -315,7 +320,7 @@ def look_at_libraries() -> list[Finding]:
                 f"ends the process with exit code {child.returncode}; to see why: python -c "
                 f"'import {name.lower()}'"
             )
-            findings.append(Finding(name, "crashes", "", remedy, fit=name in OPTIONAL))
+            findings.append(LibraryFinding(name, "crashes", "", remedy, fit=name in OPTIONAL))
     return findings
 
 

@@ -24,8 +24,14 @@ REST_SHARE = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """outcome: one of the words above; ended_by: what stopped the analysis, in words, with its time
-    [s].
+    """How an analysis ended.
+
+    Attributes
+    ----------
+    outcome
+        one of the words above.
+    ended_by
+        what stopped the analysis, in words, with its time [s].
     """
 
     outcome: str

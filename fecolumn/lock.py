@@ -55,7 +55,7 @@ def alone(path: Path):
             file.unlink(missing_ok=True)
 
 
-def held(file: Path) -> bool:
+def is_held(file: Path) -> bool:
     """Whether a process holds the lock in `file` alone; one that was killed holds none, though its
     file may be left.
     """

@@ -41,9 +41,8 @@ def held(folder: Path, case: StructureCase, comm, file):
             if refusal is None:
                 lock = open_lock(folder / ".lock")
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                if not os.path.samestat(
-                    os.fstat(lock.fileno()), os.stat(folder / ".lock")
-                ):  # its holder has just given the folder up
+                # its holder has just given the folder up
+                if not os.path.samestat(os.fstat(lock.fileno()), os.stat(folder / ".lock")):
                     raise BlockingIOError
         except (BlockingIOError, FileNotFoundError):
             refusal = "-o", str(folder), "another run is writing into this folder"

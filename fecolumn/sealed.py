@@ -68,7 +68,7 @@ def open_whole(path: Path | str) -> Any:
     """
     import h5py
 
-    if fault := fault_of(path):
+    if fault := hdf5_fault(path):
         raise Unreadable(fault)
     try:
         return h5py.File(path, "r")
@@ -76,7 +76,7 @@ def open_whole(path: Path | str) -> Any:
         raise Unreadable(f"is no HDF5 file, or damaged ({error})") from None
 
 
-def fault_of(path) -> str:
+def hdf5_fault(path) -> str:
     """What keeps a file from being read as HDF5, in words; empty where nothing does."""
     try:
         status = os.stat(path)
@@ -90,7 +90,7 @@ def fault_of(path) -> str:
 
 @functools.lru_cache(maxsize=256)
 def _fault(path: str, version) -> str:
-    """As `fault_of`; `version` tells whether the file is still the one read before."""
+    """As `hdf5_fault`; `version` tells whether the file is still the one read before."""
     content = read_bytes(path, _MOST_BYTES)
     if not content.startswith(_SIGNATURE):
         return "is no HDF5 file"

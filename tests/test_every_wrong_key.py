@@ -95,9 +95,8 @@ def test_section_set_to_false_takes_away_what_extends_brought(tmp_path):
         and bare.motion is None
         and bare.top_m == whole.column.height_m
     )
-    assert (
-        bare.material == type(whole.material)()
-    )  # what must be there is as if the file said nothing of it
+    # what must be there is as if the file said nothing of it
+    assert bare.material == type(whole.material)()
     again = read_case(
         _write(
             tmp_path,

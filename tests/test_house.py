@@ -1,4 +1,4 @@
-"""The code as a house: form, types, imports that go down, sizes of functions and names used once."""
+"""Form, types, imports that go down, arguments of functions, names defined once."""
 
 import ast
 import collections
@@ -13,8 +13,8 @@ PACKAGE = ROOT / "fecolumn"
 
 #: What is left to mend. These numbers may only shrink.
 FOLDERS, MODULES = 18, 31
-LONG_CALLS = 10
-NAMES_TWICE = 86
+LONG_CALLS = 6
+NAMES_TWICE = 28
 #: Arguments of a function, self and cls left out
 ARGUMENTS = 8
 # Each command has these two functions, each verification case the third

@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.dynamics.gravity import standing
 from fecolumn.verification.models import column_system, shaking
-from fecolumn.verification.rocking import leaning, rocked
+from fecolumn.verification.rocking import leaning_start, rocked_trial
 from fecolumn.verification.trial import RigidRocking
 from fecolumn.verification.trials import begin_trial
 
@@ -38,8 +38,9 @@ def convergence():
 
             return moved
 
-        lost = rocked(
-            begin_trial(engine, system, disturbed(leaning(AMPLITUDE)), n_modes=modes), AMPLITUDE
+        lost = rocked_trial(
+            begin_trial(engine, system, disturbed(leaning_start(AMPLITUDE)), n_modes=modes),
+            AMPLITUDE,
         )[1]
         path = begin_trial(engine, system, disturbed(standing), n_modes=modes).shake(grounds)[
             :, 0, :2

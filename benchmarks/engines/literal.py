@@ -17,7 +17,7 @@ from fecolumn.dynamics.assembly import build_system
 from fecolumn.fem.rotation import tilt_angle
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.study.plan import read_plan
-from fecolumn.verification.rocking import leaning
+from fecolumn.verification.rocking import leaning_start
 from fecolumn.verification.trial import RigidRocking
 from fecolumn.verification.trials import begin_trial
 
@@ -69,7 +69,7 @@ def losses(system, engine: str, impact: str, beside) -> list[float]:
         share = SHARE * more
         tilt = share * rigid.slenderness
         found.append(
-            lost(begin_trial(engine, system, leaning(share), impact), tilt)
+            lost(begin_trial(engine, system, leaning_start(share), impact), tilt)
             / (rigid.energy(tilt) * (1 - rigid.restitution**2))
         )
     return found

@@ -10,7 +10,7 @@ import numpy as np
 from benchmarks.engines.motions import strong_shaking
 from benchmarks.engines.pair import case_of, column, engine, mesh, system_of
 from fecolumn.dynamics.observer import top_of
-from fecolumn.verification.rocking import leaning, lifted, rocked
+from fecolumn.verification.rocking import leaning_start, rocked_trial, uplift_accelerations
 from fecolumn.verification.sliding import slipped
 from fecolumn.verification.trial import RigidRocking, Trial
 from fecolumn.verification.trials import begin_trial
@@ -37,7 +37,7 @@ def thresholds():
     a column does not lift before.
     """
     for name, friction, found in (
-        ("uplift, mu 0.8", 0.8, lambda trial: lifted(trial)[1]),
+        ("uplift, mu 0.8", 0.8, lambda trial: uplift_accelerations(trial)[1]),
         ("sliding, mu 0.02", 0.02, lambda trial: slipped(trial, 0.02)),
     ):
         system = system_of(
@@ -55,7 +55,9 @@ def rocking():
     system = system_of(case_of(contact={"friction_coefficient": 0.8}))
     rigid = RigidRocking(system)
     initial = rigid.energy(0.4 * rigid.slenderness)
-    full, reduced = (rocked(begin_trial(one, system, leaning(0.4)), 0.4) for one in ENGINES)
+    full, reduced = (
+        rocked_trial(begin_trial(one, system, leaning_start(0.4)), 0.4) for one in ENGINES
+    )
     rebounds = [np.sqrt(1 - lost / initial) for _, lost in (full, reduced)]
     yield (
         "free rocking from 0.4 alpha: quarter period [s]",

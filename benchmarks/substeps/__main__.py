@@ -26,7 +26,7 @@ from fecolumn.statistics.flips import contingency, mcnemar
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 
 
 class Setting(NamedTuple):
@@ -197,7 +197,7 @@ def main() -> None:
     found = {}
     for name in ("coarse", "fine", *(["finest"] if args.finest else [])):
         plan = read_plan(Path(__file__).with_name(f"{name}.toml"))
-        rows = run_study(plan, Path(args.output) / name, workers=args.jobs, retry_failed=True)
+        rows = complete_study(plan, Path(args.output) / name, workers=args.jobs, retry_failed=True)
         found |= {
             Setting(*(values[key] for key in KEYS)): runs
             for values, runs in settings_of(plan, rows)

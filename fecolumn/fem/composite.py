@@ -121,7 +121,7 @@ def of_copies(each: list, rows: list, values: np.ndarray, name: str) -> np.ndarr
     """What the methods `name` of `each` give of rows of values (n, 3), one below the other; copies
     are asked at once, so that what is large is read once.
     """
-    found = {}
+    found: dict = {}
     for one, mine in copies_of(each):
         given = (
             values[rows[mine[0]]]
@@ -162,7 +162,7 @@ class CompositeKinematics:
         """Rotations (nb, 3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions
         x.
         """
-        found = {}
+        found: dict = {}
         for one, mine in copies_of(self.each):
             found |= zip(mine, one.internal_of_copies([x[self._rows[place]] for place in mine]))
         rotations, forces, strains = zip(*(found[place] for place in range(len(self.each))))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import number, read_text, unit_named
+from fecolumn.motions.text import parse_number, read_text, unit_named
 
 _HEADER_LINES = 4
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?"
@@ -55,7 +55,7 @@ def read_at2(path: Path | str) -> Recording:
             f"line {row}: {line.strip()!r} must state number and step, as in NPTS= "
             "4000, DT= .0100 SEC"
         )
-    points, dt = found["points"], number(found["dt"])
+    points, dt = found["points"], parse_number(found["dt"])
     if not 0 < dt < np.inf:
         raise UnusableRecord(f"line {row}: DT = {dt:g} s must be finite and greater than 0")
     values = _values(lines[head + 1 :])
@@ -88,7 +88,7 @@ def _values(lines: list[tuple[int, str]]) -> NDArray[Any]:
     for row, line in lines:
         for word in line.split():
             try:
-                values.append(number(word))
+                values.append(parse_number(word))
             except ValueError:
                 raise UnusableRecord(f"line {row}: {word[:40]!r} is not a number") from None
             if not np.isfinite(values[-1]):

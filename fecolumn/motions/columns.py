@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import number, read_text, uniform_step, unit_named
+from fecolumn.motions.text import parse_number, read_text, uniform_step, unit_named
 
 _NAMES = {
     "time": ("time", "t"),
@@ -99,7 +99,7 @@ def _cells(line: str) -> list[str]:
 
 def _is_number(cell: str) -> bool:
     try:
-        number(cell)
+        parse_number(cell)
     except ValueError:
         return False
     return True
@@ -114,7 +114,7 @@ def _table(rows: list[tuple[int, str]]) -> NDArray[Any]:
             raise UnusableRecord(f"line {row}: {len(cells)} columns where {width} are usual")
         for j, cell in enumerate(cells):
             try:
-                values[i, j] = number(cell)
+                values[i, j] = parse_number(cell)
             except ValueError:
                 raise UnusableRecord(f"line {row}: {cell[:40]!r} is not a number") from None
             if not np.isfinite(values[i, j]):

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import number, read_text, unit_named
+from fecolumn.motions.text import parse_number, read_text, unit_named
 
 _HEADER = re.compile(r"^(?P<key>[A-Z][A-Z0-9_/^.\[\]()-]*):\s*(?P<value>.*)$")
 
@@ -78,7 +78,7 @@ def _stated(header: dict[str, Any], key: str) -> float:
         raise UnusableRecord(f"header incomplete: an ESM file states {key}")
     row, text = header[key]
     try:
-        value = number(text)
+        value = parse_number(text)
     except ValueError:
         value = np.nan
     if not 0 < value < np.inf:
@@ -88,7 +88,7 @@ def _stated(header: dict[str, Any], key: str) -> float:
 
 def _value(word: str, row: int) -> float:
     try:
-        value = number(word)
+        value = parse_number(word)
     except ValueError:
         raise UnusableRecord(f"line {row}: {word[:40]!r} is not a number") from None
     if not np.isfinite(value):

@@ -27,9 +27,9 @@ from fecolumn.motions.seeded import (
     Components,
     Fitted,
     SeededModel,
+    ensemble_shape,
     medians,
     seeded_acceleration,
-    shape_of,
 )
 from fecolumn.motions.stochastic import amplitude, high_pass
 from fecolumn.motions.target import SPECTRUM_RANGE_S, Target, figures, measured
@@ -212,7 +212,7 @@ def _shares(model: SeededModel, variability: str) -> tuple[NDArray[Any], float]:
     frequency, and the power.
     """
     frequencies = np.geomspace(_RANGE_HZ[0] / 4, 0.45 / model.components.dt_s, 4000)
-    shape = shape_of(model, variability)
+    shape = ensemble_shape(model, variability)
     powers = [
         ratio * amplitude(frequencies, one, shape, one.frequency_hz) ** 2 * frequencies
         for ratio, one in zip(

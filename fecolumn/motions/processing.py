@@ -345,9 +345,8 @@ def delay(motion: GroundMotion, seconds: float) -> GroundMotion:
         moved = np.fft.irfft(
             np.fft.rfft(acceleration - line, length, axis=0) * turn, length, axis=0
         )[: n_steps + 1]
-        moved[1:n_steps] += (
-            line[1:] - fraction * slope
-        )  # rest before the first sample and after the last
+        # rest before the first sample and after the last
+        moved[1:n_steps] += line[1:] - fraction * slope
         acceleration = moved
     return dataclasses.replace(motion, acceleration=np.pad(acceleration, ((int(whole), 0), (0, 0))))
 

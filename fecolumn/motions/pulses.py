@@ -26,7 +26,7 @@ ANTISYMMETRIC_PEAK = (
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class PulseShape:
     """A pulse of unit amplitude in dimensionless time s = t/T_p.
 
     Attributes
@@ -298,7 +298,7 @@ def _type_c_displacement(s: NDArray[Any], n: int) -> NDArray[Any]:
 _TURN = 2 * math.pi
 _RICKER = "Ricker (1943) wavelet as in Vassiliou and Makris (2011)"
 _CYCLOID = "cycloidal pulse of Makris and Roussos (2000)"
-_ONE_SINE = Shape(
+_ONE_SINE = PulseShape(
     _at(0.0),
     _at(1.0),
     lambda s, n: np.sin(_TURN * s),
@@ -307,7 +307,7 @@ _ONE_SINE = Shape(
     _CYCLOID,
 )
 SHAPES = {
-    "symmetric_ricker": Shape(
+    "symmetric_ricker": PulseShape(
         _at(-1.6),
         _at(1.6),
         lambda s, n: (1 - 2 * (math.pi * s) ** 2) * _gaussian(s),
@@ -315,7 +315,7 @@ SHAPES = {
         lambda s, n: -_gaussian(s) / (2 * math.pi**2),
         _RICKER,
     ),
-    "antisymmetric_ricker": Shape(
+    "antisymmetric_ricker": PulseShape(
         _at(-2.0),
         _at(2.0),
         _antisymmetric_acceleration,
@@ -324,7 +324,7 @@ SHAPES = {
         _RICKER,
     ),
     "one_sine": _ONE_SINE,
-    "one_cosine": Shape(
+    "one_cosine": PulseShape(
         _at(0.0),
         _at(1.0),
         lambda s, n: np.cos(_TURN * s),
@@ -332,7 +332,7 @@ SHAPES = {
         lambda s, n: (1 - np.cos(_TURN * s)) / _TURN**2,
         _CYCLOID,
     ),
-    "type_c": Shape(
+    "type_c": PulseShape(
         _at(0.0),
         lambda n: n + 0.5 - type_c_phase(n) / math.pi,
         lambda s, n: np.cos(_TURN * s + type_c_phase(n)),
@@ -341,7 +341,7 @@ SHAPES = {
         _CYCLOID,
     ),
     "half_sine": dataclasses.replace(_ONE_SINE, end=_at(0.5), source="pulse of Housner (1963)"),
-    "rectangular": Shape(
+    "rectangular": PulseShape(
         _at(0.0),
         _at(1.0),
         lambda s, n: np.ones_like(s),

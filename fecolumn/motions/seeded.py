@@ -16,7 +16,7 @@ from fecolumn.atomic import write_bytes
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.processing import scale_time
 from fecolumn.motions.record import GroundMotion
-from fecolumn.motions.stochastic import Component, Shape, bidirectional
+from fecolumn.motions.stochastic import Component, EnsembleShape, bidirectional
 from fecolumn.motions.target import Target
 from fecolumn.motions.variability import drawn
 from fecolumn.schema import InputError, build, parameter, read_toml
@@ -177,10 +177,10 @@ def medians(components: Components, fitted: Fitted) -> tuple[Component, Componen
     return x, y
 
 
-def shape_of(model: SeededModel, variability: str) -> Shape:
+def ensemble_shape(model: SeededModel, variability: str) -> EnsembleShape:
     """What all motions share."""
     fitted = getattr(model, variability)
-    return Shape(
+    return EnsembleShape(
         fitted.modulation_shape,
         model.components.corner_hz,
         np.array(model.frequencies_hz),
@@ -207,7 +207,7 @@ def seeded_acceleration(
     """
     rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(number,))))
     horizontal = bidirectional(
-        parameters(model, variability, seed, number), shape_of(model, variability), rng
+        parameters(model, variability, seed, number), ensemble_shape(model, variability), rng
     )
     return np.column_stack([horizontal, np.zeros(len(horizontal))])
 

@@ -67,7 +67,7 @@ class Component:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shape:
+class EnsembleShape:
     """What all motions of an ensemble share.
 
     Attributes
@@ -99,7 +99,7 @@ def modulation_scale(shape: float, duration_s: float) -> float:
 
 
 def bidirectional(
-    components: Sequence[Component], shape: Shape, rng: np.random.Generator
+    components: Sequence[Component], shape: EnsembleShape, rng: np.random.Generator
 ) -> NDArray[Any]:
     """Accelerations (n_steps, n_components) [m/s2]; velocity and displacement by the trapezoidal
     rule start and end at zero.
@@ -128,7 +128,7 @@ def bidirectional(
 
 
 def amplitude(
-    frequencies: ArrayLike, component: Component, shape: Shape, filter_hz: float
+    frequencies: ArrayLike, component: Component, shape: EnsembleShape, filter_hz: float
 ) -> NDArray[Any]:
     """sqrt(S) at frequencies [Hz] for a filter frequency [Hz], up to a constant factor."""
     ratio = np.asarray(frequencies) / filter_hz
@@ -142,7 +142,7 @@ def _component(
     component: Component,
     start: float,
     scale: float,
-    shape: Shape,
+    shape: EnsembleShape,
     n_steps: int,
     n_harmonics: int,
     phase: NDArray[Any],
@@ -179,7 +179,7 @@ def _component(
     moved = np.fft.irfft(np.fft.rfft(process * modulation, n_harmonics) * passed, n_harmonics)[
         :n_steps
     ]
-    return at_rest(moved, shape.dt)
+    return brought_to_rest(moved, shape.dt)
 
 
 def high_pass(frequencies: ArrayLike, corner_hz: float) -> NDArray[Any]:
@@ -188,7 +188,7 @@ def high_pass(frequencies: ArrayLike, corner_hz: float) -> NDArray[Any]:
     return result
 
 
-def at_rest(acceleration: NDArray[Any], dt: float) -> NDArray[Any]:
+def brought_to_rest(acceleration: NDArray[Any], dt: float) -> NDArray[Any]:
     """Acceleration (n_steps,) corrected so that its velocity and displacement (trapezoidal rule)
     end at zero.
 

@@ -48,7 +48,7 @@ def read_text(path: Path | str) -> str:
     return text
 
 
-def number(word: str) -> float:
+def parse_number(word: str) -> float:
     """Value of a number such as `-.1234E-02` or `.1D+01`.
 
     Raises

@@ -18,10 +18,11 @@ _SYMBOLS = {
     "material.youngs_modulus_pa": "$E$",
 }
 _NAMED = ("base", "cap")  # parts whose keys other parts have, too
+# of keys that are no words for their values
 _WORDS = {
     "podium.impact": "law of impact",
     "podium.storeys": "number of storeys",
-}  # of keys that are no words for their values
+}
 
 
 def axis_text(key: str, value) -> str:
@@ -63,7 +64,7 @@ def axis_unit(key: str) -> str:
     """
     section, _, name = key.partition(".")
     kind = typing.get_type_hints(ShortForm).get(section)
-    owners = (
+    owners: list = (
         [one for one in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(one)]
         if kind
         else [ShortForm]

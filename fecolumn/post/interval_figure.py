@@ -20,7 +20,7 @@ from fecolumn.post.style import (
 
 
 @dataclass(frozen=True, slots=True)
-class Estimate:
+class IntervalRow:
     """One row.
 
     Attributes
@@ -53,7 +53,7 @@ class Scale:
 
 
 def interval_figure(
-    columns: list[tuple[Scale, list[Estimate]]],
+    columns: list[tuple[Scale, list[IntervalRow]]],
     path,
     formats=("png", "pdf"),
     width_in: float = PAGE_WIDTH_IN,

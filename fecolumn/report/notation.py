@@ -51,9 +51,8 @@ def fixed(value, decimals: int = 2) -> str:
     """
     if value is None or not math.isfinite(value):
         return DASH
-    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace(
-        "-", MINUS
-    )  # + 0.0: what rounds to nothing has no sign
+    # + 0.0: what rounds to nothing has no sign
+    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
 
 
 def percent(share) -> str:

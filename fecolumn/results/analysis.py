@@ -213,23 +213,23 @@ class AnalysisPlots:
 
     def top(self) -> Picture:
         """Displacement of the top against time, below the ground motion."""
-        from fecolumn.post.history_figures import History, read_ending
+        from fecolumn.post.history_figures import HistoryCurves, read_ending
         from fecolumn.post.top_figure import top_figure
 
         return Picture(
             lambda path: top_figure(
-                History.read(self.folder / "history.h5"), read_ending(self.folder), path
+                HistoryCurves.read(self.folder / "history.h5"), read_ending(self.folder), path
             )
         )
 
     def path(self) -> Picture:
         """Path of the top in plan."""
-        from fecolumn.post.history_figures import History, read_ending
+        from fecolumn.post.history_figures import HistoryCurves, read_ending
         from fecolumn.post.path_figure import path_figure
 
         return Picture(
             lambda path: path_figure(
-                History.read(self.folder / "history.h5"), read_ending(self.folder), path
+                HistoryCurves.read(self.folder / "history.h5"), read_ending(self.folder), path
             )
         )
 
@@ -262,9 +262,11 @@ class AnalysisPlots:
     def energy(self) -> Picture:
         """The energy ledger against time."""
         from fecolumn.post.energy_figure import energy_figure
-        from fecolumn.post.history_figures import History
+        from fecolumn.post.history_figures import HistoryCurves
 
-        return Picture(lambda path: energy_figure(History.read(self.folder / "history.h5"), path))
+        return Picture(
+            lambda path: energy_figure(HistoryCurves.read(self.folder / "history.h5"), path)
+        )
 
 
 def _cell(value, factor, unit: str) -> str:

@@ -32,7 +32,7 @@ QUANTITIES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class QuantityPair:
     """One quantity of both analyses on common times.
 
     Attributes
@@ -58,7 +58,9 @@ class Pair:
     judged: bool = True
 
     @classmethod
-    def of(cls, a: np.ndarray, b: np.ndarray, tolerance: float, judged: bool = True) -> Pair:
+    def of(
+        cls, a: np.ndarray, b: np.ndarray, tolerance: float, judged: bool = True
+    ) -> QuantityPair:
         """The pair of (n, k) arrays, or (n,) as such of one column."""
         a, b = (values.reshape(len(values), -1) for values in (a, b))
         peak = max(float(np.linalg.norm(values, axis=1).max()) for values in (a, b))
@@ -71,7 +73,8 @@ class Pair:
     @property
     def peaks(self) -> tuple[float, float]:
         """Largest magnitude of a and of b."""
-        return tuple(float(np.linalg.norm(values, axis=1).max()) for values in (self.a, self.b))
+        a, b = (float(np.linalg.norm(values, axis=1).max()) for values in (self.a, self.b))
+        return a, b
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,8 +98,8 @@ class Parting:
 
     time: np.ndarray
     tolerance: float
-    quantities: dict[str, Pair]
-    energy: dict[str, Pair]
+    quantities: dict[str, QuantityPair]
+    energy: dict[str, QuantityPair]
     keys: list[tuple[str, object, object]]
 
     @property
@@ -139,12 +142,9 @@ def parting(a: AnalysisResult, b: AnalysisResult, tolerance: float = TOLERANCE) 
     heights, lifted = zip(*(_uplift(case, history) for case, history in zip(cases, histories)))
     lifts = any(lifted)
 
-    def pair(values, judged=True) -> Pair:
-        return Pair.of(
-            *(_at(time, history["time"], one) for history, one in zip(histories, values)),
-            tolerance,
-            judged,
-        )
+    def pair(values, judged=True) -> QuantityPair:
+        first, second = (_at(time, history["time"], one) for history, one in zip(histories, values))
+        return QuantityPair.of(first, second, tolerance, judged)
 
     quantities = {
         "top": pair([history["u_top"][:, :2] for history in histories]),
@@ -199,7 +199,7 @@ def differing_keys(a: StructureCase, b: StructureCase) -> list[tuple[str, object
             and values[0] != values[1]
             and not (
                 all(isinstance(value, str) for value in values)
-                and content(values[0]) == content(values[1])
+                and content(str(values[0])) == content(str(values[1]))
             )
         ):
             found.append((key, *values))
@@ -226,7 +226,7 @@ def _at_default(a: StructureCase, b: StructureCase, section: str) -> list[str]:
 
 def _flat(tables: dict, before: str = "") -> dict:
     """Tables as one, by dotted key."""
-    flat = {}
+    flat: dict = {}
     for key, value in tables.items():
         flat.update(
             _flat(value, f"{before}{key}.")
@@ -236,7 +236,7 @@ def _flat(tables: dict, before: str = "") -> dict:
     return flat
 
 
-def quantity_of(name: str, pair: Pair) -> Quantity:
+def quantity_of(name: str, pair: QuantityPair) -> Quantity:
     """How a quantity is written: its unit with a prefix that suits the peak."""
     words, unit, _ = QUANTITIES[name]
     return Quantity.of(words, unit, pair.peak)

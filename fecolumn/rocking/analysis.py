@@ -14,7 +14,7 @@ from fecolumn.analysis import CHECKPOINT, Analysis, energy_closure
 from fecolumn.atomic import write_json
 from fecolumn.ending import AT_REST, OVERTURNED, REST_SHARE, STILL_ROCKING, Ending
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.model import Response
+from fecolumn.rocking.model import ModelResponse
 from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
 from fecolumn.structures.case import StructureCase
 from fecolumn.summary import NAME
@@ -81,7 +81,7 @@ class ModelAnalysis(Analysis):
         self.stepping_s = time.perf_counter() - self.began
         return self._summary(response, ending)
 
-    def _energy(self, response: Response, rows: int) -> dict[str, np.ndarray]:
+    def _energy(self, response: ModelResponse, rows: int) -> dict[str, np.ndarray]:
         """All terms of the ledger; those that a model has not are 0."""
         from fecolumn.dynamics.energy import TERMS
 
@@ -89,7 +89,7 @@ class ModelAnalysis(Analysis):
             name: response.energy.get(name, np.zeros(len(response.time)))[:rows] for name in TERMS
         }
 
-    def _end(self, response: Response) -> tuple[int, Ending]:
+    def _end(self, response: ModelResponse) -> tuple[int, Ending]:
         """Rows of the response that are of the analysis, and how it ends."""
         cap, last = self.case.overturn.displacement_m, min(self.steps + 1, len(response.time))
         capped = (
@@ -133,7 +133,7 @@ class ModelAnalysis(Analysis):
         )
         return last, Ending(outcome, f"end of the analysed time, {response.time[last - 1]:.3f} s")
 
-    def _summary(self, response: Response, ending: Ending) -> dict:
+    def _summary(self, response: ModelResponse, ending: Ending) -> dict:
         rows, plan, overturned = (
             self.history.arrays(),
             self.case.integration,

@@ -14,7 +14,7 @@ import numpy as np
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.column import RigidColumn, rigid_column
 from fecolumn.rocking.impact import body_restitution, one_sided_restitution
-from fecolumn.rocking.model import Response
+from fecolumn.rocking.model import ModelResponse
 from fecolumn.rocking.plane import Plane, respond
 from fecolumn.rocking.restraint import Restraint
 from fecolumn.schema import InputError, Section, parameter
@@ -132,7 +132,7 @@ class BlockSection(Section):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Block:
+class RockingBlock:
     """A rigid body that rocks in the planes of x and y, each as if the other did not move.
 
     Attributes
@@ -147,7 +147,7 @@ class Block:
     planes: tuple[Plane, ...]
 
     @classmethod
-    def of_section(cls, section: BlockSection, file) -> Block:
+    def of_section(cls, section: BlockSection, file) -> RockingBlock:
         """Block of its table.
 
         Raises
@@ -195,7 +195,7 @@ class Block:
         return block
 
     @classmethod
-    def of_case(cls, case, file) -> Block:
+    def of_case(cls, case, file) -> RockingBlock:
         """The column of a case on its foot, with its mass, centre and inertia; its restitution by
         the plastic impact, or contact.restitution where that is given.
 
@@ -270,7 +270,7 @@ class Block:
         tilt: float = 0.0,
         tilt_rate: float = 0.0,
         direction: float = 0.0,
-    ) -> Response:
+    ) -> ModelResponse:
         """As of Model."""
         return respond(self.planes, motion, free_s, every_s, tilt, tilt_rate, direction)
 

@@ -14,7 +14,7 @@ from fecolumn.case import REST, Motion, case_from_tables, check_duration, locate
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.motions.load import load_motion
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.model import Model, Response, model_class
+from fecolumn.rocking.model import Model, ModelResponse, model_class
 from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
 from fecolumn.rocking.table_case import Start, table_case
 from fecolumn.schema import InputError, build, merge, read_toml
@@ -56,7 +56,7 @@ class ModelCase:
     dt_s: float
     duration_s: float
 
-    def response(self, source: str | None = None) -> tuple[GroundMotion, Response]:
+    def response(self, source: str | None = None) -> tuple[GroundMotion, ModelResponse]:
         """Ground motion and response, to a motion of `sources`, or on a base at rest.
 
         Raises

@@ -108,7 +108,7 @@ def _spectrum(args, folder) -> None:
     )
     overturning_figure(rows, rocker.alpha[0], folder / "overturning")
     slenderness_figure(folder / "slenderness")
-    lowest = {}
+    lowest: dict = {}
     for shape, frequency, band in rows:
         lowest.setdefault((shape, frequency), band)
     p = rocker.p2[0] ** 0.5
@@ -154,9 +154,8 @@ def _run(args, folder) -> None:
         [],
         CountProgress(len(case.sources), "motions", quiet=len(case.sources) < 2),
     )
-    case.model.respond(
-        case.response(case.sources[0] if case.sources else None)[0]
-    )  # compiles what is missing on this machine
+    # compiles what is missing on this machine
+    case.model.respond(case.response(case.sources[0] if case.sources else None)[0])
     began = time.process_time()
     for number, source in enumerate(case.sources or (None,), 1):
         motion, response = case.response(source)

@@ -222,9 +222,8 @@ def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, ti
     peak, loss = abs(tilt), 0.0
     pieces = max(1, math.ceil(dt / step - 1e-9))
     full = dt / pieces
-    exact = (
-        modes[1].max() < 1.0
-    )  # of damping ratios: the step of a standing podium is that of underdamped modes
+    # of damping ratios: the step of a standing podium is that of underdamped modes
+    exact = modes[1].max() < 1.0
     free = np.zeros((3, n))
     if exact:
         for j in range(n):
@@ -354,9 +353,8 @@ def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, ti
                         loss += sum(_energy(x, side, base, modes, n)) - before
                         impacts.append((sample - 1) * dt + piece * full + elapsed)
                         shear = _rates(x, side, base, modes, n, a1, z1, last)
-                    for i in range(
-                        size
-                    ):  # the ground's motion is continuous: the next step begins with these rates
+                    # the ground's motion is continuous: the next step begins with these rates
+                    for i in range(size):
                         first[i] = last[i]
                     peak = max(peak, abs(x[0]))
                     total[:] = 0.0

@@ -20,7 +20,7 @@ PROFILES = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Storeys:
+class ElasticBuilding:
     """An elastic building, fixed at its foot.
 
     Attributes
@@ -65,7 +65,7 @@ class Storeys:
 
 def storeys(
     profile: str, n: int, floor_mass: float, period: float, damping: float = 0.05
-) -> Storeys:
+) -> ElasticBuilding:
     """Building of n equal floors whose first mode has a profile.
 
     The stiffness of storey i of a shear frame, k_i = omega^2 sum_{j >= i} m phi_j / (phi_i -
@@ -125,4 +125,4 @@ def shear_building(
         first, second = (omega[mode - 1] for mode in rayleigh)
         a, b = (2 * damping * first * second / (first + second), 2 * damping / (first + second))
         ratios = (a / omega + b * omega) / 2
-    return Storeys(mass, stiffness, omega, ratios, shapes)
+    return ElasticBuilding(mass, stiffness, omega, ratios, shapes)

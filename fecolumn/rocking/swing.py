@@ -377,9 +377,8 @@ def _rock(ground, length, total, dt, scale, par, tilt, rate, states, impacts, ou
                         par, k, s, phi, rate, x, z, dx, dz, left
                     )
                     if next_phi >= 0.0:
-                        if (
-                            rate > 0.0 and next_rate < 0.0
-                        ):  # the turning point, of the cubic through both ends
+                        # the turning point, of the cubic through both ends
+                        if rate > 0.0 and next_rate < 0.0:
                             at = rate / (rate - next_rate)
                             top = (
                                 phi * (1 + 2 * at) * (1 - at) ** 2

@@ -127,9 +127,8 @@ def table_case(tables: dict, file, engine: str | None = None) -> TableCase:
         if not (structure and key in OF_BODIES or key in TABLES and key != table)
         and value is not False
     }
-    if structure and isinstance(
-        tables.get("initial"), dict
-    ):  # tables by the names of bodies stand beside the model's own keys
+    # tables by the names of bodies stand beside the model's own keys
+    if structure and isinstance(tables.get("initial"), dict):
         tables["initial"] = {
             key: value
             for key, value in tables["initial"].items()
@@ -170,7 +169,7 @@ def table_case(tables: dict, file, engine: str | None = None) -> TableCase:
     return case
 
 
-def type_of(key: str):
+def model_key_type(key: str):
     """Type of a dotted key of a model's table, such as podium.storeys, or None."""
     import typing
 

@@ -19,7 +19,7 @@ from fecolumn.case import GRAVITY
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking import wobbling_equations as equations
 from fecolumn.rocking.column import RigidColumn, rigid_column
-from fecolumn.rocking.model import Response
+from fecolumn.rocking.model import ModelResponse
 from fecolumn.schema import InputError, Section, parameter
 
 #: Tolerance of a step's error, relative to the state: free motion then keeps its energy to 1e-10 in
@@ -244,7 +244,7 @@ class Wobbling:
         tilt_rate: float = 0.0,
         direction: float = 0.0,
         tolerance: float = TOLERANCE,
-    ) -> Response:
+    ) -> ModelResponse:
         """As of Model; `impact_times` are those of passing upright in a plane or nearly so."""
         from fecolumn.rocking.wobbling_motion import (
             LIFTED,
@@ -271,7 +271,7 @@ class Wobbling:
         total = kinetic + strain + gravity
         theta, phi = rows[:, 1], rows[:, 2]
         along, up = self.moved(theta)
-        return Response(
+        return ModelResponse(
             time=rows[:, TIME],
             coordinates={"theta": theta, "phi": phi},
             units={"theta": "rad", "phi": "rad"},
@@ -297,9 +297,8 @@ class Wobbling:
         if not upward.any():
             return [], {}
         foot = foot[upward]
-        if not self.body[
-            4
-        ]:  # a column's tendon presses it on the ground, a frame's one is between column and slab
+        # a column's tendon presses it on the ground, a frame's one is between column and slab
+        if not self.body[4]:
             stretch = 2 * self.body[0] * np.sin(rows[upward, 1] / 2)
             pull = self.body[8] + self.body[7] * stretch
             foot = foot + pull[:, None] * np.column_stack(

@@ -47,9 +47,9 @@ def greenwood(
 
 
 def wilson(k: ArrayLike, n: int, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Score interval of a probability after k of n runs (Wilson 1927, J.
+    """Score interval of a probability after k of n runs, close to its level on average.
 
-    Am. Stat. Assoc. 22); close to its level on average.
+    Wilson (1927), Journal of the American Statistical Association 22.
 
     Parameters
     ----------

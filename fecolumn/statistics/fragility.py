@@ -174,9 +174,10 @@ class Bootstrap:
 
 
 def lognormal(im: ArrayLike, overturned: ArrayLike, groups: ArrayLike | None = None) -> Fragility:
-    """Lognormal fragility by maximum likelihood (Shinozuka et al. 2000, J.
+    """Lognormal fragility by maximum likelihood.
 
-    Eng. Mech. 126; Baker 2015, Earthq. Spectra 31).
+    Shinozuka et al. (2000), Journal of Engineering Mechanics 126; Baker (2015), Earthquake Spectra
+    31.
 
     Serves multiple stripes, incremental analyses and unscaled motions alike, each run being one yes
     or no.

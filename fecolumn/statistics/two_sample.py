@@ -102,9 +102,9 @@ def anderson_darling(
 def cramer_von_mises(
     a: ArrayLike, b: ArrayLike, resamples: int = RESAMPLES, seed: int = 0
 ) -> TestResult:
-    """Two-sample Cramer-von Mises test, T of Anderson (1962, Ann.
+    """Two-sample Cramer-von Mises test, averaged over all orders of ties.
 
-    Math. Stat. 33), averaged over all orders of ties.
+    T of Anderson (1962), Annals of Mathematical Statistics 33.
 
     In which order overturned runs follow each other nobody knows; T is its mean over all orders, in
     closed form. Without ties it is that of `scipy.stats.cramervonmises_2samp`, whose midranks do

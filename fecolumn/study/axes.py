@@ -41,7 +41,7 @@ _SAMPLES = tuple(field.name for field in dataclasses.fields(LatinHypercube))
 
 
 @dataclass(frozen=True, slots=True)
-class Factor:
+class AxisFactor:
     """One factor of the product: keys that change together.
 
     Attributes
@@ -59,7 +59,7 @@ class Factor:
     levels: tuple[tuple[Any, ...], ...]
 
 
-def read_factors(tables: dict[str, Any], path: Path) -> list[Factor]:
+def read_factors(tables: dict[str, Any], path: Path) -> list[AxisFactor]:
     """Factors of a study file in the order axes, zip, latin_hypercube; the last changes fastest.
 
     Raises
@@ -78,7 +78,7 @@ def read_factors(tables: dict[str, Any], path: Path) -> list[Factor]:
     factors = []
     if "axes" in tables:
         factors += [
-            Factor("axes", (key,), tuple((value,) for value in values))
+            AxisFactor("axes", (key,), tuple((value,) for value in values))
             for key, values in _lists(tables["axes"], "axes", path).items()
         ]
         for factor in factors:
@@ -139,7 +139,7 @@ def _lists(table: dict[str, Any], name: str, path: Path) -> dict[str, tuple[Any,
     return lists
 
 
-def _refuse_twice(factor: Factor, path: Path) -> None:
+def _refuse_twice(factor: AxisFactor, path: Path) -> None:
     seen = set()
     for level in factor.levels:
         text = tuple(
@@ -155,7 +155,7 @@ def _refuse_twice(factor: Factor, path: Path) -> None:
         seen.add(text)
 
 
-def _zip(table: dict[str, Any], name: str, path: Path) -> Factor:
+def _zip(table: dict[str, Any], name: str, path: Path) -> AxisFactor:
     lists = _lists(table, name, path)
     first, *others = lists
     for key in others:
@@ -166,10 +166,10 @@ def _zip(table: dict[str, Any], name: str, path: Path) -> Factor:
                 list(lists[key]),
                 f"must have as many values as {first}, {len(lists[first])}, has {len(lists[key])}",
             )
-    return Factor(name, tuple(lists), tuple(zip(*lists.values())))
+    return AxisFactor(name, tuple(lists), tuple(zip(*lists.values())))
 
 
-def _latin_hypercube(table: dict[str, Any], path: Path) -> Factor:
+def _latin_hypercube(table: dict[str, Any], path: Path) -> AxisFactor:
     """Latin hypercube of McKay, Beckman and Conover (1979), values to six digits: the same for a
     seed on any machine.
     """
@@ -211,7 +211,7 @@ def _latin_hypercube(table: dict[str, Any], path: Path) -> Factor:
         [_drawn(share, values, kinds[key]) for share in column]
         for (key, values), column in zip(ranges.items(), draws.T.tolist())
     ]
-    return Factor(name, tuple(ranges), tuple(zip(*columns)))
+    return AxisFactor(name, tuple(ranges), tuple(zip(*columns)))
 
 
 def _refuse_range(values: Any, key: str, path: Path) -> None:
@@ -268,7 +268,7 @@ def _of_model(key: str) -> Any:
         return None
     from fecolumn.rocking import table_case  # only now: the models need libraries
 
-    return table_case.type_of(key)
+    return table_case.model_key_type(key)
 
 
 def _known_keys(section: Any = ShortForm, prefix: str = "") -> dict[str, type]:

@@ -193,12 +193,11 @@ def _run(
     and whether it was stopped.
     """
     from fecolumn.study.plan import read_plan
-    from fecolumn.study.run import ENTRY, StudyError, check_motions, run_study
+    from fecolumn.study.run import ENTRY, StudyError, check_motions, complete_study
 
     plan = read_plan(args.study)
-    if (
-        args.entry is None
-    ):  # an analysis function of the user's may read motions this package does not know
+    # an analysis function of the user's may read motions this package does not know
+    if args.entry is None:
         from fecolumn.case import MODEL_ENGINES
         from fecolumn.mesh.estimate import estimate_of_all
 
@@ -218,20 +217,18 @@ def _run(
         elif meshed:
             print(estimate_of_all(meshed), file=sys.stderr, flush=True)
     entry, rule = args.entry or ENTRY, _rule(args, share, plan)
-    signal.signal(
-        signal.SIGTERM, signal.default_int_handler
-    )  # a batch system's stop is answered like Ctrl-C
+    # a batch system's stop is answered like Ctrl-C
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
 
     def work(only: set[str] | None = None) -> list[dict[str, Any]]:
         team = team_of(entry, args.output, share, plan.file) if team_of else None
-        return run_study(
+        return complete_study(
             plan,
             args.output,
-            workers=args.jobs or os.cpu_count() or 1,
+            workers=team or args.jobs or os.cpu_count() or 1,
             entry=entry,
             retry_failed=args.retry_failed,
             share=share,
-            team=team,
             only=only,
         )
 
@@ -324,11 +321,13 @@ def _show(
         )
     else:
         from fecolumn.study.conclusion import conclusion
+
+        # matplotlib and scipy only now
         from fecolumn.study.table import (
             table_text,
             write_figure,
             write_tables,
-        )  # matplotlib and scipy only now
+        )
 
         write_tables(plan, rows, folder)
         files = write_figure(plan, rows, folder)

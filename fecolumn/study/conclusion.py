@@ -29,7 +29,7 @@ _LEVEL = 0.05  # of significance, the usual one
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class SettingPair:
     """Two settings that differ in one axis: its key, their axis values and names, motions in both,
     distance of their CDFs, its upper bound and its paired p.
     """
@@ -57,7 +57,7 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
     plan
         the study.
     rows
-        its ledger, as `run_study` returns it.
+        its ledger, as `complete_study` returns it.
     """
     settings = settings_of(plan, rows)
     parts_made = substeps_note(plan.case, settings)
@@ -119,7 +119,7 @@ def _overturns(settings: list[Setting]) -> str:
     )
 
 
-def pairs_of(settings: list[Setting], confidence: float = 0.95) -> list[Pair]:
+def pairs_of(settings: list[Setting], confidence: float = 0.95) -> list[SettingPair]:
     """Settings that differ in one axis alone, over the motions done in both; confidence: of the
     bound of their distance.
     """
@@ -151,7 +151,7 @@ def pairs_of(settings: list[Setting], confidence: float = 0.95) -> list[Pair]:
         )
         p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
         found.append(
-            Pair(
+            SettingPair(
                 axis,
                 (first, second),
                 (name_a, name_b),
@@ -167,7 +167,7 @@ def _peak(summary: dict[str, Any]) -> float:
     return float(summary["u_max_m"])
 
 
-def _differences(pairs: list[Pair], settings: list[Setting]) -> str:
+def _differences(pairs: list[SettingPair], settings: list[Setting]) -> str:
     """Whether the distributions of the peak displacement differ, and by what."""
     corrected = holm([pair.p for pair in pairs])
     widest = max(
@@ -200,7 +200,7 @@ def _differences(pairs: list[Pair], settings: list[Setting]) -> str:
     )
 
 
-def _shortfall(pairs: list[Pair]) -> str:
+def _shortfall(pairs: list[SettingPair]) -> str:
     """Warnings where motions are too few for what is said: of the weakest difference that is
     claimed, and of the equality of the rest.
     """

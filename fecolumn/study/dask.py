@@ -15,7 +15,7 @@ from typing import Any
 from fecolumn.schema import InputError
 from fecolumn.sources import code, code_text
 from fecolumn.study.lock import hold_as_worker
-from fecolumn.study.outcome import Outcome, Task, outcomes_of_dead
+from fecolumn.study.outcome import Task, TaskOutcome, outcomes_of_dead
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, in_words, streams_kept, work_off
 
@@ -123,13 +123,14 @@ class DaskTeam:
 
     def give(self, batch: list[Task]) -> None:
         """Submit a batch to the scheduler, with absolute paths: workers run in other folders."""
+        # workers have folders of their own
         batch = [
             task._replace(folder=task.folder.resolve(), log=task.log.resolve()) for task in batch
-        ]  # workers have folders of their own
+        ]
         future = self._client.submit(_serve, batch, *self._told, pure=False)
         self._in_hand[future.key] = future, batch
 
-    def collect(self, timeout_s: float) -> list[Outcome]:
+    def collect(self, timeout_s: float) -> list[TaskOutcome]:
         """Outcomes of the tasks that ended, after waiting at most `timeout_s` [s] for one."""
         from distributed import CancelledError, wait
 
@@ -150,12 +151,12 @@ class DaskTeam:
             for outcome in self._outcomes(*self._in_hand.pop(future.key))
         ]
 
-    def _outcomes(self, future: Any, batch: list[Task]) -> list[Outcome]:
+    def _outcomes(self, future: Any, batch: list[Task]) -> list[TaskOutcome]:
         from distributed import CancelledError
         from distributed.scheduler import KilledWorker
 
         try:
-            found: list[Outcome] = future.result()
+            found: list[TaskOutcome] = future.result()
             return found
         except CancelledError:
             raise self._lost() from None
@@ -227,7 +228,7 @@ def _serve(
     folder: Path,
     share: tuple[int, int] | None,
     file: str,
-) -> list[Outcome]:
+) -> list[TaskOutcome]:
     from distributed import get_worker
 
     worker = get_worker()

@@ -12,7 +12,7 @@ from typing import Any
 
 from fecolumn.files import is_file
 from fecolumn.schema import shown
-from fecolumn.study.outcome import DONE, FAILED, Outcome
+from fecolumn.study.outcome import DONE, FAILED, TaskOutcome
 from fecolumn.summary import fault_of
 
 PLANNED, RUNNING = "planned", "running"
@@ -53,7 +53,7 @@ _ROW = (
 _ORDER = {DONE: 0, RUNNING: 1, FAILED: 2, PLANNED: 3}
 
 
-class Ledger:
+class StudyLedger:
     """A ledger open for its one writer.
 
     Parameters
@@ -79,12 +79,11 @@ class Ledger:
                 raise sqlite3.DatabaseError("no file")
             self._open(file)
         except sqlite3.DatabaseError as error:
-            if isinstance(
-                error, sqlite3.OperationalError
-            ):  # cannot be opened, or the disk is full: it may be as good as ever
+            # cannot be opened, or the disk is full: it may be as good as ever
+            if isinstance(error, sqlite3.OperationalError):
                 raise
             self.put_aside = file.with_name(f"{file.name}.damaged")
-            for name in files_of(file):
+            for name in ledger_files(file):
                 if os.path.lexists(name):
                     os.replace(name, f"{name}.damaged")
             self._open(file)
@@ -108,10 +107,10 @@ class Ledger:
             raise
 
     def plan(self, rows: Iterable[tuple[str, int, str, str | None]]) -> None:
-        """Make (id, place, axes as JSON, motion) the analyses; what ran when the last writer ended
-        is planned again.
+        """Take analyses (id, place, axes as JSON, motion) into the ledger as planned.
 
-        Whatever else the ledger says of them is kept, but for what cannot be.
+        Analyses that the ledger knows keep their state. Those that ran when the last writer ended,
+        or have no valid state, are planned again. Rows of other analyses are deleted.
         """
         run = self._connection.execute
         run("CREATE TEMP TABLE wanted (id TEXT PRIMARY KEY, place, axes, motion)")
@@ -130,7 +129,7 @@ class Ledger:
             "UPDATE analysis SET state = 'planned' WHERE state NOT IN ('planned', 'done', 'failed')"
         )
 
-    def agrees(self, outcome: Outcome) -> bool:
+    def agrees(self, outcome: TaskOutcome) -> bool:
         """Whether an analysis is recorded as done with this very summary."""
         return (
             self._connection.execute(
@@ -187,7 +186,7 @@ class Ledger:
 
     def rows(self) -> list[dict[str, Any]]:
         """As `Study.rows`."""
-        return read_rows(self._connection)
+        return ledger_rows(self._connection)
 
     def begin(self, case_ids: Iterable[str]) -> None:
         """Record that analyses were handed out."""
@@ -206,7 +205,7 @@ class Ledger:
             (value,),
         )
 
-    def end(self, outcome: Outcome, log: str | None = None) -> None:
+    def end(self, outcome: TaskOutcome, log: str | None = None) -> None:
         """Record the end of an analysis, DONE or FAILED."""
         failed = outcome.word == FAILED
         self._connection.execute(
@@ -252,7 +251,7 @@ class Ledger:
         self._connection.close()
 
 
-def files_of(file: Path) -> list[Path]:
+def ledger_files(file: Path) -> list[Path]:
     """A ledger's file and those in which SQLite keeps its changes."""
     return [file.with_name(file.name + ending) for ending in ("", "-wal", "-shm", "-journal")]
 
@@ -261,7 +260,7 @@ def can_be_opened(file: Path) -> bool:
     """Whether SQLite can open a ledger, or make it, without being held up by a pipe or a device in
     its place.
     """
-    return all(is_file(name) or not os.path.lexists(name) for name in files_of(file))
+    return all(is_file(name) or not os.path.lexists(name) for name in ledger_files(file))
 
 
 def open_to_read(file: Path) -> sqlite3.Connection | None:
@@ -282,7 +281,7 @@ def open_to_read(file: Path) -> sqlite3.Connection | None:
     return None
 
 
-def read_rows(*ledgers: sqlite3.Connection) -> list[dict[str, Any]]:
+def ledger_rows(*ledgers: sqlite3.Connection) -> list[dict[str, Any]]:
     """Every analysis in the order of the study file, its axes and summary as dicts; of several
     ledgers, the one that got farthest counts.
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import IO
 
 from fecolumn.atomic import disk_full
-from fecolumn.lock import held, open_lock
+from fecolumn.lock import is_held, open_lock
 from fecolumn.schema import InputError
 
 # Another driver that only looks holds a lock for an instant
@@ -51,9 +51,9 @@ class FolderLock:
             if share:
                 self._take(folder / f"{stem(share)}.lock")
                 for other in folder.glob("study-*-of-*.lock"):
-                    if not other.name.endswith((f"-of-{share[1]}.lock", ".workers.lock")) and held(
-                        other
-                    ):
+                    if not other.name.endswith(
+                        (f"-of-{share[1]}.lock", ".workers.lock")
+                    ) and is_held(other):
                         raise BlockingIOError
             for workers in (
                 [folder / f"{stem(share)}.workers.lock"]
@@ -138,7 +138,7 @@ def _owners(folder: Path) -> str:
             text
             for file in folder.glob("study*.lock")
             if not file.name.endswith(".workers.lock")
-            and held(file)
+            and is_held(file)
             and (text := file.read_text().strip())
         )
     )

@@ -13,7 +13,7 @@ from typing import IO, Any
 
 from fecolumn.schema import InputError
 from fecolumn.study.lock import hold_as_worker
-from fecolumn.study.outcome import Outcome, Task
+from fecolumn.study.outcome import Task, TaskOutcome
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, die_with_parent, in_words, work_off
 
@@ -96,7 +96,7 @@ class MpiTeam:
         file: Path | str,
     ) -> None:
         self.size, self._pool, self._told = size, pool, (entry, Path(folder), share, str(file))
-        self._futures: set[Future[list[Outcome]]] = set()
+        self._futures: set[Future[list[TaskOutcome]]] = set()
 
     @property
     def at_work(self) -> bool:
@@ -111,7 +111,7 @@ class MpiTeam:
         """Submit a batch to the ranks."""
         self._futures.add(self._pool.submit(_serve, batch, *self._told))
 
-    def collect(self, timeout_s: float) -> list[Outcome]:
+    def collect(self, timeout_s: float) -> list[TaskOutcome]:
         """Outcomes of the tasks that ended, after waiting at most `timeout_s` [s] for one."""
         ended, self._futures = wait(self._futures, timeout=timeout_s, return_when=FIRST_COMPLETED)
         outcomes = []
@@ -137,7 +137,7 @@ _held: dict[Path, IO[str]] = {}
 
 def _serve(
     batch: list[Task], entry: str, folder: Path, share: tuple[int, int] | None, file: str
-) -> list[Outcome]:
+) -> list[TaskOutcome]:
     if folder not in _held:
         _held[folder] = hold_as_worker(folder, share)
     try:

@@ -29,7 +29,7 @@ from fecolumn.paths import taken_over
 from fecolumn.schema import InputError, merge, nested, read_toml, shown
 from fecolumn.short_form import ShortForm
 from fecolumn.structures.case import StructureCase
-from fecolumn.study.axes import Factor, hint, read_factors
+from fecolumn.study.axes import AxisFactor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
 
 # Axes that make the members of an ensemble; every other axis tells one ensemble from another.
@@ -205,7 +205,7 @@ def _case_tables(case, path: Path) -> dict[str, Any]:
 class _Maker:
     """Makes the analyses of a plan."""
 
-    def __init__(self, common: dict[str, Any], factors: list[Factor], path: Path):
+    def __init__(self, common: dict[str, Any], factors: list[AxisFactor], path: Path):
         self.common, self.factors, self.path = common, factors, path
         self.keys = tuple(key for factor in factors for key in factor.keys)
 

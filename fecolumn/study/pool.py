@@ -17,7 +17,7 @@ from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Any
 
-from fecolumn.study.outcome import DONE, Outcome, Task, outcomes_of_dead
+from fecolumn.study.outcome import DONE, Task, TaskOutcome, outcomes_of_dead
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, die_with_parent, in_words, work_off
 
@@ -67,7 +67,7 @@ class LocalPool:
             worker = min(self._workers, key=lambda one: len(one.batches))
         worker.give(batch)
 
-    def collect(self, timeout_s: float) -> list[Outcome]:
+    def collect(self, timeout_s: float) -> list[TaskOutcome]:
         """Outcomes of the tasks that ended, after waiting at most `timeout_s` [s] for one."""
         outcomes = []
         answered = wait([worker.connection for worker in self._workers], timeout=timeout_s)
@@ -79,18 +79,18 @@ class LocalPool:
                 outcomes += self._bury(worker)
         return outcomes
 
-    def _answer(self, worker: _Worker, word: Any) -> list[Outcome]:
+    def _answer(self, worker: _Worker, word: Any) -> list[TaskOutcome]:
         if word == READY:
             worker.ready, self._stillborn = True, 0
             return []
         if isinstance(word, tuple):
             raise StudyError(f"a worker could not start: {word[1]}")
-        outcomes: list[Outcome] = word
+        outcomes: list[TaskOutcome] = word
         for outcome in outcomes:
             worker.ended(outcome.id)
         return outcomes
 
-    def _bury(self, worker: _Worker) -> list[Outcome]:
+    def _bury(self, worker: _Worker) -> list[TaskOutcome]:
         """Outcomes of what a dead worker had in hand."""
         reason = worker.epitaph()
         worker.connection.close()
@@ -121,9 +121,8 @@ class _Worker:
     """
 
     def __init__(self, entry: str, file: str) -> None:
-        context = multiprocessing.get_context(
-            "spawn"
-        )  # a fork would copy the driver's MPI and threads
+        # a fork would copy the driver's MPI and threads
+        context = multiprocessing.get_context("spawn")
         self.connection, far_end = context.Pipe()
         self.process = context.Process(target=_serve, args=(far_end, entry, file), daemon=True)
         self.tasks: dict[str, Task] = {}

@@ -28,13 +28,14 @@ def preparation(analyses: Iterable[Any]) -> str:
     import numba
 
     from fecolumn._compiled import cache_folder, compiled_folder
-    from fecolumn.lock import held
+    from fecolumn.lock import is_held
 
     if any(
-        held(lock) for name in ("model", "body") for lock in cache_folder().glob(f".{name}-*.lock")
+        is_held(lock)
+        for name in ("model", "body")
+        for lock in cache_folder().glob(f".{name}-*.lock")
     ):
         return MODELLING
-    kept = any(
-        Path(compiled_folder()).glob("*/*.advance-*.nbi")
-    )  # the one function of the engine that Python calls, see reduced.run
+    # the one function of the engine that Python calls, see reduced.run
+    kept = any(Path(compiled_folder()).glob("*/*.advance-*.nbi"))
     return "" if kept or numba.config.DISABLE_JIT else COMPILING

@@ -18,7 +18,7 @@ from typing import Any
 from fecolumn.schema import InputError
 from fecolumn.statistics.equivalence import SMALL
 from fecolumn.statistics.holm import holm
-from fecolumn.study.conclusion import Pair, pairs_of, settings_of
+from fecolumn.study.conclusion import SettingPair, pairs_of, settings_of
 from fecolumn.study.plan import Plan, member_of
 
 DIFFER, ALIKE, OPEN = "differ", "alike", "open"
@@ -61,7 +61,7 @@ class Rule:
 class Verdict:
     """What is said of a pair of settings."""
 
-    pair: Pair
+    pair: SettingPair
     word: str
 
     def text(self, rule: Rule) -> str:

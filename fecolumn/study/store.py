@@ -26,14 +26,14 @@ from fecolumn.schema import InputError
 from fecolumn.study.ledger import (
     PLANNED,
     RUNNING,
-    Ledger,
+    StudyLedger,
     can_be_opened,
-    files_of,
+    ledger_files,
+    ledger_rows,
     open_to_read,
-    read_rows,
 )
 from fecolumn.study.lock import FolderLock, stem
-from fecolumn.study.outcome import DONE, FAILED, Outcome, Task, finished
+from fecolumn.study.outcome import DONE, FAILED, Task, TaskOutcome, finished_outcome
 from fecolumn.study.plan import Analysis, Plan
 
 # Files of a driver that was stopped before it had written study.json
@@ -93,7 +93,9 @@ class Store:
                     },
                 )
             self.analyses = _share(plan, share)
-            self.ledger = Ledger(self.folder / f"{stem(share)}.sqlite", many_readers=share is None)
+            self.ledger = StudyLedger(
+                self.folder / f"{stem(share)}.sqlite", many_readers=share is None
+            )
         except BaseException:
             self._lock.close()
             raise
@@ -133,10 +135,11 @@ class Store:
             else set()
         )
         for case_id, state in self.ledger.states().items():
-            outcome = finished(case_id, self.result_folder(case_id)) if case_id in there else None
-            if outcome and not self.ledger.agrees(
-                outcome
-            ):  # not done yet by the ledger, or it says something else
+            outcome = (
+                finished_outcome(case_id, self.result_folder(case_id)) if case_id in there else None
+            )
+            # not done yet by the ledger, or it says something else
+            if outcome and not self.ledger.agrees(outcome):
                 self.ledger.end(outcome)
             elif not outcome and state == DONE:
                 self.ledger.plan_again(case_id=case_id)
@@ -153,7 +156,7 @@ class Store:
                 ) from None
         if share is None:
             for other in others:
-                for file in files_of(other):
+                for file in ledger_files(other):
                     file.unlink(missing_ok=True)
 
     def missing(self, workers: int = 1) -> list[Analysis]:
@@ -183,7 +186,7 @@ class Store:
             analysis.id, analysis.case, self.result_folder(analysis.id), self.log_file(analysis.id)
         )
 
-    def end(self, outcome: Outcome) -> None:
+    def end(self, outcome: TaskOutcome) -> None:
         """Record the end of an analysis."""
         self.ledger.end(outcome, f"logs/{outcome.id}.log")
 
@@ -251,7 +254,7 @@ def read_study(folder: Path | str) -> Study:
                 )
             if ledger := open_to_read(file):
                 ledgers.append(ledger)
-        rows = read_rows(*ledgers)
+        rows = ledger_rows(*ledgers)
     except sqlite3.Error as error:
         raise InputError(
             folder,

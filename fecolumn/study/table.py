@@ -9,7 +9,7 @@ from typing import Any
 from fecolumn.atomic import write_csv
 from fecolumn.ending import P_LOST, P_OVERTURN, lost
 from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import Panel, cdf_figure
+from fecolumn.post.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.study.plan import Plan
@@ -56,7 +56,7 @@ def combinations(
     plan
         the study.
     rows
-        its ledger, as `run_study` returns it.
+        its ledger, as `complete_study` returns it.
     """
     states = {row["id"]: row for row in rows}
     groups: dict[tuple[Any, ...], tuple[dict[str, Any], list[Any], list[Any]]] = {}
@@ -119,9 +119,8 @@ def _analysis_row(row: dict[str, Any]) -> list[Any]:
     texts, summary = [row["id"], *row["axes"].values(), row["state"]], row["summary"]
     if not summary:
         return texts + [""] * len(_ANALYSES)
-    peak = (
-        "" if lost(summary) else f"{summary['u_max_m']:.6e}"
-    )  # what overturned or slid off has none
+    # what overturned or slid off has none
+    peak = "" if lost(summary) else f"{summary['u_max_m']:.6e}"
     return [
         *texts,
         peak,
@@ -207,7 +206,7 @@ def write_figure(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
     )
     return cdf_figure(
         [
-            Panel(title or plan.title, tuple(lines), P_LOST if off else P_OVERTURN)
+            CdfPanel(title or plan.title, tuple(lines), P_LOST if off else P_OVERTURN)
             for title, lines in panels.items()
         ],
         Path(folder) / "cdf",

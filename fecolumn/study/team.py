@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from fecolumn.study.outcome import Outcome, Task
+from fecolumn.study.outcome import Task, TaskOutcome
 
 
 class StudyError(RuntimeError):
@@ -36,7 +36,7 @@ class Team(Protocol):
     def give(self, batch: list[Task]) -> None:
         """Hand out a batch; its tasks are done in order."""
 
-    def collect(self, timeout_s: float) -> list[Outcome]:
+    def collect(self, timeout_s: float) -> list[TaskOutcome]:
         """What has ended, waiting for something at most `timeout_s` [s].
 
         Raises

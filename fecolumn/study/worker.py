@@ -19,7 +19,7 @@ from typing import IO, Any
 
 from fecolumn.atomic import disk_full
 from fecolumn.files import is_file
-from fecolumn.study.outcome import FAILED, FULL, Outcome, Task, finished
+from fecolumn.study.outcome import FAILED, FULL, Task, TaskOutcome, finished_outcome
 
 # One thread a worker: BLAS threads of several workers on the same cores only disturb each other.
 ONE_THREAD = dict.fromkeys(
@@ -39,7 +39,7 @@ def analysis_function(entry: str) -> AnalysisFunction:
     return found
 
 
-def work_off(batch: list[Task], run: AnalysisFunction, file: str) -> Iterator[Outcome]:
+def work_off(batch: list[Task], run: AnalysisFunction, file: str) -> Iterator[TaskOutcome]:
     """Do the tasks of a batch in order; stops at a full disk.
 
     Parameters
@@ -47,7 +47,7 @@ def work_off(batch: list[Task], run: AnalysisFunction, file: str) -> Iterator[Ou
     batch
         what to do.
     run
-        analysis function, see `fecolumn.study.run.run_study`.
+        analysis function, see `fecolumn.study.run.complete_study`.
     file
         study file, for messages.
     """
@@ -55,7 +55,7 @@ def work_off(batch: list[Task], run: AnalysisFunction, file: str) -> Iterator[Ou
 
     where = machine()
     for task in batch:
-        if there := finished(task.id, task.folder):  # by another driver, or before a crash
+        if there := finished_outcome(task.id, task.folder):  # by another driver, or before a crash
             yield there
             continue
         told: dict[str, Any] = dict(started=time.time(), machine=where)
@@ -67,11 +67,11 @@ def work_off(batch: list[Task], run: AnalysisFunction, file: str) -> Iterator[Ou
         told["wall_s"] = time.monotonic() - began
         give_back_memory()
         if problem:
-            yield Outcome(task.id, FULL if full else FAILED, problem, **told)
+            yield TaskOutcome(task.id, FULL if full else FAILED, problem, **told)
             if full:
                 return
         else:
-            yield finished(task.id, task.folder, **told) or Outcome(
+            yield finished_outcome(task.id, task.folder, **told) or TaskOutcome(
                 task.id, FAILED, "ended without a summary.json of its own", **told
             )
 

@@ -49,7 +49,7 @@ from fecolumn.post.style import LINES
 from fecolumn.verification import FULL
 from fecolumn.verification.hht_scheme import amplification, principal
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import afloat
 from fecolumn.verification.trials import begin_trial
 
@@ -66,10 +66,20 @@ BRICKS = (16, 32, 64, 128)
 class Strike:
     """One impact, over 1.25 contact times.
 
-    time, force: (m,) from the moment of contact [s], and [N]. rebound: velocity of the centre of
-    mass [m/s]. contact, damping: energy that contact and impact law, and HHT took [J]; landing: the
-    first of these in the first step of contact. foot: mass m_e of the filtered foot [kg], 0 without
-    the impact law. closure: of the ledger [J].
+    Attributes
+    ----------
+    time, force
+        (m,) from the moment of contact [s], and [N].
+    rebound
+        velocity of the centre of mass [m/s].
+    contact, damping
+        energy that contact and impact law, and HHT took [J].
+    landing
+        the first of these in the first step of contact.
+    foot
+        mass m_e of the filtered foot [kg], 0 without the impact law.
+    closure
+        of the ledger [J].
     """
 
     time: np.ndarray
@@ -176,7 +186,7 @@ def damped(bricks: int, alpha: float) -> float:
     )
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """16 to 128 bricks; 256 as well if `long`.
 
     The reduced engine with all modes that the bar has; it knows the plastic law only.
@@ -188,9 +198,9 @@ def run(engine: str, long: bool) -> Result:
         for impact in impacts
         for alpha in ALPHAS
     }
-    result = Result(size=(7.2, 5.2))
+    result = CaseRows(size=(7.2, 5.2))
     for (impact, alpha), series in strikes.items():
-        result.rows += rows(
+        result.rows += bar_rows(
             impact, alpha, series, closure=1e-6 if engine != "total_lagrangian" else SPEED / WAVE
         )
     for alpha in ALPHAS:
@@ -203,7 +213,7 @@ def run(engine: str, long: bool) -> Result:
                 1e-5,
             )
         )
-    result.draw = lambda figure: draw(figure, strikes)
+    result.draw = lambda figure: draw_bar(figure, strikes)
     return result
 
 
@@ -216,7 +226,7 @@ def order(series: dict[int, Strike], error) -> float:
     )
 
 
-def rows(impact: str, alpha: float, series: dict[int, Strike], closure: float) -> list[Row]:
+def bar_rows(impact: str, alpha: float, series: dict[int, Strike], closure: float) -> list[Row]:
     """What the finest mesh finds, with orders over all meshes; `closure` is the tolerance of the
     ledger's.
     """
@@ -276,7 +286,7 @@ def rows(impact: str, alpha: float, series: dict[int, Strike], closure: float) -
     return found
 
 
-def draw(figure, strikes) -> None:
+def draw_bar(figure, strikes) -> None:
     """Contact force against time for meshes and alphas, and the convergence."""
     ((meshes, alphas), (literal, orders)) = figure.subplots(2, 2)
     some = strikes["plastic", 0.0]

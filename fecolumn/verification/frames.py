@@ -59,7 +59,7 @@ from fecolumn.verification.moving_base import (
     hht_path,
     on_exact_path,
 )
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import RigidRocking, Trial, solver_drift
 from fecolumn.verification.trials import begin_trial
 
@@ -81,9 +81,9 @@ def turned_system(turn, engine: str, **tables):
     )
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """Rows of shaking seen from a moving, a turned, a mirrored and a later frame."""
-    result = Result(size=(7.2, 3.7))
+    result = CaseRows(size=(7.2, 3.7))
     system = column_system(engine)
     times = system.hht.dt * np.arange(1, (200 if long or engine != "total_lagrangian" else 125) + 1)
     motion, drift = shaking(times), solver_drift(system, times)
@@ -110,7 +110,7 @@ def run(engine: str, long: bool) -> Result:
         inertial = InertialTrial(system, standing, by_hht)
         relative = inertial.shake(motion)
         compare("base moving", relative)
-        result.rows += energies(table, inertial, drift[-1])
+        result.rows += frame_ledgers(table, inertial, drift[-1])
         damped = column_system(engine, integration={"alpha_hht": -0.2})
         still = Trial(damped)
         compare(
@@ -221,7 +221,7 @@ def run(engine: str, long: bool) -> Result:
     return result
 
 
-def energies(table: Trial, inertial: InertialTrial, drift: float) -> list[Row]:
+def frame_ledgers(table: Trial, inertial: InertialTrial, drift: float) -> list[Row]:
     """The ledgers of the two frames at the end, `drift` [m/s] apart."""
     of_table, of_inertial = table.energy(), inertial.trial.energy()
     gained = inertial.trial.mechanical() - inertial.trial.ledger.start

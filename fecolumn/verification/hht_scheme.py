@@ -42,7 +42,7 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.fem.modes import free_modes
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import afloat
 from fecolumn.verification.trials import begin_trial
 
@@ -161,10 +161,10 @@ def of_history(values: np.ndarray) -> tuple[float, float]:
     return principal(np.roots([1, -p, -q]).astype(complex))
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """The whole case in either engine; `long` has nothing to add."""
     mode = Mode(engine)
-    result, errors, departure = Result(size=(7.2, 5.2)), {}, 0.0
+    result, errors, departure = CaseRows(size=(7.2, 5.2)), {}, 0.0
     for alpha in ALPHAS:
         found = []
         for number in PER_PERIOD:
@@ -247,7 +247,7 @@ def run(engine: str, long: bool) -> Result:
             1e-6,
         )
     )
-    result.draw = lambda figure: draw(figure, errors, damped, angles, radii)
+    result.draw = lambda figure: draw_scheme(figure, errors, damped, angles, radii)
     return result
 
 
@@ -286,7 +286,7 @@ def decays(
     return found
 
 
-def draw(figure, errors, damped, angles, radii) -> None:
+def draw_scheme(figure, errors, damped, angles, radii) -> None:
     """Convergence, damping ratio, period error and spectral radius against dt over the period;
     lines exact but for the first.
     """

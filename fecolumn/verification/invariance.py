@@ -40,7 +40,7 @@ from fecolumn.post.style import LINES
 from fecolumn.schema import merge
 from fecolumn.verification import FULL
 from fecolumn.verification.models import COARSE, column_case, shaking
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import solver_drift
 from fecolumn.verification.trials import begin_trial
 
@@ -49,7 +49,7 @@ TIMES = DT * np.arange(1, STEPS + 1)
 FLOOR = 1e-18  # m, drawn for no difference at all
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """The reduced engine runs on one core; it is interrupted where it looks for Ctrl-C, between
     chunks of steps.
     """
@@ -59,7 +59,7 @@ def run(engine: str, long: bool) -> Result:
     def trial(mesh=specimen):
         return begin_trial(engine, build_system(case, MPI.COMM_SELF, mesh))
 
-    whole, result = trial(), Result()
+    whole, result = trial(), CaseRows()
     path = whole.shake(motion)
     peak = np.abs(path).max()
     drift = 2 * solver_drift(whole.system, TIMES) * TIMES / 2

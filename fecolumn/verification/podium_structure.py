@@ -20,7 +20,7 @@ HALF_DIAGONAL, ALPHA, GAMMA = 1.5, math.atan(0.15), 10.0
 STIFF = 1e14
 
 
-def released(case, seconds: float) -> dict[str, np.ndarray]:
+def let_go(case, seconds: float) -> dict[str, np.ndarray]:
     """Columns of the history of a structure that is let go on ground at rest."""
     engine = engine_of(case, structure_model(case), "case")
     rows, _ = engine.advance(np.zeros((round(seconds / case.integration.dt_s), 3)))
@@ -45,7 +45,7 @@ def podium_case(
         2 * HALF_DIAGONAL * math.cos(ALPHA),
         1500.0,
     )
-    stuff, slab = dict(youngs_modulus_pa=3 * STIFF, poissons_ratio=0.2), 4 * GAMMA * mass
+    material, slab = dict(youngs_modulus_pa=3 * STIFF, poissons_ratio=0.2), 4 * GAMMA * mass
     return case_from_tables(
         dict(
             bodies=dict(
@@ -64,7 +64,7 @@ def podium_case(
                         [2.5, -2.5, 0.0],
                     ],
                 )
-                | stuff
+                | material
                 | (column or {}),
                 building=dict(
                     kind="storeys",
@@ -82,7 +82,7 @@ def podium_case(
                     modes=2 * floors,
                     at_m=[0.0, 0.0, height],
                 )
-                | stuff
+                | material
                 | (building or {}),
             ),
             interfaces=dict(

@@ -23,7 +23,7 @@ from fecolumn.reduced.observe import COLUMNS, view
 from fecolumn.verification.trial import N_MODES, Trial
 
 # what is known of a body: making it takes seconds, and one body serves many trials
-_REDUCED = WeakKeyDictionary()
+_REDUCED: WeakKeyDictionary = WeakKeyDictionary()
 
 
 class Reduction:
@@ -32,8 +32,11 @@ class Reduction:
     Attributes
     ----------
     model
-        ColumnModel. shapes: (m, n_owned, 3) of its modes. rigid, momentum: (3 n_owned, 6) rigid
-        motions and M times them.
+        ColumnModel.
+    shapes
+        (m, n_owned, 3) of its modes.
+    rigid, momentum
+        (3 n_owned, 6) rigid motions and M times them.
     """
 
     def __init__(self, system, n_modes: int):

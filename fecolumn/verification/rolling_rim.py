@@ -127,9 +127,8 @@ class RollingRim:
         )
         centre = np.diag([self.transverse, self.transverse, self.axial])
         start = Rotation.from_rotvec([0.0, tilt, 0.0])
-        y = np.concatenate(
-            [start.as_quat(), start.inv().apply(self.angular_velocity(tilt, spin))]
-        )  # attitude, body's rates
+        # attitude, body's rates
+        y = np.concatenate([start.as_quat(), start.inv().apply(self.angular_velocity(tilt, spin))])
         time, foot, path = 0.0, 0, []
 
         def down(y):

@@ -37,7 +37,7 @@ from fecolumn.case import GRAVITY
 from fecolumn.post.style import LINES
 from fecolumn.schema import merge
 from fecolumn.verification.models import COARSE, column_system, shaking
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import solver_drift
 from fecolumn.verification.trials import begin_trial
 
@@ -65,9 +65,9 @@ def sized(engine: str, size: float, modulus: float):
     )
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """Rows of specimens of three sizes, with E in proportion and with the same E."""
-    result = Result(size=(7.2, 3.6))
+    result = CaseRows(size=(7.2, 3.6))
     steps = 200 if long or engine != "total_lagrangian" else 125
     diameter, times = COARSE["column"]["outer_diameter_m"], STEP * np.arange(1, steps + 1)
 

@@ -19,23 +19,21 @@ lets the slip stop; integrated to 1e-12. Both in `coulomb_block`.
 Source: Coulomb 1785; Newmark 1965 (Geotechnique 15).
 
 Tolerances. A block in equilibrium moves by rounding alone: the requirement's 1e-9 m. When glued
-points let go, a slack of
-d = rho g H^2 / G = 4e-10 m is run through before all of them slip: a velocity of sqrt(2 a d) < 4e-5
-m/s at most, after 0.3 s 1e-4 of
-g sin(b) t^2 / 2. The column on the ramp sways in its first mode by what the ramp's corner excites,
-1.9 m/s3 over 2 pi f = 300 1/s,
-above the threshold for half a period at most: 1 %. The step sees the mean of a_g at its ends and
-one friction force:
-- each kink of the acceleration (slip starts) shifts the velocity by A w dt^2 / 8, the trapezoidal
-    rule the velocity by
-  A w dt^2 / 12 in each of four quarter waves, so that a displacement after T is off by (1/8 + 1/3)
-      A w T dt^2;
-  each end of slip inside a step leaves mu g dt^2 / 2 besides;
-- in two directions acceleration and friction turn by w dt: (A / 12 + mu g / 24) (w dt)^2 T^2 / 2; a
-    step's one friction force is
-  w dt / 2 off the slip's direction at most.
-A block at rest on a level base after it slid needs no friction: that of its sway, 1e-3 mu m g, is
-left.
+points let go, a slack of d = rho g H^2 / G = 4e-10 m is run through before all of them slip. That
+gives a velocity of sqrt(2 a d) < 4e-5 m/s at most, after 0.3 s 1e-4 of g sin(b) t^2 / 2. The column
+on the ramp sways in its first mode by what the ramp's corner excites, 1.9 m/s3 over 2 pi f = 300
+1/s, above the threshold for half a period at most: 1 %. The step sees the mean of a_g at its ends
+and one friction force:
+
+- Each kink of the acceleration (slip starts) shifts the velocity by A w dt^2 / 8. The trapezoidal
+  rule shifts it by A w dt^2 / 12 in each of four quarter waves. So a displacement after T is off by
+  (1/8 + 1/3) A w T dt^2. Each end of slip inside a step leaves mu g dt^2 / 2 besides.
+- In two directions acceleration and friction turn by w dt, which makes
+  (A / 12 + mu g / 24) (w dt)^2 T^2 / 2. The one friction force of a step is w dt / 2 off the slip's
+  direction at most.
+
+A block that slid comes to rest on a level base and needs no friction then. The friction of its
+sway, 1e-3 mu m g, is left.
 """
 
 from __future__ import annotations
@@ -47,7 +45,7 @@ from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
 from fecolumn.verification.coulomb_block import NewmarkBlock, TurningBlock
 from fecolumn.verification.models import block_system, box, column_system
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.rocking import ramp
 from fecolumn.verification.trial import Trial
 from fecolumn.verification.trials import begin_trial
@@ -71,12 +69,15 @@ MARKS = {
 }
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless
     `long`.
     """
-    result = Result(size=(7.2, 2.5))
-    result.rows += [creep(engine), *(row for share in (0.5, 0.9) for row in slope(engine, share))]
+    result = CaseRows(size=(7.2, 2.5))
+    result.rows += [
+        creep(engine),
+        *(row for share in (0.5, 0.9) for row in slope_slide(engine, share)),
+    ]
     if long or engine != "total_lagrangian":
         result.rows.append(threshold(engine))
     pulses = {dt: [one_sine(engine, dt, shift) for shift in SHIFTS] for dt in STEPS}
@@ -184,7 +185,7 @@ def creep(engine: str) -> Row:
     )
 
 
-def slope(engine: str, share: float) -> list[Row]:
+def slope_slide(engine: str, share: float) -> list[Row]:
     """Distance and friction energy of a block let go for 0.3 s."""
     trial = on_slope(engine, share)
     start = centre(trial)

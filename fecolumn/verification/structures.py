@@ -29,9 +29,9 @@ from fecolumn.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
 from fecolumn.verification.podium_bodies import podium_rows
 from fecolumn.verification.podium_structure import (
     STIFF,
-    released,
+    let_go,
 )
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.wobbling_models import SPECIMEN
 
 #: Of [P]: half diagonal [m] and slenderness of a column, mass of the slab over that of the columns
@@ -40,9 +40,9 @@ _TILTS = (0.01, 0.03, 0.06)  # [rad]
 _SETTLED = (5e-3, 0.06)
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """The rows; engine: reduced."""
-    return Result([*_forces(), *_impact(), *_path(4.0 if long else 1.0), *podium_rows()])
+    return CaseRows([*_forces(), *_impact(), *_path(4.0 if long else 1.0), *podium_rows()])
 
 
 def frame_model(**keys) -> WobblingFrame:
@@ -50,7 +50,7 @@ def frame_model(**keys) -> WobblingFrame:
     return WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN | keys), "specimen")
 
 
-def rolling(frame: WobblingFrame, tilt: float, turn: float = 0.0) -> dict:
+def rolling_start(frame: WobblingFrame, tilt: float, turn: float = 0.0) -> dict:
     """[initial] of a case: columns that lean by `tilt` [rad] towards x and roll on with `turn`
     [rad/s] of the azimuth, their slab along with them.
     """
@@ -136,7 +136,7 @@ def _forces():
                 displacement,
                 restoring_force(
                     frame,
-                    released(frame_case(frame, rolling(frame, tilt), 1e-3), _SETTLED[1]),
+                    let_go(frame_case(frame, rolling_start(frame, tilt), 1e-3), _SETTLED[1]),
                     tilt,
                 ),
             )
@@ -171,7 +171,7 @@ def planar_restitution(frame: WobblingFrame) -> float:
 def _impact():
     """The frame without tendons: falls upright and rises on the other side."""
     frame, tilt = frame_model(tendon_n_m=0.0), 0.03
-    rows = released(frame_case(frame, rolling(frame, tilt), 5e-4), 0.75)
+    rows = let_go(frame_case(frame, rolling_start(frame, tilt), 5e-4), 0.75)
     moved = rows["body/slab/displacement"][:, 0]
     passed = int(np.argmax(moved < 0))
     kept = energy_at(frame, rows["body/column 1/tilt"][passed + 20 :].max()) / energy_at(
@@ -195,8 +195,10 @@ def _still(seconds: float, dt: float = 2e-3):
     return GroundMotion(np.zeros((round(seconds / dt) + 1, 3)), dt, "at rest", "")
 
 
-def way(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) -> np.ndarray:
-    """Displacement (n, 2) [m] of the slab at times by the model; arguments as of `rolling`."""
+def slab_path(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) -> np.ndarray:
+    """Displacement (n, 2) [m] of the slab at times by the model, as of
+    `rolling_start`.
+    """
     from fecolumn.verification.wobbling_models import free
 
     rows, *_ = free(frame, tilt, turn, time[-1] + 0.01)
@@ -207,8 +209,8 @@ def way(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) -> np.
 
 def _path(seconds: float):
     frame, tilt, turn = frame_model(), 0.05, 1.5
-    rows = released(frame_case(frame, rolling(frame, tilt, turn), 1e-3), seconds)
-    exact = way(frame, tilt, turn, rows["time"])
+    rows = let_go(frame_case(frame, rolling_start(frame, tilt, turn), 1e-3), seconds)
+    exact = slab_path(frame, tilt, turn, rows["time"])
     off = np.linalg.norm(rows["body/slab/displacement"][:, :2] - exact, axis=1).max()
     yield Row(
         f"restrained frame that rolls round: slab off the model's way in {seconds:g} s "

@@ -81,25 +81,30 @@ def verify(pairs, folder: Path, long: bool = False, workers: int = 1, show=print
     show(header())
     found = {}
     with ProcessPoolExecutor(max_workers=workers, mp_context=get_context("spawn")) as pool:
-        futures = {pool.submit(run_case, *pair, folder, long): pair for pair in pairs}
+        futures = {
+            pool.submit(run_case, case, engine, folder, long): (case, engine)
+            for case, engine in pairs
+        }
         for future in as_completed(futures):
             found[futures[future]] = future.result()
-            show(lines(future.result()))
+            show(finding_lines(future.result()))
     findings = [found[pair] for pair in pairs]
     write_bytes(folder / "table.csv", _csv(findings).encode())
-    write_bytes(folder / "table.txt", "\n".join([header(), *map(lines, findings), ""]).encode())
+    write_bytes(
+        folder / "table.txt", "\n".join([header(), *map(finding_lines, findings), ""]).encode()
+    )
     return findings
 
 
 def header() -> str:
-    """Titles of the columns of `lines`."""
+    """Titles of the columns of `finding_lines`."""
     return (
         f"{'case, quantity':<{_WIDTH}}{'exact':>12}{'computed':>12}{'error':>10}"
         f"{'allowed':>10}{'order':>7}  ok"
     )
 
 
-def lines(finding: Finding) -> str:
+def finding_lines(finding: Finding) -> str:
     """The rows of a finding as text."""
     text = [f"{finding.case}, {finding.engine} ({finding.wall_s:.0f} s)"]
     for row in finding.rows:
@@ -113,7 +118,7 @@ def lines(finding: Finding) -> str:
     return "\n".join(text)
 
 
-def count(findings) -> str:
+def verdict(findings) -> str:
     """How many rows hold and how many cases do not, after the names of what does not hold, one a
     line.
     """

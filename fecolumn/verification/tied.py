@@ -71,9 +71,10 @@ class Tied:
             TotalLagrangian if case.integration.kinematics == "total_lagrangian" else Corotated
         )(self.body)
         material = self.body.material
+        # of the strain 1 [J]
         self._energy = (
             material.youngs_modulus_pa * self.body.total_mass / material.density_kg_m3 / 2
-        )  # of the strain 1 [J]
+        )
 
     def uniaxial(self) -> np.ndarray:
         """Displacement (n, 3) [m] of a uniform stretch along z about the centre of mass."""

@@ -54,7 +54,7 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.mesh.bricks import LOWER
 from fecolumn.mesh.gmsh_section import Annulus, extruded
 from fecolumn.verification.models import block_system, box, column_system
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.trial import RigidRocking, Trial
 from fecolumn.verification.trials import begin_trial
@@ -67,11 +67,11 @@ COLUMN_TILT, SMALL_TILT, COLUMN_DT = 0.03, 0.003, 1e-3
 STIFF, STEEL = 2e13, 2e11
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """All but total Lagrangian, which is slow: it leaves out the finest rim and the column unless
     `long`.
     """
-    whole, result = long or engine != "total_lagrangian", Result(size=(7.2, 2.5))
+    whole, result = long or engine != "total_lagrangian", CaseRows(size=(7.2, 2.5))
     found = {n: short_cylinder(engine, n) for n in (CORNERS if whole else CORNERS[:2])}
     disks = {n: short_cylinder(engine, n, DISK, RollingRim.centred) for n in found}
     result.rows += rolling_rows("short cylinder", found) + rolling_rows("Euler's disk", disks)
@@ -194,16 +194,16 @@ def roll(
     their courses.
     """
     trial, dt = begin_trial(engine, system, rolling(rim, tilt, spin)), system.hht.dt
-    energy, turned = rim.energy(tilt, spin), [0.0]
-    energies = [trial.mechanical()]
+    energy, azimuths = rim.energy(tilt, spin), [0.0]
+    mechanical = [trial.mechanical()]
     for _ in range(steps):
         trial.step()
-        turned.append(azimuth(trial))
-        energies.append(trial.mechanical())
-    turned = np.unwrap(turned)
+        azimuths.append(azimuth(trial))
+        mechanical.append(trial.mechanical())
+    turned = np.unwrap(azimuths)
     # the ledger measures gravity energy from the reference configuration: shifted to that above
     # standing
-    energies = np.array(energies) - energies[0] + energy
+    energies = np.array(mechanical) - mechanical[0] + energy
     path = rim.polygon(tilt, spin, corners, steps * dt)
     return dict(
         rim=rim,

@@ -27,7 +27,7 @@ from fecolumn.case import GRAVITY
 from fecolumn.rocking import wobbling_equations as equations
 from fecolumn.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
 from fecolumn.statistics.kolmogorov import asymptotic_p, samples_of_p
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 
 SPECIMEN = dict(
     columns=4,
@@ -51,11 +51,11 @@ BINS = {
 TURNS = (0.0, 1e-3, 0.3, 1.5)
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """All rows."""
     frame = WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN), "specimen")
     paths = {turn: free(frame, 0.05, turn) for turn in TURNS}
-    return Result(
+    return CaseRows(
         [
             *_statics(frame),
             *_samples(),

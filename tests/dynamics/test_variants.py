@@ -38,9 +38,8 @@ def _imported(folder):
     """The coarse column through an Abaqus file written by meshio."""
     import meshio
 
-    mesh = column_mesh(
-        coarse_case(column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.0133})
-    )  # a polygon of true area is wider than the circle
+    # a polygon of true area is wider than the circle
+    mesh = column_mesh(coarse_case(column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.0133}))
     meshio.Mesh(mesh.points, [("hexahedron", mesh.cells)]).write(folder / "column.inp")
     return coarse_case(column={"mesh_file": str(folder / "column.inp")})
 

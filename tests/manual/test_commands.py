@@ -158,9 +158,8 @@ def shrink(path):
             f"0.02\n{coarse(whole(case, folder), 'case.mesh')}"
         )
     else:
-        modes = (
-            "n_modes = 3\n" if "column" in tables or "extends" in tables else ""
-        )  # rocking models have none
+        # rocking models have none
+        modes = "n_modes = 3\n" if "column" in tables or "extends" in tables else ""
         change = f"[integration]\nduration_s = 0.02\n{modes}{coarse(whole(tables, folder), 'mesh')}"
     with open(path, "w") as file:
         file.write(f'extends = "whole-{name}"\n{change}')

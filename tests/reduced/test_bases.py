@@ -75,9 +75,8 @@ def rocking_of(system):
 
 def test_column_settles_by_its_weight_over_the_subgrade(on_pad):
     area = on_pad.footprint.areas.sum()
-    assert area == pytest.approx(
-        np.pi * (0.1**2 - 0.06**2), rel=0.02
-    )  # of a polygon with 20 corners
+    # of a polygon with 20 corners
+    assert area == pytest.approx(np.pi * (0.1**2 - 0.06**2), rel=0.02)
     state = begin_trial("rigid", on_pad).state
     assert state.contact["indentation"][:, 2] == pytest.approx(
         on_pad.weight / (SUBGRADE * area), rel=1e-4

@@ -29,10 +29,11 @@ def test_movie_of_a_gate_shows_its_motion_and_the_pressure_on_its_joints(gate):
     (file,) = render(gate, Wish(only="movie", speed=0.25, exaggerate="auto", **SMALL), quiet=True)
     pictures = _pictures(file)
     assert len(pictures) == 5 and pictures[0].shape == (240, 360, 3)
+    # the structure, and the joints in plan
     for part in (
         np.s_[20:210, :140],
         np.s_[110:190, 290:],
-    ):  # the structure, and the joints in plan
+    ):
         assert (
             np.ptp(pictures[0][part]) > 100
             and np.abs(pictures[0][part] - pictures[-1][part]).mean() > 0.5

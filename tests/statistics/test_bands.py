@@ -71,9 +71,8 @@ def test_simultaneous_band_holds_the_whole_curve_in_95_of_100_ensembles(share):
         u = rng.random(n)
         f = ecdf(u, u > 1 - share)
         lower, upper = dkw(f)
-        edges = np.append(
-            f.x, 1 - share
-        )  # F is continuous: the worst is at a step or just before it
+        # F is continuous: the worst is at a step or just before it
+        edges = np.append(f.x, 1 - share)
         before = np.concatenate([[0.0], upper]) if upper.size else [dkw_distance(n)]
         before[0] = dkw_distance(n)
         inside.append((lower <= f.x).all() and (edges <= before).all())

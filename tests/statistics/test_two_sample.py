@@ -48,9 +48,8 @@ def test_kolmogorov_smirnov_with_overturns_counts_all_orders():
     expected = np.mean(np.array(deals) >= distance((0, 1, 2, 4, 5)) - 1e-12)
     result = kolmogorov_smirnov(a, b)
     assert result.statistic == pytest.approx(0.6) and result.p == pytest.approx(expected, rel=1e-12)
-    assert (
-        result.p < stats.ks_2samp(a, b, method="exact").pvalue
-    )  # made for continuous variables: too large here
+    # made for continuous variables: too large here
+    assert result.p < stats.ks_2samp(a, b, method="exact").pvalue
 
 
 def test_statistics_without_overturns_are_scipys():

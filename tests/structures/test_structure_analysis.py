@@ -11,7 +11,7 @@ from small_structures import STONE, stack, structure
 from fecolumn.analysis import AnalysisFailed
 from fecolumn.dynamics.history import read_history
 from fecolumn.simulation import read_folder_case, run
-from fecolumn.verification.podium_structure import released
+from fecolumn.verification.podium_structure import let_go
 
 # A light block, four points on each face, that leans on a heavy one
 LEANING = stack(
@@ -214,7 +214,7 @@ def test_a_drum_that_rocks_over_in_a_plane_loses_what_housners_impact_on_its_far
         contact=dict(friction_coefficient=0.7, interior_points=0),
         integration=dict(engine="rigid", dt_s=dt),
     )
-    rows = released(case, 0.11)
+    rows = let_go(case, 0.11)
     mechanical = sum(rows[f"energy/{name}"] for name in ("kinetic", "gravity", "strain"))
     exact = (1 - 2 * radius**2 / (1.25 * radius**2 + height**2 / 3)) ** 2
     at = int(np.argmin(rows["energy/gravity"]))

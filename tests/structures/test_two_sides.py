@@ -10,9 +10,9 @@ from fecolumn.reduced.observe import WIDTH
 from fecolumn.simulation import run
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
-from fecolumn.verification.joint_bodies import arms, region, rocked, rocks, two
+from fecolumn.verification.joint_bodies import arms, region, rocked_block, rocks, two
 from fecolumn.verification.joints import displaced as errors_of
-from fecolumn.verification.multi_drum import column_case, pulse
+from fecolumn.verification.multi_drum import drum_case, drum_pulse
 
 
 @pytest.mark.parametrize("displaced", [0.0, 1e-12, -1e-9, 1e-6, -1e-6, 1e-3, 1e-2, -1e-2])
@@ -127,11 +127,11 @@ def test_the_multi_drum_column_overturns_where_three_other_programs_say(
     """UDEC .27 and .20, HybriDFEM .25 and .21, LMGC90 .25 and .21 g; an independent planar program
     .253 and .205.
     """
-    case = column_case(tmp_path)
+    case = drum_case(tmp_path)
     model = structure_model(case)
     for level, overturns in ((stands, False), (falls, True)):
         assert (
-            engine_of(case, model, "drums.toml").advance(pulse(level, time, 7.0 - 3 * time))[1]
+            engine_of(case, model, "drums.toml").advance(drum_pulse(level, time, 7.0 - 3 * time))[1]
             == overturns
         )
 
@@ -196,4 +196,4 @@ def test_a_landing_in_a_part_of_a_step_is_plastic(displaced):
         initial=dict(up=dict(tilt_rad=0.05)),
         integration=dict(engine="rigid", dt_s=5e-4, duration_s=1.0, substeps="impacts"),
     )
-    assert abs(rocked(made, rocks(*arms(displaced)), 0.0)[3]) < 1e-5
+    assert abs(rocked_block(made, rocks(*arms(displaced)), 0.0)[3]) < 1e-5

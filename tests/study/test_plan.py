@@ -165,9 +165,10 @@ def test_longer_motions_are_longer_analyses_whatever_their_scale(tmp_path):
         )
     )
     check_motions(plan)
+    # a second of free vibration included
     assert [round(a.duration_s, 1) for a in plan.analyses] == [
         2.0,
         2.0,
         4.0,
         4.0,
-    ]  # a second of free vibration included
+    ]
