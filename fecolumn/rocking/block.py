@@ -208,7 +208,7 @@ class RockingBlock:
         return cls.of_body(rigid_column(case), friction, file, kept)
 
     @classmethod
-    def of_body(cls, body: RigidColumn, friction: float, file, restitution=None) -> Block:
+    def of_body(cls, body: RigidColumn, friction: float, file, restitution=None) -> RockingBlock:
         """A body on its foot, with its mass, centre and inertia; its restitution by the plastic
         impact unless given.
 

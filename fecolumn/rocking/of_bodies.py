@@ -7,9 +7,9 @@ from typing import NoReturn
 
 import numpy as np
 
-from fecolumn.rocking.block import Block
+from fecolumn.rocking.block import RockingBlock
 from fecolumn.rocking.column import RigidColumn
-from fecolumn.rocking.frame import Frame
+from fecolumn.rocking.frame import RockingFrame
 from fecolumn.rocking.model import Model
 from fecolumn.rocking.podium import Podium
 from fecolumn.rocking.storeys import shear_building
@@ -59,7 +59,7 @@ class _Reader:
         if self.engine in ("housner", "wobbling"):
             body = rigid_column(self.case, self._alone(), self.file)
             friction = self._friction(self._alone())
-            kind = Block if self.engine == "housner" else Wobbling
+            kind = RockingBlock if self.engine == "housner" else Wobbling
             return kind.of_body(body, friction, self.file)
         name, slab = self._columns()
         count, friction = len(self.case.bodies[name].places), self._friction(name)
@@ -69,7 +69,9 @@ class _Reader:
         half, height = self._upright_block(name)
         alpha, diagonal = math.atan2(half, height / 2), math.hypot(half, height / 2)
         if self.engine == "rocking_frame":
-            return Frame.of(count, alpha, diagonal, body.mass, self._mass(slab), friction=friction)
+            return RockingFrame.of(
+                count, alpha, diagonal, body.mass, self._mass(slab), friction=friction
+            )
         return self._podium(name, slab, alpha, diagonal, count * body.mass)
 
     def start(self) -> Start:

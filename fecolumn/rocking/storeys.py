@@ -104,7 +104,7 @@ def storeys(
 
 def shear_building(
     mass: np.ndarray, stiffness: np.ndarray, damping: float, rayleigh: tuple[int, ...] = ()
-) -> Storeys:
+) -> ElasticBuilding:
     """Building of floors (n,) [kg] on storeys (n,) [N/m], from below.
 
     Parameters
