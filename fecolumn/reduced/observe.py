@@ -15,12 +15,10 @@ from fecolumn.dynamics.overturning import (
     CAPPED,
     FELL,
     NO_RETURN,
-    STANDING,
     STANDS,
     Stance,
     fallen,
     gone,
-    stance,
 )
 from fecolumn.reduced.elastic import COORDINATE
 from fecolumn.reduced.ledger import N_TERMS, kinetic, strain, weight_energy
@@ -128,29 +126,6 @@ class View(NamedTuple):
             + _N_MARK * len(self.marks)
             + _N_LINK * self.links
         )
-
-
-def view(model, weight: float, friction: float, cap: float = 0.0) -> View:
-    """The view of a ColumnModel of a weight [N] on a base of a coefficient of friction; cap as of
-    `overturning.stance`.
-    """
-    share = model.areas / model.areas.sum()
-    return View(
-        np.array(model.center, float)[None],
-        0,
-        model.top_arm,
-        np.ascontiguousarray(model.top_shape),
-        share @ model.arms,
-        np.einsum("i,iam->am", share, model.shapes),
-        stance(model.arms, model.inertia, weight, friction, cap),
-        np.zeros(0),
-        np.zeros(0, STANDING),
-        np.zeros((0, 2)),
-        np.zeros((0, 3)),
-        np.zeros((0, 3)),
-        np.zeros(0, MARK),
-        np.zeros((0, 3, 0)),
-    )
 
 
 @njit

@@ -2,38 +2,21 @@
 
 from __future__ import annotations
 
-import time
-from dataclasses import replace
-from typing import NamedTuple
-
 import numpy as np
 
-from fecolumn._compiled import compiled
-from fecolumn.analysis import Analysis
-from fecolumn.dynamics.gravity import NoEquilibrium
 from fecolumn.dynamics.overturning import FELL
 from fecolumn.ending import SLID_OFF, Ending
-from fecolumn.reduced.analysis import ReducedAnalysis
 from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
-from fecolumn.reduced.run import advance
 from fecolumn.structures.barrier import least_barrier, stances
-from fecolumn.structures.engine import engine_of, leans, upright
 from fecolumn.structures.lost import limits_of
-from fecolumn.structures.model import GROUND, StructureModel
-from fecolumn.structures.pads import warn_of_grounds
-from fecolumn.structures.structure import standing_of, structure_model
+from fecolumn.structures.model import StructureModel
+from fecolumn.structures.structure import standing_of
 
 _WHOLE = (
     "active_nodes",
     "iterations",
     "broken",
 )  # columns of whole numbers, by the last word of their names
-
-
-class _Whole(NamedTuple):
-    """What `ReducedAnalysis` asks of a model: degrees of freedom of the different meshes."""
-
-    dofs: int
 
 
 class OfStructure:
@@ -103,94 +86,6 @@ class OfStructure:
             way = self.history.last()[f"body/{self._off or self._lowest()}/displacement"]
             found["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
         return found
-
-
-class StructureAnalysis(OfStructure, ReducedAnalysis):
-    """A running analysis of a structure of many bodies with the reduced engine."""
-
-    def __init__(self, case, folder, comm, file, quiet):
-        Analysis.__init__(self, case, folder, comm, file, quiet)
-        self.structure, self.fields = structure_model(case, file, self.say), None
-        self.states = self._states()
-        different = {id(part.model): part.model.dofs for part in self.structure.parts}
-        self.bases, self.model = self.structure.bases, _Whole(sum(different.values()))
-        warn_of_grounds(case, self.structure, file)
-        if not compiled(advance):
-            self.say(
-                "compiling the reduced engine, once on this machine: a minute or two; "
-                "other processes wait for it"
-            )
-        self.engine = engine_of(case, self.structure, file)
-        self.began, self.cpu_began = (
-            time.perf_counter(),
-            time.process_time(),
-        )  # what was made and compiled so far was so for all analyses
-        self.stance, self.top_arm = self.engine.eye.stance, self.engine.eye.top_arm
-        if self.went_on(self._take):
-            self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
-        else:
-            self.standing_j = (
-                self._standing_energy(file) if leans(self.structure) else self.engine.potential()
-            )
-            self.engine.begin_shaking(self.grounds(0))
-            self._note(self.engine.row()[None])
-            self._keep()
-
-    def _off_base(self, failure) -> Ending | None:
-        motion, joints = self.engine.motion, self.structure.joints
-        for joint in joints:
-            if joint.master != GROUND:
-                continue
-            part, frame = self.structure.parts[joint.slave], motion.frames[joint.slave]
-            arms = part.model.arms[part.model.surfaces[joint.slave_surface].nodes]
-            turn, ground = motion.rotation[joint.slave].T, motion.grounds[joint.ground]
-            ending = self.slid_off(
-                failure,
-                self.bases[joint.ground],
-                frame["center"] + arms @ turn - ground["place"],
-                frame["velocity"] + np.cross(frame["spin"], arms) @ turn - ground["velocity"],
-            )
-            if ending is not None:
-                self._off = part.name
-                return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
-        return None
-
-    def _load_motion(self, file):
-        from fecolumn.motions.load import load_motion
-
-        dt, first = self.case.integration.dt_s, super()._load_motion(file)
-        #: Motion of each ground, None of one at rest.
-        self.motions = [
-            load_motion(one.motion, dt, file) if one.motion else first
-            for one in self.case.grounds.values()
-        ]
-        return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
-
-    def ground(self, step: int) -> np.ndarray:
-        return self.grounds(step)[:3]
-
-    def grounds(self, step: int) -> np.ndarray:
-        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        found = np.zeros((len(self.motions), 3))
-        for own, motion in zip(found, self.motions):
-            if motion is not None and step < len(motion.acceleration):
-                own[:] = motion.acceleration[step]
-        return found.ravel()
-
-    def _standing_energy(self, file) -> float:
-        """As `reduced.analysis.standing_energy`."""
-        try:
-            return engine_of(self.case, upright(self.case, self.structure), file).mechanical()
-        except NoEquilibrium:
-            return 0.0
-
-    def _bodies(self) -> tuple:
-        return [part.model for part in self.structure.parts], [
-            part.name for part in self.structure.parts
-        ]
-
-    def _note(self, rows: np.ndarray) -> None:
-        self.history.extend(columns_of(rows, self.structure))
 
 
 def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndarray]:
