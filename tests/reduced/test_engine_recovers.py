@@ -137,7 +137,7 @@ def test_an_analysis_that_a_full_disk_stopped_keeps_its_steps_and_goes_on_to_the
         patch.setenv("FECOLUMN_CACHE", str(tmp_path / "cache"))
         cache.load_model(case)
         with patch.context() as full:
-            full.setattr(cache, "_keep_base", full_disk)
+            full.setattr(cache, "keep_base", full_disk)
             with pytest.raises(OSError):
                 simulation.run(case, folder, quiet=True)
         kept = read_history(folder / "history.h5")["time"]
@@ -158,7 +158,7 @@ def test_a_base_whose_next_reach_cannot_be_kept_tries_that_one_again(tmp_path, m
     _, base, folder = cache.load_model(case_of())
     wanted = base.grid.around(np.array([[0.25, 0.0, 0.0]]), 1)
     with monkeypatch.context() as patch:
-        patch.setattr(cache, "_keep_base", full_disk)
+        patch.setattr(cache, "keep_base", full_disk)
         with pytest.raises(OSError):
             base.need(wanted)
     base.need(wanted)
