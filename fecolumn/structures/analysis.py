@@ -21,6 +21,7 @@ from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.engine import engine_of, leans, upright
 from fecolumn.structures.model import GROUND, StructureModel
 from fecolumn.structures.pads import warn_of_grounds
+from fecolumn.structures.shaking import accelerations, motions_of
 from fecolumn.structures.structure import standing_of, structure_model
 
 _WHOLE = (
@@ -157,26 +158,15 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
         return None
 
     def _load_motion(self, file):
-        from fecolumn.motions.load import load_motion
-
-        dt, first = self.case.integration.dt_s, super()._load_motion(file)
-        #: Motion of each ground, None of one at rest.
-        self.motions = [
-            load_motion(one.motion, dt, file) if one.motion else first
-            for one in self.case.grounds.values()
-        ]
+        #: Motion of each ground, None of one at rest; that which lasts longest is told.
+        self.motions = motions_of(self.case, super()._load_motion(file), file)
         return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
 
     def ground(self, step: int) -> np.ndarray:
         return self.grounds(step)[:3]
 
     def grounds(self, step: int) -> np.ndarray:
-        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        found = np.zeros((len(self.motions), 3))
-        for own, motion in zip(found, self.motions):
-            if motion is not None and step < len(motion.acceleration):
-                own[:] = motion.acceleration[step]
-        return found.ravel()
+        return accelerations(self.motions, step)
 
     def _standing_energy(self, file) -> float:
         """As `reduced.analysis.standing_energy`."""

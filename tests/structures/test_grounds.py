@@ -236,3 +236,20 @@ def test_an_analysis_on_two_grounds_that_was_stopped_goes_on_to_the_last_digit(
     rise = whole["interface/right: right on slab/rise"]
     assert rise.max() - rise[0] == pytest.approx(0.2**2 / 2 / GRAVITY, rel=0.02)
     assert whole["interface/left: left on soil/rise"][-1] < -1.2 * SETTLED
+
+
+def test_grounds_that_drift_apart_after_their_motions_are_told(tmp_path):
+    """A record that is cut while it moves: 1 m/s2 for 0.1 s leaves 0.1 m/s."""
+    (tmp_path / "push.csv").write_text("t,ax,ay\n0.0,1.0,0.0\n0.1,1.0,0.0\n", encoding="utf-8")
+    motion = dict(source=str(tmp_path / "push.csv"), units="m/s2", free_vibration_s=0.0)
+    with pytest.warns(UserWarning, match=r"grounds.hill goes on .* grounds.valley at 0.1 m/s"):
+        analysed(
+            tmp_path / "run",
+            bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[3.0, 0, 0])),
+            interfaces=dict(
+                left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])
+            ),
+            grounds=dict(valley={}, hill=dict(motion=motion)),
+            motion=motion | dict(scale=0.0),
+            integration=dict(dt_s=1e-3, duration_s=0.0),
+        )
