@@ -43,14 +43,13 @@ def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, f
     found, carried = list(joints), loads(standing, joints)
     for where in dict.fromkeys(where for _, where in pads if where):
         own = [k for k, (_, other) in enumerate(pads) if other == where]
-        areas = [
-            standing[joints[k].slave].model.surfaces[joints[k].slave_surface].areas for k in own
-        ]
+        areas = [_areas(standing, joints[k]) for k in own]
         # several faces of one body on another carry its load together
-        load = {(joints[k].slave, joints[k].master): carried[k] for k in own}
-        mass = sum(load.values()) / GRAVITY / sum(one.sum() for one in areas)
-        for k, area in zip(own, areas):
-            keys, pressure = pads[k][0], carried[k] / area.sum()
+        pressures = [carried[k] / _area_below(standing, joints, joints[k]) for k in own]
+        mass = np.dot(pressures, [one.sum() for one in areas]) / GRAVITY
+        mass /= sum(one.sum() for one in areas)
+        for k, area, pressure in zip(own, areas, pressures):
+            keys = pads[k][0]
             if keys.yield_pa and pressure >= keys.yield_pa:
                 raise InputError(
                     file,
@@ -68,6 +67,20 @@ def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, f
                 round=False,
             )
     return found
+
+
+def _areas(standing, joint: Joint) -> np.ndarray:
+    """Areas (n,) [m2] tributary to the points of a joint."""
+    return standing[joint.slave].model.surfaces[joint.slave_surface].areas
+
+
+def _area_below(standing, joints, joint: Joint) -> float:
+    """Area [m2] of all faces with which the slave of a joint stands on the master."""
+    return sum(
+        _areas(standing, one).sum()
+        for one in joints
+        if (one.slave, one.master) == (joint.slave, joint.master)
+    )
 
 
 def _own_mass(standing, joint: Joint, areas: np.ndarray) -> float:

@@ -28,6 +28,7 @@ from fecolumn.structures.analysis import OfStructure, columns_of
 from fecolumn.structures.engine import engine_of, leans, upright
 from fecolumn.structures.model import GROUND
 from fecolumn.structures.pads import warn_of_grounds
+from fecolumn.structures.shaking import accelerations, motions_of
 from fecolumn.structures.structure import structure_model
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
@@ -65,14 +66,8 @@ class ReducedAnalysis(OfStructure, Analysis):
             self._keep()
 
     def _load_motion(self, file):
-        from fecolumn.motions.load import load_motion
-
-        dt, first = self.case.integration.dt_s, super()._load_motion(file)
-        #: Motion of each ground, None of one at rest.
-        self.motions = [
-            load_motion(one.motion, dt, file) if one.motion else first
-            for one in self.case.grounds.values()
-        ]
+        #: Motion of each ground, None of one at rest; that which lasts longest is told.
+        self.motions = motions_of(self.case, super()._load_motion(file), file)
         return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
 
     def ground(self, step: int) -> np.ndarray:
@@ -80,11 +75,7 @@ class ReducedAnalysis(OfStructure, Analysis):
 
     def grounds(self, step: int) -> np.ndarray:
         """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        found = np.zeros((len(self.motions), 3))
-        for own, motion in zip(found, self.motions):
-            if motion is not None and step < len(motion.acceleration):
-                own[:] = motion.acceleration[step]
-        return found.ravel()
+        return accelerations(self.motions, step)
 
     def _standing_energy(self, file) -> float:
         """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained structure, where
