@@ -17,6 +17,15 @@ from fecolumn.fem.corotated import Corotated
 DAMPED = 30
 
 
+def kinematics_of(name: str):
+    """Kinematics of a body by the name that integration.kinematics gives it."""
+    if name == "total_lagrangian":
+        from fecolumn.fem.total_lagrangian import TotalLagrangian
+
+        return TotalLagrangian
+    return Corotated
+
+
 def structure_system(
     model,
     bodies: list,

@@ -16,7 +16,7 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
 
     def built(self, file):
         from fecolumn.dynamics.hht import HHT
-        from fecolumn.dynamics.structure import structure_system
+        from fecolumn.dynamics.structure import kinematics_of, structure_system
         from fecolumn.structures.elements import structure_of_elements
         from fecolumn.structures.observer import StructureObserver
 
@@ -26,14 +26,24 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
         #: measured from there.
         self.standing = upright(case, self.structure)
         damped = [case.modes_of(name) for name in case.bodies for _ in case.names_of(name)]
+        plastic = case.contact.impact == "plastic"
+        if not plastic and any(getattr(joint, "pad", None) for joint in self.structure.joints):
+            raise InputError(
+                file,
+                "contact.impact",
+                case.contact.impact,
+                "must be plastic where a joint has a pad, whose springs take the place of impacts",
+            )
         try:
             system = structure_system(
                 self.standing,
                 [one.body for one in self.meshed],
                 HHT(plan.dt_s, plan.alpha_hht),
                 np.array([0.0, 0.0, -GRAVITY]),
+                filtered=plastic,
                 nodes=[one.nodes for one in self.meshed],
                 damped=damped,
+                kinematics=kinematics_of(plan.kinematics),
             )
         except ValueError as error:
             name, _, told = str(error).partition(": ")

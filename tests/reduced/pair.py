@@ -21,7 +21,7 @@ def top_nodes(body):
 
 def reduced(system, n_modes=30, begin=start.standing, overturn=0.25):
     """The reduced engine of a full-order system."""
-    body = system.body
+    body, foot = system.body, system.footprint
     model, _ = column_model(body, foot.nodes, foot.areas, *top_nodes(body), n_modes)
     eye = view(model, system.weight, system.laws["friction"], overturn)
     return column_engine(
