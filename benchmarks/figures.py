@@ -130,7 +130,9 @@ def sliding():
 
 
 def free_rocking():
-    """Release from 0.4 of the critical tilt: quarter period, first impact, ledger (Housner 1963)."""
+    """Release from 0.4 of the critical tilt: quarter period, first impact, ledger (Housner
+    1963).
+    """
     for alpha in (0.0, -0.2):
         found, lost, trial, rigid = rocking.release(
             "corotated", 0.4, integration={"alpha_hht": alpha}
@@ -181,7 +183,9 @@ def _shaken(tables, steps, coarse=True):
 
 
 def penalty():
-    """Penalty against augmented Lagrangian through 0.4 s of shaking, and the latter's penetration."""
+    """Penalty against augmented Lagrangian through 0.4 s of shaking, and the latter's
+    penetration.
+    """
     reference, _, _, run = _shaken({}, 400)
     peak, last = np.abs(reference).max(), np.inf
     for factor in (0.01, 1.0, 100.0, 1e4):

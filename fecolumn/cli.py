@@ -88,7 +88,7 @@ def _refuse(message, code: int) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     """Of all commands; nothing here may load a library, so that --help is quick."""
-    from fecolumn import __version__, completion, keys, manual, templates
+    from fecolumn import __version__, completion, keys, manual, show, templates
     from fecolumn.motions import command as motions
     from fecolumn.render import command as render
     from fecolumn.report import command as report
@@ -153,6 +153,7 @@ def _parser() -> argparse.ArgumentParser:
         rocking,
     )
     add("motions", "make, fit, look at and convert ground motions", motions)
+    add("show", "print the full form of a case: bodies, grounds, joints", show)
     add("keys", "every key of a case and of a study: meaning, unit, range, default", keys)
     add("help", "the manual, topic by topic", manual)
     add("verify", "check the engines against exact solutions", verify)

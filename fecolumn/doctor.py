@@ -44,7 +44,9 @@ def origin(name: str) -> str:
 
 
 def loaded_libraries(pattern: str) -> list[str]:
-    """Shared libraries of this process whose file name begins like this, those of wheels left out."""
+    """Shared libraries of this process whose file name begins like this, those of wheels left
+    out.
+    """
     files = {
         line.split()[-1]
         for line in Path("/proc/self/maps").read_text().splitlines()
@@ -107,6 +109,7 @@ def look_at_machine() -> list[Finding]:
 
 
 def look_at_numpy():
+    """Version and origin; advice where it is not Debian's, for which petsc4py was built."""
     import numpy
 
     debian = origin("numpy") == "Debian"
@@ -118,6 +121,7 @@ def look_at_numpy():
 
 
 def look_at_scipy():
+    """Version and origin, and whether it has stats.ecdf (scipy 1.11)."""
     import scipy.stats
 
     return (
@@ -128,6 +132,7 @@ def look_at_scipy():
 
 
 def look_at_mpi():
+    """The MPI library and mpi4py's version."""
     import mpi4py
     from mpi4py import MPI
 
@@ -140,6 +145,7 @@ def look_at_mpi():
 
 
 def look_at_petsc():
+    """Versions of PETSc and petsc4py; complex scalars are an error."""
     import petsc4py
     from petsc4py import PETSc
 
@@ -156,6 +162,7 @@ def look_at_petsc():
 
 
 def look_at_mumps():
+    """Factor a matrix by MUMPS and name the library that did it."""
     from petsc4py import PETSc
 
     _factor(PETSc, "lu", "mumps")
@@ -163,6 +170,7 @@ def look_at_mumps():
 
 
 def look_at_cholmod():
+    """Factor a matrix by CHOLMOD, which PETSc may lack."""
     from petsc4py import PETSc
 
     try:
@@ -187,6 +195,7 @@ def _factor(PETSc, kind: str, package: str) -> None:
 
 
 def look_at_blas():
+    """Which BLAS is loaded; advice where it is the slow reference implementation."""
     import numpy.linalg  # noqa: F401  loads BLAS
     from petsc4py import PETSc  # noqa: F401  loads BLAS
 
@@ -198,6 +207,7 @@ def look_at_blas():
 
 
 def look_at_dolfinx():
+    """Version, and whether it writes fields by VTX or by XDMF."""
     import dolfinx.io
 
     return (
@@ -208,6 +218,7 @@ def look_at_dolfinx():
 
 
 def look_at_h5py():
+    """Version and its HDF5 library; a wheel of h5py is an error."""
     if origin("h5py") != "Debian":  # not imported: it may take the process down
         raise RuntimeError(
             f"a wheel in {origin('h5py')}, which crashes beside dolfinx: pip uninstall h5py"
@@ -223,6 +234,7 @@ def look_at_h5py():
 
 
 def look_at_gmsh():
+    """Version and origin of Gmsh."""
     import gmsh
 
     gmsh.initialize()
@@ -230,6 +242,7 @@ def look_at_gmsh():
 
 
 def look_at_pyvista():
+    """Draw a sphere off screen; a blank picture is an error."""
     import pyvista
 
     plotter = pyvista.Plotter(off_screen=True, window_size=(64, 64))
@@ -247,12 +260,14 @@ def look_at_pyvista():
 
 
 def look_at_other(name: str):
+    """Version and origin of a library that needs no trial."""
     return importlib.import_module(name).__version__, origin(name), ""
 
 
 # in the order an analysis loads them; h5py after dolfinx, whose HDF5 it must get along with
 LIBRARIES = {
-    "numpy": look_at_numpy, "scipy": look_at_scipy, "MPI": look_at_mpi, "PETSc": look_at_petsc, "MUMPS": look_at_mumps, "CHOLMOD": look_at_cholmod,
+    "numpy": look_at_numpy, "scipy": look_at_scipy, "MPI": look_at_mpi, "PETSc": look_at_petsc,
+    "MUMPS": look_at_mumps, "CHOLMOD": look_at_cholmod,
     "BLAS": look_at_blas, "dolfinx": look_at_dolfinx, "h5py": look_at_h5py, "Gmsh": look_at_gmsh,
     "numba": lambda: look_at_other("numba"), "meshio": lambda: look_at_other("meshio"),
     "matplotlib": lambda: look_at_other("matplotlib"), "pyvista": look_at_pyvista,

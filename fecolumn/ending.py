@@ -89,7 +89,9 @@ def cut_short(summaries) -> str:
 
 
 def lost(summary: dict) -> bool:
-    """Whether the column overturned or slid off its base: what its top did after that is not known."""
+    """Whether the column overturned or slid off its base: what its top did after that is not
+    known.
+    """
     return bool(summary["overturned"] or summary.get("slid_off"))
 
 

@@ -10,9 +10,10 @@ import fcntl
 import os
 import stat
 from pathlib import Path
+from typing import IO
 
 
-def open_lock(file):
+def open_lock(file: Path | str) -> IO[str]:
     """A lock's file open for reading and writing, made if need be.
 
     Raises

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import fcntl
 import os
 from pathlib import Path
 
 from fecolumn.atomic import disk_full, write_json
-from fecolumn.case import Case
 from fecolumn.files import Unreadable, read_json
 from fecolumn.lock import open_lock
 from fecolumn.schema import InputError
+from fecolumn.structures.case import StructureCase
 
 
 @contextlib.contextmanager
-def held(folder: Path, case: Case, comm, file):
+def held(folder: Path, case: StructureCase, comm, file):
     """Hold the folder for one process; yields the function that makes it this case's, for when the
     analysis has started.
 
@@ -68,7 +67,7 @@ def held(folder: Path, case: Case, comm, file):
 
     def claim():
         if lock and not known.is_file():
-            write_json(known, {"id": case.id, "file": str(file), "case": dataclasses.asdict(case)})
+            write_json(known, {"id": case.id, "file": str(file), "case": case.as_stated()})
 
     try:
         yield claim

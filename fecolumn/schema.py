@@ -271,7 +271,7 @@ class Section:
             names section, key, value and range.
         """
         prefix, errors = (
-            "" if type(self).__name__ == "Case" else f"{type(self).__name__.lower()}.",
+            "" if type(self).__name__ == "ShortForm" else f"{type(self).__name__.lower()}.",
             [],
         )
         for key, (field, kind, inner, optional) in _kinds(type(self)).items():

@@ -13,6 +13,8 @@ import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
+from typing import Any
 
 from fecolumn.files import Unreadable, read_bytes
 
@@ -56,7 +58,7 @@ def sealed(content: bytes) -> bytes:
     return content + _SEAL + hashlib.sha256(content).hexdigest().encode() + b"\n"
 
 
-def open_whole(path):
+def open_whole(path: Path | str) -> Any:
     """An HDF5 file open for reading, once it is known that it can be read.
 
     Raises

@@ -47,7 +47,9 @@ def nearest(found) -> tuple[float, float]:
 
 
 def draw(found, path) -> list[Path]:
-    """The map: P(overturn) with its 95 % interval (Wilson) and the number of motions in each cell."""
+    """The map: P(overturn) with its 95 % interval (Wilson) and the number of motions in each
+    cell.
+    """
     diameters, heights = (np.unique([key[axis] for key in found]) for axis in (0, 1))
     shares = np.full((len(heights), len(diameters)), np.nan)
     with styled():

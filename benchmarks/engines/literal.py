@@ -18,7 +18,8 @@ from fecolumn.fem.rotation import tilt_angle
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.study.plan import read_plan
 from fecolumn.verification.rocking import leaning
-from fecolumn.verification.trial import RigidRocking, begin
+from fecolumn.verification.trial import RigidRocking
+from fecolumn.verification.trials import begin_trial
 
 STUDY = Path(__file__).parents[1] / "literal_scheme.toml"
 SHARE = 0.4  # of the critical tilt
@@ -68,7 +69,7 @@ def losses(system, engine: str, impact: str, beside) -> list[float]:
         share = SHARE * more
         tilt = share * rigid.slenderness
         found.append(
-            lost(begin(engine, system, leaning(share), impact), tilt)
+            lost(begin_trial(engine, system, leaning(share), impact), tilt)
             / (rigid.energy(tilt) * (1 - rigid.restitution**2))
         )
     return found

@@ -12,7 +12,8 @@ from benchmarks.engines.pair import case_of, column, engine, mesh, system_of
 from fecolumn.dynamics.observer import top_of
 from fecolumn.verification.rocking import leaning, lifted, rocked
 from fecolumn.verification.sliding import slipped
-from fecolumn.verification.trial import RigidRocking, Trial, begin
+from fecolumn.verification.trial import RigidRocking, Trial
+from fecolumn.verification.trials import begin_trial
 
 MOTIONS, IMPACTS, MOST = 10, 3, 1000
 # beside the default: up to 11 kHz
@@ -45,7 +46,7 @@ def thresholds():
                 integration={"dt_s": 4e-3, "alpha_hht": 0.0},
             )
         )
-        full, reduced = (found(begin(one, system)) for one in ENGINES)
+        full, reduced = (found(begin_trial(one, system)) for one in ENGINES)
         yield f"{name}: ground acceleration [m/s2]", full, reduced, abs(reduced / full - 1) <= 0.005
 
 
@@ -54,7 +55,7 @@ def rocking():
     system = system_of(case_of(contact={"friction_coefficient": 0.8}))
     rigid = RigidRocking(system)
     initial = rigid.energy(0.4 * rigid.slenderness)
-    full, reduced = (rocked(begin(one, system, leaning(0.4)), 0.4) for one in ENGINES)
+    full, reduced = (rocked(begin_trial(one, system, leaning(0.4)), 0.4) for one in ENGINES)
     rebounds = [np.sqrt(1 - lost / initial) for _, lost in (full, reduced)]
     yield (
         "free rocking from 0.4 alpha: quarter period [s]",

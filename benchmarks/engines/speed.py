@@ -63,7 +63,9 @@ def best(run, times: int) -> float:
 
 
 def analysis(case, folder) -> tuple[int, float, float]:
-    """Steps of one analysis, its wall time [s] and the largest memory of this process so far [GiB]."""
+    """Steps of one analysis, its wall time [s] and the largest memory of this process so far
+    [GiB].
+    """
     from mpi4py import MPI
 
     from fecolumn import simulation

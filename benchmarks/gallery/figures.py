@@ -35,7 +35,9 @@ class Work:
 
 
 def rocking(work: Work, target: Path) -> str:
-    """The stout column at its largest tilt, coloured by its stress, as `fecolumn render` draws it."""
+    """The stout column at its largest tilt, coloured by its stress, as `fecolumn render` draws
+    it.
+    """
     from fecolumn.case import case_from_tables
     from fecolumn.dynamics.history import read_history
     from fecolumn.render.draw import Wish, render

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from fecolumn.case import GRAVITY
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.hht import HHT
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface

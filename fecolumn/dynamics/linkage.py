@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import frames_at
+from fecolumn.contact.pose import frames_at, grounds_at
 from fecolumn.dynamics.links import TIE, end_links, pull_links
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import out_of_frames
+
+# The ground of the full order, in whose frame everything moves
+STILL = grounds_at([0.0])
 
 
 class Linkage:
@@ -43,7 +46,7 @@ class Linkage:
         at rest.
         """
         before, frames = state.ties.copy(), frames_at(self._bodies.centers(state.x))
-        kept, _ = end_links(self.links, frames, state.rotation, before, state.ties, np.inf)
+        kept, _ = end_links(self.links, STILL, frames, state.rotation, before, state.ties, np.inf)
         state.ties["work"] = 0.0  # what they lose on the way there is not of the motion
         return kept
 
@@ -68,8 +71,10 @@ class Linkage:
         pull_links(
             self.links,
             stage.ties,
+            STILL,
             frames_at(stage.centers),
             stage.rotation,
+            STILL,
             frames_at(self._bodies.centers(x)),
             rotation,
             float(stage.dt),

@@ -11,17 +11,20 @@ from fecolumn.contact.impact import (
     LANDS,
     NOTHING,
     find_impact,
+    landing_moment,
     mark_landing,
     mark_turning,
+    touched,
     what_happens,
 )
 from fecolumn.contact.pose import frames_at
 from fecolumn.contact.problem import OK
-from fecolumn.contact.rolling import part_of_step
+from fecolumn.contact.rolling import least_rim_width, part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import book_impulses, losses, move_anchors
 from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
 from fecolumn.dynamics.stage import Stage, carried, equilibrate
@@ -263,7 +266,8 @@ class Stepper:
             resisted,
             springs,
         )
-        if self.plastic and rolled and contact_work > CREATED * system.weight * interface.width:
+        width = interpreted(least_rim_width)(interface.interfaces)
+        if self.plastic and rolled and contact_work > CREATED * system.weight * width:
             # several points of the rim carry while it rolls fast: they stay for this step
             self.ledger.work.update(booked)
             return self._hht_step(start, ground, hht, rolls=False)
@@ -327,6 +331,7 @@ class Stepper:
         if self.system.links:
             tied, taken = end_links(
                 self.system.links.links,
+                STILL,
                 frames_at(bodies.centers(after.x)),
                 after.rotation,
                 start.ties,
@@ -403,13 +408,18 @@ class Stepper:
         )
         if happens == NOTHING:
             return
+        union, moment = interpreted(touched)(listed, before, after.contact), np.nan
+        if happens == LANDS:
+            moment = interpreted(landing_moment)(
+                union, before, after.contact, early, landing, hht.dt
+            )
         answer, pushed, impulses = find_impact(
             interface.bodies,
             interface.surface,
             interface.points,
             interface.interfaces,
             springs,
-            listed,
+            union,
             interface.points["arm"].copy(),
             poses,
             before,
@@ -418,7 +428,7 @@ class Stepper:
             late,
             landing,
             turning,
-            happens == LANDS,
+            moment,
             hht.dt,
             contact_work,
             interface.counts,

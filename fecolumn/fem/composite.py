@@ -173,12 +173,15 @@ class CompositeKinematics:
         return [one.tangent(x[rows]) for one, rows in zip(self.each, self._rows)]
 
     def moved(self, x, step):
+        """Positions (n_owned, 3) [m] after an increment of an iteration."""
         return self._rowwise("moved", x, step)
 
     def predicted(self, x, step):
+        """First guess of positions (n_owned, 3) [m] after a time step's increment."""
         return self._rowwise("predicted", x, step)
 
     def local_displacement(self, x):
+        """Displacement (n_owned, 3) [m] of each node in the frame of its own body."""
         return self._rowwise("local_displacement", x)
 
 
@@ -213,6 +216,7 @@ class CompositeFactor:
         return of_copies(self.each, self.bodies.rows, forces, "solve")
 
     def destroy(self) -> None:
+        """Free the factors, each once."""
         for factor in dict.fromkeys(self.each):
             factor.destroy()
 
@@ -264,9 +268,11 @@ class CompositeFoot:
         return of_copies(self.each, self.bodies.rows, displacement, "position")
 
     def load(self, forces: np.ndarray) -> np.ndarray:
+        """Nodal forces (n_owned, 3) [N] of forces on the surface nodes."""
         return of_copies(self.each, self.rows, forces, "load")
 
     def acceleration(self, forces: np.ndarray) -> np.ndarray:
+        """Accelerations (n_owned, 3) [m/s2] of all nodes by forces [N] on the surface nodes."""
         return of_copies(self.each, self.rows, forces, "acceleration")
 
 
@@ -282,6 +288,7 @@ class CompositeResponse:
         self.compliance = [one.compliance for one in self.each]
 
     def displacement(self, forces: np.ndarray) -> np.ndarray:
+        """Displacements (n_owned, 3) [m] of all nodes by forces [N] on the surface nodes."""
         return of_copies(self.each, self._rows, forces, "displacement")
 
 
@@ -312,12 +319,15 @@ class CompositeDamping:
         )
 
     def force(self, velocity, rotation):
+        """Damping forces (n_owned, 3) [N] at velocities (n_owned, 3) [m/s]."""
         return self._rowwise("force", velocity, rotation)
 
     def acceleration(self, velocity, rotation):
+        """M^-1 of `force`, (n_owned, 3) [m/s2]."""
         return self._rowwise("acceleration", velocity, rotation)
 
     def damped(self, factor: CompositeFactor, *factors) -> CompositeFactor:
+        """Factor of the damped effective matrix of each body; see `fem.damping`."""
         made = {}
         for damping, own in zip(self.each, factor.each):
             if own not in made:

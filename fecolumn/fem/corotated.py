@@ -34,6 +34,7 @@ class Corotated:
         self.body = body
 
     def rotation(self, x: np.ndarray) -> np.ndarray:
+        """Mean rotation (3, 3) of the body at positions x (n_owned, 3) [m]."""
         return mean_rotation(self.body, x)
 
     def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
@@ -76,5 +77,7 @@ class Corotated:
         return x + step
 
     def local_displacement(self, x: np.ndarray) -> np.ndarray:
-        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are computed."""
+        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are
+        computed.
+        """
         return x @ self.rotation(x) - self.body.X

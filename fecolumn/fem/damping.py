@@ -73,11 +73,14 @@ class DampedFactor:
         return self._flat.T @ (self._change[:, None] * self._factor.body.sum(self._flat @ forces))
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
+        """`Factor.solve` with damping."""
         copies = forces.reshape(-1, self._flat.shape[1])
         return self._factor.solve(forces) + self._correction(copies.T).T.reshape(forces.shape)
 
     def solve_many(self, forces: np.ndarray) -> np.ndarray:
+        """`Factor.solve_many` with damping."""
         return self._factor.solve_many(forces) + self._correction(forces)
 
     def destroy(self) -> None:
+        """Free the factor."""
         self._factor.destroy()

@@ -42,6 +42,7 @@ class TotalLagrangian:
         self.u.x.scatter_forward()
 
     def rotation(self, x: np.ndarray) -> np.ndarray:
+        """Mean rotation (3, 3) of the body at positions x (n_owned, 3) [m]."""
         return mean_rotation(self.body, x)
 
     def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
@@ -101,5 +102,7 @@ class TotalLagrangian:
         return centre + shift + arm @ turn.T, shift + arm @ skew.T
 
     def local_displacement(self, x: np.ndarray) -> np.ndarray:
-        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are computed."""
+        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are
+        computed.
+        """
         return x @ self.rotation(x) - self.body.X

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case import Case
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh
-from fecolumn.mesh.column import is_solid
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
 from fecolumn.mesh.specimen import SpecimenMesh
+from fecolumn.short_form import ShortForm
+from fecolumn.sizes import is_solid
 
 # Corner signs of the VTK hexahedron.
 _SIGNS = np.array(
@@ -126,7 +126,7 @@ def _from_moments(volume, first, second, density) -> MassProperties:
     return MassProperties(volume, density * volume, centre, inertia)
 
 
-def exact_column(case: Case) -> MassProperties:
+def exact_column(case: ShortForm) -> MassProperties:
     """Closed form of the tube, solid cylinder or block, without flange and cap."""
     column, density = case.column, case.material.density_kg_m3
     if column.shape == "block":
@@ -134,14 +134,14 @@ def exact_column(case: Case) -> MassProperties:
     outer = column.outer_diameter_m / 2
     return _ring(
         outer,
-        0.0 if is_solid(case) else outer - column.wall_m,
+        0.0 if is_solid(case.column) else outer - column.wall_m,
         column.height_m,
         case.seat_m,
         density,
     )
 
 
-def exact_flange(case: Case) -> MassProperties:
+def exact_flange(case: ShortForm) -> MassProperties:
     """Closed form of the flange."""
     flange = case.flange
     return _ring(
@@ -153,7 +153,7 @@ def exact_flange(case: Case) -> MassProperties:
     )
 
 
-def exact_cap(case: Case) -> MassProperties:
+def exact_cap(case: ShortForm) -> MassProperties:
     """Closed form of the cap plate."""
     cap = case.cap
     return _box(
@@ -184,7 +184,7 @@ def _box(a, b, c, bottom, density) -> MassProperties:
     return MassProperties(a * b * c, mass, np.array([0, 0, bottom + c / 2]), inertia)
 
 
-def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
+def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[Row, ...]:
     """Jacobians, and mass properties of flange, column, cap and their assembly, against closed
     forms where the column is a built one.
 
@@ -214,7 +214,7 @@ def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
     whole = functools.reduce(operator.add, found.values())
     if len(parts) > 1:
         rows += _mass_rows(
-            " with ".join(sorted(parts, key=list(("column", "flange", "cap")).index)),
+            " with ".join(sorted(parts, key=["column", "flange", "cap"].index)),
             whole,
             None if own else functools.reduce(operator.add, closed.values()),
         )

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import number, read_text, unit_named
@@ -19,7 +21,7 @@ _NUMBERS_FIRST = re.compile(rf"^\s*(?P<points>\d+)[\s,]+(?P<dt>{_NUMBER})[\s,]+N
 _UNITS = re.compile(r"UNITS?\s*(?:OF|:|=)\s*(?P<unit>[^\s,;]+)", re.IGNORECASE)
 
 
-def looks_like_at2(path, text: str) -> bool:
+def looks_like_at2(path: Path | str, text: str) -> bool:
     """Whether the name ends in .AT2, or NPTS stands among the first lines."""
     return (
         Path(path).suffix.lower() == ".at2"
@@ -27,7 +29,7 @@ def looks_like_at2(path, text: str) -> bool:
     )
 
 
-def read_at2(path) -> Recording:
+def read_at2(path: Path | str) -> Recording:
     """Recording of an AT2 file, `NPTS= 4000, DT= .0100 SEC` or the older `4000 0.0100 NPTS, DT` in
     its fourth line.
 
@@ -81,7 +83,7 @@ def _stated_units(header: list[str]) -> str:
     return unit_named(stated[-1])
 
 
-def _values(lines) -> np.ndarray:
+def _values(lines: list[tuple[int, str]]) -> NDArray[Any]:
     values = []
     for row, line in lines:
         for word in line.split():

@@ -1,4 +1,6 @@
-"""Estimates with their intervals, one a row: probabilities of overturning, effects of parameters."""
+"""Estimates with their intervals, one a row: probabilities of overturning, effects of
+parameters.
+"""
 
 from __future__ import annotations
 

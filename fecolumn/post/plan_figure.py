@@ -86,7 +86,9 @@ def plan_figure(
 
 
 def _paths(axes, traces, foot, critical_m, limit_m) -> tuple[float | None, list]:
-    """Draw them; the critical displacement [m] where it is drawn, and what else the legend names."""
+    """Draw them; the critical displacement [m] where it is drawn, and what else the legend
+    names.
+    """
     lines = [_path(trace, limit_m) for trace in traces]
     reach = max((np.abs(u).max() for u in lines), default=0.0)
     raster = sum(map(len, lines)) > MOST_POINTS

@@ -55,7 +55,7 @@ class View(NamedTuple):
     foot; stance: when it is lost, if it stands alone. limits: (nb,) tilts [rad] at which a body of
     many is lost, none for one alone. feet: (ni, 3) of the interfaces [m] and normals: (ni, 3) of
     them in the frames of their slaves, in the reference configuration; marks: (nm,) of MARK, their
-    shapes (nm, 3, m). links: how many.
+    shapes (nm, 3, m). links: how many. levels: (G,) heights of the grounds [m].
     """
 
     center: np.ndarray
@@ -71,6 +71,7 @@ class View(NamedTuple):
     marks: np.ndarray
     shapes: np.ndarray
     links: int = 0
+    levels: np.ndarray = np.zeros(1)
 
     @property
     def width(self) -> int:
@@ -166,7 +167,7 @@ def _observe_all(structure, points, poses, eye, motion, row):
             row[place + a] = motion.frames[b].center[a] - eye.center[b, a]
         row[place + 3] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
         place += 4
-    find_poses(structure.interfaces, motion.frames, motion.rotation, poses)
+    find_poses(structure.interfaces, motion.grounds, motion.frames, motion.rotation, poses)
     first = place
     for k in range(len(structure.interfaces)):
         T, foot, normal = poses[k].turned[SLAVE], poses[k].foot, eye.normals[k]
@@ -204,12 +205,12 @@ def _observe_all(structure, points, poses, eye, motion, row):
 @njit
 def lost(eye, motion, row, steepest):
     """As `overturning.fallen`, of a motion and its row; FELL where one of many bodies has fallen
-    past the ground, z = 0.
+    past the lowest ground.
     """
     top = np.hypot(row[1], row[2])
     if len(eye.limits):
         for b in range(len(eye.limits)):
-            if motion.frames[b].center[2] < 0.0:
+            if motion.frames[b].center[2] < eye.levels.min():
                 return FELL
             if row[WIDTH + 4 * b + 3] > eye.limits[b]:
                 return NO_RETURN

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case import Case, finished
+from fecolumn.case import read_case as Case
 from fecolumn.dynamics.history import read_history
 from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.reduced.states import NAME as STATES

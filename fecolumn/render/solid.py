@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case import Case
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES, BrickMesh, boundary_faces
 from fecolumn.mesh.quality import MassProperties, mass_properties
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
+from fecolumn.short_form import ShortForm
 
 # Heights that are one [-]: of the body's, as where the mesh is tied
 _FLAT = 1e-6
@@ -81,7 +81,7 @@ class Solid:
         return float(np.ptp(self.mesh.body.points[np.unique(self.foot_faces)][:, :2], axis=0).max())
 
 
-def solid_of(case: Case) -> Solid:
+def solid_of(case: ShortForm) -> Solid:
     """The specimen of a finished case, meshed anew.
 
     Raises

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case import Case
 from fecolumn.reduced.states import read_states, signature, state_at
 from fecolumn.render.field_frames import Fields, FrameSeries
 from fecolumn.schema import InputError
+from fecolumn.short_form import ShortForm
 
 #: Modes of a model made anew are those of the analysis when frequencies and signatures agree to
 #: this share: states are kept in single precision
@@ -33,7 +33,7 @@ class StateFrames(FrameSeries):
         (n,) [s] of each.
     """
 
-    def __init__(self, file: Path, case: Case):
+    def __init__(self, file: Path, case: ShortForm):
         """Raises:
         InputError: the file is damaged.
         """

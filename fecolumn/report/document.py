@@ -73,6 +73,7 @@ class Column:
 
     @property
     def names(self) -> list[str]:
+        """Names of the figures side by side: `name` split at spaces."""
         return self.name.split()
 
 
@@ -137,11 +138,12 @@ class Section:
 
     @property
     def anchor(self) -> str:
+        """Anchor of the section in the page, from its title."""
         return re.sub(r"\W+", "-", self.title.lower())
 
 
 def numbered(sections: list[Section]) -> dict[str, str]:
-    """ "Figure 1", "Table 1" of every figure and table by name."""
+    """Label, such as "Figure 1" or "Table 1", of every figure and table by name."""
     labels: dict[str, str] = {}
     for kind in ("figure", "table"):
         named = [block for section in sections for block in section.blocks if block.kind == kind]

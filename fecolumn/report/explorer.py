@@ -90,7 +90,7 @@ def explorer_data(sweep: Sweep, histories: Histories) -> tuple[dict, str]:
         key=lambda one: [sweep.axes[axis].index(one.values[axis]) for axis in sweep.varied],
     )
     chosen, share = _fitting(sweep, histories)
-    names = [name for name in LOOKS]
+    names = list(LOOKS)
     outline = (
         specimen_outline(sweep.case)
         if sweep.case and not SHAPE & {axis.partition(".")[0] for axis in sweep.varied}

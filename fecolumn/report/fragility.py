@@ -116,6 +116,11 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Secti
         )
         for one in found
     ]
+    scaled = (
+        "at all its scales"
+        if SCALE in sweep.varied
+        else "unscaled: far from its middle the curve is an extrapolation"
+    )
     return Section(
         "Fragility",
         [
@@ -123,8 +128,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Secti
                 "[[fragility]] and [[fragilities]]: probability of overturning over "
                 "the peak ground velocity, lognormal, by maximum likelihood (Baker "
                 f"2015), each run one yes or no. {told}{known}Intensities are those of "
-                "the ensemble as it stands"
-                f"{', at all its scales' if SCALE in sweep.varied else ', unscaled: far from its middle the curve is an extrapolation'}."
+                f"the ensemble as it stands, {scaled}."
             ),
             gallery.draw("fragility", caption, line_figure, panels),
             Table(

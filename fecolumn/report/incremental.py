@@ -1,4 +1,6 @@
-"""Section: incremental dynamic analysis, where a study scales the same motions to several levels."""
+"""Section: incremental dynamic analysis, where a study scales the same motions to several
+levels.
+"""
 
 from __future__ import annotations
 
@@ -56,8 +58,8 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sec
     text = (
         f"[[ida]]: each of {count(len(here.curves), 'motion')} scaled to "
         f"{count(levels, 'level')} (Vamvatsikos and Cornell 2002), {at}. "
-        f"{fallen} overturn the {sweep.subject.noun} at one of their "
-        f"scales{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. "
+        f"{fallen} overturn the {sweep.subject.noun} at one of their scales"
+        f"{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. "
     )
     if here.fit:
         text += (
@@ -125,7 +127,9 @@ def _critical(sweep: Sweep) -> float | None:
 
 
 def _panels(sweep: Sweep, here: Scaled, found: list[Scaled]) -> tuple[list[CurvePanel], str]:
-    """The law of one setting beside what is known of its motions, and the laws of several settings."""
+    """The law of one setting beside what is known of its motions, and the laws of several
+    settings.
+    """
     lower, upper = np.transpose([curve.first for curve in here.curves])
     end = 1.05 * max(float(curve.im[-1]) for one in found for curve in one.curves)
     grid, share = np.linspace(1e-3 * end, end, 300), np.arange(lower.size + 1) / lower.size

@@ -212,12 +212,8 @@ def _span(numbers) -> str:
 
 def _exceptions(fewer: dict[str, list[int]]) -> str:
     """What is said of engines that have fewer motions, by their names."""
-    return (
-        " "
-        f"({', '.join(f'{NAMES.get(name, name)}: {_span(numbers)} of them' for name, numbers in fewer.items())})"
-        if fewer
-        else ""
-    )
+    told = (f"{NAMES.get(name, name)}: {_span(numbers)} of them" for name, numbers in fewer.items())
+    return f" ({', '.join(told)})" if fewer else ""
 
 
 def _label(line: _Beside, setting: Setting, motions: int) -> str:

@@ -1,4 +1,6 @@
-"""Pairs of settings that differ in one axis alone, compared as distributions and motion by motion."""
+"""Pairs of settings that differ in one axis alone, compared as distributions and motion by
+motion.
+"""
 
 from __future__ import annotations
 

@@ -35,6 +35,7 @@ _KNOWN = ("id", "axes", "state", "reason", "wall_s", "version", "summary", "star
 
 def provenance(sweep: Sweep) -> Section:
     """The section: the study, its motions, its case, programs, machine."""
+    runs = [run for setting in sweep.done for run in setting.runs.values()]
     rows = [
         ("Study", sweep.title),
         ("Study id", _identity(sweep.folder)),
@@ -55,8 +56,7 @@ def provenance(sweep: Sweep) -> Section:
         *_dates(sweep),
         (
             "Wall time of all analyses",
-            f"{number(sum(run.get('wall_s') or 0.0 for setting in sweep.done for run in setting.runs.values()) / 3600)} "
-            "h",
+            f"{number(sum(run.get('wall_s') or 0.0 for run in runs) / 3600)} h",
         ),
         ("Reported by", ", ".join(f"{name} {version}" for name, version in _versions())),
         (
@@ -113,7 +113,7 @@ def _motions(sweep: Sweep) -> str:
     }
     named = [
         f"{axis_name(key)}: "
-        f"{', '.join(_short(one) for one in (values if len(values) < 7 else [values[0], values[-1]]))}"
+        + ", ".join(_short(one) for one in (values if len(values) < 7 else [values[0], values[-1]]))
         + (f" and {len(values) - 2} between" if len(values) >= 7 else "")
         for key, values in sources.items()
         if values

@@ -87,7 +87,7 @@ class AnalysisResult:
 
     @property
     def time(self) -> np.ndarray:
-        """(n,) [s]"""
+        """Times (n,) [s] of the samples."""
         return self["time"]
 
     @property
@@ -169,7 +169,7 @@ class AnalysisResult:
         return render(self.folder, Wish(**wishes), quiet=True)
 
     def compare(self, other: AnalysisResult, tolerance: float = 0.05):
-        """This analysis against another as of `fecolumn compare`; a `results.parting.Parting`.
+        """Compare with another analysis as `fecolumn compare` does; a `results.parting.Parting`.
 
         Parameters
         ----------
@@ -194,8 +194,8 @@ class AnalysisResult:
 
     def _repr_html_(self) -> str:
         rows = "".join(
-            "<tr><th "
-            f"style='text-align:left'>{words}</th><td>{_cell(self.summary[key], factor, unit)}</td></tr>"
+            f"<tr><th style='text-align:left'>{words}</th>"
+            f"<td>{_cell(self.summary[key], factor, unit)}</td></tr>"
             for key, words, factor, unit in _SHOWN
             if self.summary.get(key) is not None
         )
@@ -234,7 +234,9 @@ class AnalysisPlots:
         )
 
     def interfaces(self, *names: str) -> Picture:
-        """Of a structure: tilt, uplift, slide and normal force at interfaces, of all unless named."""
+        """Of a structure: tilt, uplift, slide and normal force at interfaces, of all unless
+        named.
+        """
         from fecolumn.post.structure_figures import interface_figure, interface_names
 
         columns = AnalysisResult(self.folder).history

@@ -6,18 +6,19 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.case import Case, finished
 from fecolumn.content import content
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.render.pose import poses
 from fecolumn.render.quantity import Quantity
-from fecolumn.render.solid import solid_of
-from fecolumn.render.strips import LIFTED, uplift
-from fecolumn.results.analysis import AnalysisResult
+from fecolumn.render.strips import LIFTED
 from fecolumn.schema import InputError, stated
+from fecolumn.structures.case import StructureCase
+
+if TYPE_CHECKING:
+    from fecolumn.results.analysis import AnalysisResult
 
 #: Difference at which two histories have parted, over the larger of their peaks [-]: a twentieth is
 #: seen in a figure
@@ -167,21 +168,13 @@ def _at(time: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 def _case(result: AnalysisResult):
-    return (
-        finished(result.case, result.folder / "case.json")
-        if isinstance(result.case, Case)
-        else result.case
-    )
+    return result.case
 
 
 def _uplift(case, history) -> tuple[np.ndarray, bool]:
     """Uplift (n,) [m], and whether anything lifts off at all: of a structure the largest of its
     interfaces; 0 of a model whose history has none.
     """
-    if isinstance(case, Case):
-        solid = solid_of(case)
-        height = uplift(solid, poses(history, solid.foot, solid.top))
-        return height, bool(height.max() > LIFTED * solid.foot_width)
     rises, tilts = (
         [
             values
@@ -195,7 +188,7 @@ def _uplift(case, history) -> tuple[np.ndarray, bool]:
     return height, bool(np.max(tilts) > LIFTED if tilts else np.max(history["tilt"]) > LIFTED)
 
 
-def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:
+def differing_keys(a: StructureCase, b: StructureCase) -> list[tuple[str, object, object]]:
     """Keys of two cases that differ, and their values; files of the same content are the same."""
     tables = [_flat(stated(dataclasses.asdict(case))) for case in (a, b)]
     found = []
@@ -217,7 +210,7 @@ def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:
     return [row for row in found if row[0] not in defaults]
 
 
-def _at_default(a: Case, b: Case, section: str) -> list[str]:
+def _at_default(a: StructureCase, b: StructureCase, section: str) -> list[str]:
     """Keys at their default of a section that one of two cases lacks: they tell nothing."""
     there = getattr(a, section, None) or getattr(b, section, None)
     return (

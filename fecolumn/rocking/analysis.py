@@ -31,7 +31,7 @@ class ModelAnalysis(Analysis):
         self.model = (
             case.model(file)
             if isinstance(case, TableCase)
-            else model_class(case.integration.engine).of_case(case, file)
+            else model_class(case.integration.engine).of_case(case.short, file)
         )
         self.model.respond(
             GroundMotion(np.zeros((2, 3)), 1e-3, "", "")

@@ -153,7 +153,7 @@ class Frame:
         beam_mass: float,
         *,
         restitution: float | None = None,
-        restraint: Restraint = Restraint(),
+        restraint: Restraint | None = None,
         friction: float = math.inf,
     ) -> Frame:
         """Frame of columns of slenderness alpha [rad] and half diagonal R [m]; arguments as of
@@ -180,7 +180,7 @@ class Frame:
             (kept, kept),
             2 * h,
             (2 * b, 2 * b),
-            (restraint, restraint),
+            (restraint or Restraint(),) * 2,
             friction,
         )
         return cls(columns, column_mass, beam_mass, slenderness, half_diagonal, plane)

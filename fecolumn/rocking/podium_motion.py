@@ -5,11 +5,11 @@ of the floors' displacements relative to the ground, with its rate. With s the s
 = alpha - s theta, beam u = 2 R s (sin alpha - sin beta), v = 2 R (cos beta - cos alpha),
 mass-normalised modes and Gamma_j their participation, Lagrange's equations are
 
-    (I + 4 gamma + 4 eta gamma sin^2 beta) R theta'' = s 2 eta gamma R sin(2 beta) theta'^2 - s (1 +
-        2 gamma + 2 eta gamma) (g + a_z) sin beta
-                                                        - (1 + 2 gamma) a_x cos beta + 2 eta gamma
-                                                            cos(beta) V/M
-    y_j'' = -Gamma_j a_x - f_j,   f_j = omega_j^2 (y_j - Gamma_j u) + 2 xi_j omega_j (y_j' - Gamma_j u'),   V = sum Gamma_j f_j.
+    (I + 4 gamma + 4 eta gamma sin^2 beta) R theta''
+        = s 2 eta gamma R sin(2 beta) theta'^2 - s (1 + 2 gamma + 2 eta gamma) (g + a_z) sin beta
+          - (1 + 2 gamma) a_x cos beta + 2 eta gamma cos(beta) V/M,
+    y_j'' = -Gamma_j a_x - f_j,   V = sum Gamma_j f_j,
+    f_j = omega_j^2 (y_j - Gamma_j u) + 2 xi_j omega_j (y_j' - Gamma_j u').
 
 While it stands u = 0; it lifts off where |-(1 + 2 gamma) a_x + 2 eta gamma V/M| > (1 + 2 gamma + 2
 eta gamma) (g + a_z) tan alpha. While it stands the modes are stepped exactly, below a straight

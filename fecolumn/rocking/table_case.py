@@ -1,8 +1,8 @@
 """The case of a rocking model by its own table, such as [podium]: one analysis of `fecolumn run`,
 or of a study.
 
-    [podium]                      [motion]                 [integration]
-    column_mass_kg = 2500         source = "lick:12"       dt_s = 0.005        # engine follows from the table
+    [podium]                   [motion]               [integration]
+    column_mass_kg = 2500      source = "lick:12"     dt_s = 0.005    # the table gives the engine
     ...
 
 The same file may describe the structure in [bodies], too. integration.engine then says which of
@@ -95,7 +95,7 @@ class TableCase:
         return model_class(self.integration.engine).of_section(getattr(self, self.table), file)
 
     def replace(self, changes: dict | None = None, **sections) -> TableCase:
-        """This case with other values by dotted key, such as {"podium.impact": "CAV"}, checked as a
+        """Case with other values by dotted key, such as {"podium.impact": "CAV"}, checked as a
         file's would be; see `Case.replace`.
         """
         tables = stated(dataclasses.asdict(self))

@@ -190,7 +190,9 @@ class Wobbling:
 
     @property
     def critical_tilt(self) -> float:
-        """Tilt at which nothing rights it any more [rad]; a right angle where a tendon always does."""
+        """Tilt at which nothing rights it any more [rad]; a right angle where a tendon
+        always does.
+        """
         from scipy.optimize import brentq
 
         return (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +19,8 @@ from fecolumn.reduced.run import advance
 from fecolumn.reduced.structure import LOST
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.engine import engine_of, leans, upright
-from fecolumn.structures.model import StructureModel
+from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.pads import warn_of_grounds
 from fecolumn.structures.structure import standing_of, structure_model
 
 _WHOLE = (
@@ -29,12 +31,9 @@ _WHOLE = (
 
 
 class _Whole(NamedTuple):
-    """What `ReducedAnalysis` asks of a model: degrees of freedom of the different meshes, and arms
-    of a foot that might meet an edge.
-    """
+    """What `ReducedAnalysis` asks of a model: degrees of freedom of the different meshes."""
 
     dofs: int
-    arms: np.ndarray
 
 
 class OfStructure:
@@ -43,7 +42,7 @@ class OfStructure:
     """
 
     structure: StructureModel
-    _barrier_j = None
+    _barrier_j, _off = None, None
 
     def expected(self) -> str:
         """What is analysed, in words."""
@@ -80,7 +79,7 @@ class OfStructure:
             return super().ending(fallen, rotation)
         return Ending(
             SLID_OFF,
-            f'"{self._lowest()}" has fallen past the ground, z = 0, at '
+            f'"{self._lowest()}" has fallen past the ground, z = {min(self.structure.levels):g}, at '
             f"{self.history.last()['time']:.3f} s",
         )
 
@@ -100,7 +99,7 @@ class OfStructure:
         summary = super().finish(ending, dofs, record, factorizations)
         summary |= peaks(self.history.arrays(), self.structure)
         if summary["slid_off"]:
-            way = self.history.last()[f"body/{self._lowest()}/displacement"]
+            way = self.history.last()[f"body/{self._off or self._lowest()}/displacement"]
             summary["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
         if self.comm.rank == 0:
             write_json(self.folder / NAME, summary)
@@ -115,10 +114,8 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
         self.structure, self.fields = structure_model(case, file, self.say), None
         self.states = self._states()
         different = {id(part.model): part.model.dofs for part in self.structure.parts}
-        self.base, self.model = (
-            self.structure.base,
-            _Whole(sum(different.values()), self.structure.parts[0].model.arms),
-        )
+        self.bases, self.model = self.structure.bases, _Whole(sum(different.values()))
+        warn_of_grounds(case, self.structure, file)
         if not compiled(advance):
             self.say(
                 "compiling the reduced engine, once on this machine: a minute or two; "
@@ -136,9 +133,50 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
             self.standing_j = (
                 self._standing_energy(file) if leans(self.structure) else self.engine.potential()
             )
-            self.engine.motion.whole["ground"] = self.ground(0)
+            self.engine.begin_shaking(self.grounds(0))
             self._note(self.engine.row()[None])
             self._keep()
+
+    def _off_base(self, failure) -> Ending | None:
+        motion, joints = self.engine.motion, self.structure.joints
+        for joint in joints:
+            if joint.master != GROUND:
+                continue
+            part, frame = self.structure.parts[joint.slave], motion.frames[joint.slave]
+            arms = part.model.arms[part.model.surfaces[joint.slave_surface].nodes]
+            turn, ground = motion.rotation[joint.slave].T, motion.grounds[joint.ground]
+            ending = self.slid_off(
+                failure,
+                self.bases[joint.ground],
+                frame["center"] + arms @ turn - ground["place"],
+                frame["velocity"] + np.cross(frame["spin"], arms) @ turn - ground["velocity"],
+            )
+            if ending is not None:
+                self._off = part.name
+                return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
+        return None
+
+    def _load_motion(self, file):
+        from fecolumn.motions.load import load_motion
+
+        dt, first = self.case.integration.dt_s, super()._load_motion(file)
+        #: Motion of each ground, None of one at rest.
+        self.motions = [
+            load_motion(one.motion, dt, file) if one.motion else first
+            for one in self.case.grounds.values()
+        ]
+        return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
+
+    def ground(self, step: int) -> np.ndarray:
+        return self.grounds(step)[:3]
+
+    def grounds(self, step: int) -> np.ndarray:
+        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
+        found = np.zeros((len(self.motions), 3))
+        for own, motion in zip(found, self.motions):
+            if motion is not None and step < len(motion.acceleration):
+                own[:] = motion.acceleration[step]
+        return found.ravel()
 
     def _standing_energy(self, file) -> float:
         """As `reduced.analysis.standing_energy`."""

@@ -13,7 +13,7 @@ from fecolumn.dynamics.overturning import Stance, stance
 from fecolumn.schema import InputError
 from fecolumn.structures.feet import edge_points
 from fecolumn.structures.model import GROUND, StructureModel
-from fecolumn.structures.place import Standing, placed, supports_of, touching
+from fecolumn.structures.place import Standing, footing, placed, supports_of
 
 # Directions [deg] in which a body is leaned; the least energy is in that of its weakest edge
 _DIRECTIONS = (0.0, 90.0, 180.0, 270.0)
@@ -68,11 +68,11 @@ def _footing(standing: list[Standing], joint) -> np.ndarray:
     """Points (n, 3) [m] where the bodies of a joint touch, over which the upper one tips; of a dome
     on its edge.
     """
-    slave = standing[joint.slave]
-    arms = slave.model.arms[slave.model.surfaces[joint.slave_surface].nodes]
     if joint.ball and joint.ball.is_dome:
+        slave = standing[joint.slave]
+        arms = slave.model.arms[slave.model.surfaces[joint.slave_surface].nodes]
         return slave.center + arms[0] + edge_points(joint.ball)
-    return slave.center + arms[touching(standing, joint)]
+    return footing(standing, joint)
 
 
 def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:

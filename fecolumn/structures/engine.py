@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.case import GRAVITY
 from fecolumn.contact.tolerances import PARTS
 from fecolumn.dynamics.hht import HHT
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.schema import InputError
@@ -58,7 +58,7 @@ def engine_of(case, model: StructureModel, file) -> Engine:
     eye = view_of(standing, structure, weight, case.overturn.displacement_m)
     return Engine(
         build,
-        model.base,
+        model.bases,
         eye,
         hht,
         lambda engine: of_parts(engine, model.parts, stands),

@@ -8,6 +8,7 @@ import numpy as np
 
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, poses_of
+from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, never_alone
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.reduced.structure import LOST
@@ -41,7 +42,7 @@ class StructureObserver:
             np.array([getattr(part, name) for part in structure.parts])
             for name in ("center", "rotation")
         )
-        reference = poses_of(system.interface.interfaces, self._centers, upright)
+        reference = poses_of(system.interface.interfaces, self._centers, upright, STILL)
         self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
         standing = [joint for joint in structure.joints if joint.slave == self.body]
         nodes = part.model.surfaces[standing[0].slave_surface].nodes if standing else []
@@ -83,7 +84,7 @@ class StructureObserver:
                 f"body/{part.name}/tilt": tilt_angle(R[b]),
                 f"mark/{part.name}.top/displacement": tops[b],
             }
-        poses = poses_of(interface.interfaces, moved + self._centers, R)
+        poses = poses_of(interface.interfaces, moved + self._centers, R, STILL)
         normal = np.bincount(
             interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses)
         )

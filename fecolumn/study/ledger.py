@@ -6,7 +6,9 @@ import json
 import os
 import sqlite3
 import time
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from fecolumn.files import is_file
 from fecolumn.schema import shown
@@ -27,7 +29,7 @@ CREATE TABLE IF NOT EXISTS analysis (
     motion  TEXT,               -- digest of the motion's files, or its name where it is no file
     state   TEXT NOT NULL CHECK (state IN ('planned', 'running', 'done', 'failed')),
     reason  TEXT,               -- why it failed
-    log     TEXT,               -- file with the traceback of a failure, relative to the study's folder
+    log     TEXT,               -- traceback of a failure: file, relative to the study's folder
     wall_s  REAL,               -- wall time of the worker
     started REAL,               -- seconds since the epoch
     machine TEXT,               -- name and processor of the machine it was done on
@@ -70,7 +72,7 @@ class Ledger:
         where a damaged one is now, None where there was none.
     """
 
-    def __init__(self, file: Path, many_readers: bool):
+    def __init__(self, file: Path, many_readers: bool) -> None:
         self._committed, self._many_readers, self.put_aside = time.monotonic(), many_readers, None
         try:
             if not can_be_opened(file):
@@ -105,7 +107,7 @@ class Ledger:
             self._connection.close()
             raise
 
-    def plan(self, rows) -> None:
+    def plan(self, rows: Iterable[tuple[str, int, str, str | None]]) -> None:
         """Make (id, place, axes as JSON, motion) the analyses; what ran when the last writer ended
         is planned again.
 
@@ -183,11 +185,11 @@ class Ledger:
             ).fetchone()
         return counts
 
-    def rows(self) -> list[dict]:
+    def rows(self) -> list[dict[str, Any]]:
         """As `Study.rows`."""
         return read_rows(self._connection)
 
-    def begin(self, case_ids) -> None:
+    def begin(self, case_ids: Iterable[str]) -> None:
         """Record that analyses were handed out."""
         now = time.time()
         self._connection.executemany(
@@ -277,9 +279,10 @@ def open_to_read(file: Path) -> sqlite3.Connection | None:
                 return None
             if "immutable" in option:
                 raise
+    return None
 
 
-def read_rows(*ledgers: sqlite3.Connection) -> list[dict]:
+def read_rows(*ledgers: sqlite3.Connection) -> list[dict[str, Any]]:
     """Every analysis in the order of the study file, its axes and summary as dicts; of several
     ledgers, the one that got farthest counts.
 
@@ -288,7 +291,7 @@ def read_rows(*ledgers: sqlite3.Connection) -> list[dict]:
     sqlite3.DatabaseError
         damaged.
     """
-    best: dict[str, tuple] = {}
+    best: dict[str, tuple[Any, ...]] = {}
     for ledger in ledgers:
         for place, *row in ledger.execute(f"SELECT place, {', '.join(_ROW)} FROM analysis"):
             known = best.get(row[0])

@@ -16,6 +16,7 @@ import os
 import socket
 import time
 from pathlib import Path
+from typing import IO
 
 from fecolumn.atomic import disk_full
 from fecolumn.lock import held, open_lock
@@ -43,8 +44,8 @@ class FolderLock:
         somebody else holds it; says who.
     """
 
-    def __init__(self, folder: Path, share: tuple[int, int] | None):
-        self._files = []
+    def __init__(self, folder: Path, share: tuple[int, int] | None) -> None:
+        self._files: list[IO[str]] = []
         try:
             self._take(folder / "study.lock", shared=share is not None)
             if share:
@@ -101,6 +102,7 @@ class FolderLock:
             lock.flush()
 
     def close(self) -> None:
+        """Release the locks."""
         while self._files:
             self._files.pop().close()
 
@@ -110,7 +112,7 @@ def stem(share: tuple[int, int] | None) -> str:
     return f"study-{share[0]}-of-{share[1]}" if share else "study"
 
 
-def hold_as_worker(folder: Path, share: tuple[int, int] | None):
+def hold_as_worker(folder: Path, share: tuple[int, int] | None) -> IO[str]:
     """The open lock that tells a later driver that this process may still write into the folder."""
     lock = open_lock(folder / f"{stem(share)}.workers.lock")
     fcntl.flock(lock, fcntl.LOCK_SH)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from fecolumn.files import Unreadable
 from fecolumn.summary import read_summary
@@ -57,7 +57,7 @@ class Outcome(NamedTuple):
     slid_off: bool = False
 
 
-def finished(case_id: str, folder: Path, **more) -> Outcome | None:
+def finished(case_id: str, folder: Path, **more: Any) -> Outcome | None:
     """DONE where the result folder holds a valid summary of this very analysis, else None."""
     try:
         summary = read_summary(folder, case_id)

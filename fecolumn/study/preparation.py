@@ -6,13 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 _COMPILED = {"reduced", "rigid"}  # engines of compiled code
 COMPILING = "compiling the reduced engine, once on this machine"
 MODELLING = "making the reduced model of the specimen, once on this machine"
 
 
-def preparation(analyses: Iterable) -> str:
+def preparation(analyses: Iterable[Any]) -> str:
     """What keeps analyses from stepping on this machine, in words; empty where nothing does.
 
     It looks at the files of the cache alone: the driver of a study loads no engine.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import time
+from typing import TextIO
 
 from fecolumn.progress import Bar, clock
 from fecolumn.study.outcome import DONE, FAILED, Outcome
@@ -28,7 +29,7 @@ class Progress(Bar):
         terminal or file.
     """
 
-    def __init__(self, counts: dict[str, int], effort: float, workers: int, stream):
+    def __init__(self, counts: dict[str, int], effort: float, workers: int, stream: TextIO) -> None:
         super().__init__(effort, stream=stream, pause_s=1.0)
         self.overturned, self.slid_off = counts.get("overturned", 0), counts.get("slid_off", 0)
         self._analyses = sum(counts.values()) - self.overturned - self.slid_off

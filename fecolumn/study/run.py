@@ -7,11 +7,13 @@ import dataclasses
 import sqlite3
 import sys
 import warnings
+from pathlib import Path
+from typing import Any, TextIO
 
 from fecolumn.atomic import disk_full
-from fecolumn.case import REST
+from fecolumn.case import REST, Motion
 from fecolumn.study.mixture import other_code
-from fecolumn.study.outcome import FULL, RETURNED
+from fecolumn.study.outcome import FULL, RETURNED, Outcome
 from fecolumn.study.plan import Analysis, Plan
 from fecolumn.study.pool import LocalPool
 from fecolumn.study.preparation import preparation
@@ -34,16 +36,16 @@ _DISK_FULL = "the disk is full; free room"
 
 def run_study(
     plan: Plan,
-    folder,
+    folder: Path | str,
     *,
     workers: int = 1,
     entry: str = ENTRY,
     retry_failed: bool = False,
-    stream=sys.stderr,
+    stream: TextIO = sys.stderr,
     share: tuple[int, int] | None = None,
     team: Team | None = None,
     only: set[str] | None = None,
-) -> list[dict]:
+) -> list[dict[str, Any]]:
     """Do what is missing of a study, and return the ledger.
 
     An analysis that fails, or takes its worker down with it, is recorded with its reason and the
@@ -94,7 +96,8 @@ def run_study(
             if entry == ENTRY and (told := other_code(store.rows())):
                 print(told, file=stream, flush=True)
             drive(store, team or LocalPool(workers, entry, plan.file), stream, only)
-            return store.rows()
+            done: list[dict[str, Any]] = store.rows()
+            return done
     except sqlite3.DatabaseError as error:
         full = "full" in str(error) or "disk I/O" in str(error)
         raise StudyError(
@@ -106,7 +109,7 @@ def run_study(
         raise
 
 
-def drive(store: Store, team: Team, stream, only: set[str] | None = None) -> Progress:
+def drive(store: Store, team: Team, stream: TextIO, only: set[str] | None = None) -> Progress:
     """Have a team do what is missing in a study's folder, or of the ids `only`; the counts, of
     which `stream` is told.
     """
@@ -139,7 +142,8 @@ def check_motions(plan: Plan) -> None:
 
     # factor and direction change neither length nor whether it can be used; the longest step is the
     # most demanding
-    longest_step, users = {}, {}
+    longest_step: dict[Motion, float] = {}
+    users: dict[Motion, list[Analysis]] = {}
     for analysis in plan.analyses:
         if motion := analysis.case.motion:
             key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
@@ -149,10 +153,10 @@ def check_motions(plan: Plan) -> None:
     for motion, dt_s in longest_step.items():
         ground = load_motion(motion, dt_s, plan.file)
         for analysis in users[motion]:
-            given, free = analysis.case.integration.duration_s, motion.free_vibration_s
-            analysis.duration_s = given or ground.duration + (
-                min(_TO_REST_S, motion.rest_ceiling_s) if free == REST else free
-            )
+            given, free = analysis.case.integration.duration_s, motion.longest_free_vibration_s
+            if motion.free_vibration_s == REST:
+                free = min(_TO_REST_S, free)
+            analysis.duration_s = given or ground.duration + free
             if given and given < ground.duration - dt_s:
                 cut.append((ground.duration, given))
     if cut:
@@ -167,7 +171,8 @@ def check_motions(plan: Plan) -> None:
 def _work_off(
     store: Store, queue: collections.deque[Analysis], team: Team, progress: Progress
 ) -> None:
-    pace, given = _Pace(), {}
+    pace = _Pace()
+    given: dict[str, Analysis] = {}
     while queue or team.at_work:
         while queue and team.wants(2 if pace.seconds(queue[0]) < _BATCH_S else 1):
             batch = pace.batch(queue, team.size)
@@ -193,10 +198,10 @@ def _work_off(
 class _Pace:
     """How long analyses take, learnt from those that have ended; none is known before the first."""
 
-    def __init__(self):
-        self._s_per_effort = None
+    def __init__(self) -> None:
+        self._s_per_effort: float | None = None
 
-    def note(self, outcome, analysis: Analysis) -> None:
+    def note(self, outcome: Outcome, analysis: Analysis) -> None:
         if outcome.started is not None:
             s = analysis_s(outcome) / analysis.effort
             self._s_per_effort = (

@@ -27,7 +27,8 @@ class Team(Protocol):
     size: int
 
     @property
-    def at_work(self) -> bool: ...
+    def at_work(self) -> bool:
+        """Whether some task's outcome has not been collected yet."""
 
     def wants(self, depth: int) -> bool:
         """Whether another batch may be given when every worker may have `depth` of them."""

@@ -50,7 +50,8 @@ from fecolumn.verification import FULL
 from fecolumn.verification.hht_scheme import amplification, principal
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import afloat, begin
+from fecolumn.verification.trial import afloat
+from fecolumn.verification.trials import begin_trial
 
 LENGTH, AREA, MODULUS, DENSITY, SPEED = 2.0, 0.2, 200e9, 7800.0, 1.5
 WAVE = np.sqrt(MODULUS / DENSITY)
@@ -115,7 +116,7 @@ def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float =
     )
     still = np.zeros_like(system.body.X)
     falling = still + [0, 0, -SPEED], still + system.gravity
-    trial = begin(
+    trial = begin_trial(
         engine,
         system,
         lambda system: afloat(system, still, *falling, height=arrival * SPEED * dt),

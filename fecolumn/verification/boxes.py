@@ -10,7 +10,7 @@ from fecolumn import case
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.hht import HHT
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
@@ -86,6 +86,7 @@ def part(name, model, at, rotation=None, spin=(0.0, 0, 0), velocity=(0.0, 0, 0))
 
 
 def joint(slave, master, model, surface="foot", on="head", friction=0.7, restitution=0.0):
+    """Joint of body `slave` on body `master`, or on GROUND; `model`: the slave's BodyModel."""
     n = len(model.surfaces[surface].nodes)
     return Joint(
         f"{slave} on {master}",
@@ -109,7 +110,7 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     eye = view_of(model, structure, structure.bodies.body["mass"].sum() * case.GRAVITY)
     return Engine(
         lambda step: structure_of(model, step, GRAVITY),
-        base,
+        (base,),
         eye,
         hht,
         lambda made: of_parts(made, parts, stands),
@@ -118,6 +119,7 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
 
 
 def stack(dt=1e-3, alpha=-0.05):
+    """Engine with a box of 0.3 x 0.3 x 0.9 m on one of 0.4 x 0.4 x 0.8 m, the upper observed."""
     low, up = box(0.4, 0.4, 0.8), box(0.3, 0.3, 0.9)
     return engine(
         [part("low", low, (0, 0, 0)), part("up", up, (0, 0, 0.8))],
@@ -220,6 +222,7 @@ def bent(ratio: float, dt: float, tilt: float, breadth=1.2, height=8.0):
 
 
 def pulse(amplitude, period, steps, dt=1e-3):
+    """Accelerations (steps, 3) [m/s2] of one sine of that amplitude and period [s] along x."""
     t = np.arange(1, steps + 1) * dt
     return np.column_stack(
         [amplitude * np.sin(2 * np.pi * t / period) * (t < period), np.zeros((steps, 2))]

@@ -6,8 +6,8 @@ the pressure at single nodes to first order, at any load.
 Derivation. With 1/E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, a surface r^2 / 2R pressed on a flat
 without friction touches within a,
 
-    cylinder (b long)   P = pi a^2 E* b / 4R,   p0 = a E* / 2R,      approach / P = c - 2 ln(a) / pi E* b,
-    sphere              P = 4 a^3 E* / 3R,      p0 = 2 a E* / pi R,  approach / P = c + 3 / (4 E* a),
+    cylinder of b m   P = pi a^2 E* b / 4R,  p0 = a E* / 2R,     approach/P = c - 2 ln(a) / pi E* b,
+    sphere            P = 4 a^3 E* / 3R,     p0 = 2 a E* / pi R, approach/P = c + 3 / (4 E* a),
 
 under the pressure p0 (1 - r^2 / a^2)^(1/2). The weight of a block with a curved bottom is P; the
 base is a block of the same size, held below. The cylinder is a slice of one brick along y, with nu
@@ -49,7 +49,7 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 
 LARGEST, CURVATURE = 0.01, 100.0  # a under full load and R [m]
 LENGTH = LARGEST / 8  # of the slice of the cylinder [m]
@@ -74,6 +74,7 @@ class Hertz:
 
     @property
     def name(self) -> str:
+        """Shape of the curved body: cylinder or sphere."""
         return ("cylinder", "sphere")[self.axes - 1]
 
     @property
@@ -180,7 +181,7 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
         # than the Earth's
         system.weight = exact.load(a)
         system.gravity = np.array([0.0, 0.0, -system.weight / system.body.total_mass])
-        found.append(measured(exact, system, begin(engine, system).start, a, h))
+        found.append(measured(exact, system, begin_trial(engine, system).start, a, h))
     return found
 
 
@@ -208,7 +209,9 @@ def measured(exact: Hertz, system, state, a: float, h: float) -> Pressed:
 
 
 def run(engine: str, long: bool) -> Result:
-    """Cylinder with 4 to 12 bricks along the radius, sphere with 3 to 5; up to 24 and 7 if `long`."""
+    """Cylinder with 4 to 12 bricks along the radius, sphere with 3 to 5; up to 24 and 7 if
+    `long`.
+    """
     meshes = {
         Hertz(1, 0.0, 64): (4, 6, 8, 12) + (16, 24) * long,
         Hertz(2, 0.3, 8): (3, 4, 5) + (6, 7) * long,

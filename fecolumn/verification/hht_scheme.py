@@ -5,7 +5,8 @@ error and spectral radius are those of the method for every alpha; alpha = 0 kee
 
 Derivation. In a mode of frequency w, with W = w dt and z = (u, dt v, dt^2 a), a step is z1 = A z0:
 
-    a1 + (1 + al) W^2 u1 - al W^2 u0 = 0,   u1 = u0 + v0 + (1/2 - be) a0 + be a1,   v1 = v0 + (1 - ga) a0 + ga a1,
+    a1 + (1 + al) W^2 u1 - al W^2 u0 = 0,
+    u1 = u0 + v0 + (1/2 - be) a0 + be a1,   v1 = v0 + (1 - ga) a0 + ga a1,
     be = (1 - al)^2 / 4,   ga = 1/2 - al.
 
 The principal eigenvalues exp(W' (-xi +- i)) of A give the damping ratio xi and the period error W /
@@ -42,7 +43,8 @@ from fecolumn.fem.modes import free_modes
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import afloat, begin
+from fecolumn.verification.trial import afloat
+from fecolumn.verification.trials import begin_trial
 
 ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
 PER_PERIOD = (16, 32, 64, 128)
@@ -64,7 +66,9 @@ class Mode:
     Attributes
     ----------
     shape
-        (n, 3) with unit modal mass. frequency: w [rad/s].
+        (n, 3) with unit modal mass.
+    frequency
+        w [rad/s].
     """
 
     def __init__(self, engine: str):
@@ -73,6 +77,7 @@ class Mode:
         self.frequency, self.shape = 2 * np.pi * modes.frequencies[6], modes.shapes[6]
 
     def system(self, dt: float, alpha: float):
+        """Block above a base, nearly without weight, so that it vibrates and never lands."""
         body = box(np.linspace(-0.1, 0.1, 3), np.linspace(-0.15, 0.15, 3), np.linspace(0, 1, 7))
         return block_system(
             self.engine,
@@ -92,7 +97,7 @@ class Mode:
         dt = angle / self.frequency
         system = self.system(dt, alpha)
         scale = amplitude * np.array([1, 1 / dt, 1 / dt**2])
-        trial = begin(
+        trial = begin_trial(
             self.engine,
             system,
             lambda system: afloat(

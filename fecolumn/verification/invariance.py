@@ -41,7 +41,8 @@ from fecolumn.schema import merge
 from fecolumn.verification import FULL
 from fecolumn.verification.models import COARSE, column_case, shaking
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import begin, solver_drift
+from fecolumn.verification.trial import solver_drift
+from fecolumn.verification.trials import begin_trial
 
 STEPS, DT = 200, 1e-3
 TIMES = DT * np.arange(1, STEPS + 1)
@@ -56,7 +57,7 @@ def run(engine: str, long: bool) -> Result:
     specimen, off = specimen_mesh(case), {}
 
     def trial(mesh=specimen):
-        return begin(engine, build_system(case, MPI.COMM_SELF, mesh))
+        return begin_trial(engine, build_system(case, MPI.COMM_SELF, mesh))
 
     whole, result = trial(), Result()
     path = whole.shake(motion)
@@ -173,7 +174,9 @@ def on_ranks(engine: str, n: int, motion) -> np.ndarray:
 
 
 def resumed(engine: str, motion, parts: int) -> np.ndarray:
-    """Path of the top (steps + 1, 3) [m] of an analysis in one part, or in two by Ctrl-C at half."""
+    """Path of the top (steps + 1, 3) [m] of an analysis in one part, or in two by Ctrl-C at
+    half.
+    """
     with tempfile.TemporaryDirectory() as folder:
         # fields and states at half: what is written must not matter either, and the reduced engine
         # looks for Ctrl-C wherever it writes

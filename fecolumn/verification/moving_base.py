@@ -24,7 +24,9 @@ class MovingInterface(Interface):
     Attributes
     ----------
     position
-        (3,) of the base at the end of the step, first: (3,) at its start [m].
+        (3,) of the base at the end of the step [m].
+    first
+        (3,) of the base at the start of the step [m].
     known_velocities
         pairs of the column's velocity array and the base's velocity (3,) at the same time [m/s];
         the last one is the end of the step.
@@ -35,6 +37,7 @@ class MovingInterface(Interface):
         self.position, self.first, self.known_velocities = np.zeros(3), np.zeros(3), []
 
     def begin_step(self, *args):
+        """Begin a step with the base where it was at the start of it."""
         end, self.position = self.position, self.first
         try:
             return super().begin_step(*args)
@@ -42,9 +45,11 @@ class MovingInterface(Interface):
             self.position = end
 
     def positions(self, x, *args):
+        """Positions [m] of the contact points relative to the moving base."""
         return super().positions(x, *args) - self.position
 
     def velocities(self, v, *args):
+        """Velocities [m/s] of the contact points relative to the moving base."""
         base = next(
             (base for known, base in self.known_velocities if known is v),
             self.known_velocities[-1][1],

@@ -73,6 +73,7 @@ COLOURS = {
 
 
 def run(engine: str, long: bool) -> Result:
+    """Rows of a block on a base, with bricks that match and bricks that do not."""
     counts = (2, 4, 6, 8) if long else (2, 4, 6)
     result = Result([*matching_rows(engine), shaken(engine)], size=(7.2, 2.8))
     pairs = {

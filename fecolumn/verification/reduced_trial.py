@@ -17,9 +17,9 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced import start as starts
 from fecolumn.reduced.build import column_model
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
+from fecolumn.reduced.engine import column_engine
 from fecolumn.reduced.motion import copy
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import column_engine
 from fecolumn.verification.trial import N_MODES, Trial
 
 # what is known of a body: making it takes seconds, and one body serves many trials
@@ -154,10 +154,12 @@ class Expanded:
 
     @cached_property
     def x(self) -> np.ndarray:
+        """Positions (n, 3) [m] of the nodes."""
         return self._frame.center + self._arms @ self.rotation[0].T
 
     @cached_property
     def v(self) -> np.ndarray:
+        """Velocities (n, 3) [m/s] of the nodes."""
         return (
             self._frame.velocity
             + (np.cross(self._frame.spin, self._arms) + self._modal(RATE)) @ self.rotation[0].T
@@ -186,7 +188,6 @@ class ReducedTrial(Trial):
     def __init__(self, system, start=standing, n_modes: int = N_MODES):
         self.system, self.penetration = system, 0.0
         self.reduction = Reduction.of(system, n_modes)
-        interface = system.interface
         first = None if start is standing else start(system)
 
         def begin(engine):
@@ -213,14 +214,17 @@ class ReducedTrial(Trial):
         return Expanded(self.engine, self.reduction, self.system.body)
 
     def step(self, ground=(0.0, 0.0, 0.0)):
+        """Advance by one step under a ground acceleration (3,) [m/s2]; the new state."""
         self.engine.advance(np.asarray(ground, float)[None])
         self.state = self._state()
         self.penetration = max(self.penetration, -float(self.state.relative[:, 2].min()))
         return self.state
 
     def energy(self) -> dict[str, float]:
+        """Terms of the energy ledger [J] by name."""
         first = sum(width for name, width in COLUMNS if not name.startswith("energy/"))
         return dict(zip(TERMS, self.engine.row()[first:].tolist()))
 
     def mechanical(self) -> float:
+        """Kinetic, strain and potential energy [J] together."""
         return float(self.engine.mechanical())

@@ -40,6 +40,7 @@ class Row:
 
     @property
     def ok(self) -> bool:
+        """Whether the error is within the tolerance."""
         return bool(self.error <= self.tolerance)  # a NaN is not
 
 

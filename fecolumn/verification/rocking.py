@@ -7,15 +7,17 @@ column is rigid.
 Derivation. A rigid body of mass m, inertia I_O about the rim, distance R from rim to centre of mass
 and slenderness alpha (tilt at which the centre of mass stands over the rim) turns by
 
-    th'' = -p^2 {sin(alpha sgn th - th) + a_g / g cos(alpha sgn th - th)},    p^2 = m g R / I_O.        (Housner 1963)
+    th'' = -p^2 {sin(alpha sgn th - th) + a_g / g cos(alpha sgn th - th)},    p^2 = m g R / I_O
+
+(Housner 1963).
 
 Uplift: the overturning moment m a_g R cos alpha meets the restoring m g R sin alpha, a_g = g tan
 alpha.
 Quarter period from release at th0 (slender): T/4 = acosh(1 / (1 - th0/alpha)) / p.
 Plastic impact at the far edge keeps the angular momentum about it: r = 1 - 2 m R^2 sin^2(alpha) /
 I_O (velocity after over before).
-Half-sine pulse a_p sin(w t) from -g tan alpha on: just overturning without impact where
-(w/p) sin psi - cos psi = exp(-(p/w) (pi - psi)), a_p = g tan(alpha) / sin psi                          (Shi et al. 1996, slender).
+Half-sine pulse a_p sin(w t) from -g tan alpha on (Shi et al. 1996, slender): it just overturns
+without impact where (w/p) sin psi - cos psi = exp(-(p/w) (pi - psi)), a_p = g tan(alpha) / sin psi.
 
 Tolerances. Elastic foot and base tilt the column by 1e-4 alpha before it lifts off and move the
 pivot inwards by the width of a few bricks at most: 1 % on the threshold. The slender forms are off
@@ -39,7 +41,8 @@ from fecolumn.dynamics.gravity import tilted
 from fecolumn.fem.rotation import tilt_angle
 from fecolumn.verification.models import column_system
 from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import RigidRocking, Trial, begin
+from fecolumn.verification.trial import RigidRocking, Trial
+from fecolumn.verification.trials import begin_trial
 
 AMPLITUDES = (0.1, 0.2, 0.4, 0.6, 0.8)
 STEEL = 2e11
@@ -128,7 +131,7 @@ def uplift(engine: str) -> Row:
     """Ground acceleration at which the column turns about its toe, counted from a thousandth of the
     critical tilt on.
     """
-    trial = begin(engine, column_system(engine, contact={"friction_coefficient": 0.8}))
+    trial = begin_trial(engine, column_system(engine, contact={"friction_coefficient": 0.8}))
     exact, found = lifted(trial)
     return Row("uplift acceleration, mu 0.8 [m/s2]", exact, found, 0.01)
 
@@ -150,7 +153,7 @@ def release(
     """Quarter period [s] and energy lost at the first impact [J] of a release at `amplitude` of the
     critical tilt towards +x, or a little beside it [rad].
     """
-    trial = begin(engine, column_system(engine, **tables), leaning(amplitude, azimuth))
+    trial = begin_trial(engine, column_system(engine, **tables), leaning(amplitude, azimuth))
     return *rocked(trial, amplitude), trial, RigidRocking(trial.system)
 
 
@@ -311,7 +314,9 @@ def between_nodes(engine: str) -> Row:
 
 
 def overturning(engine: str) -> Row:
-    """Least half-sine pulse that overturns without impact, by bisection, against Shi et al. (1996)."""
+    """Least half-sine pulse that overturns without impact, by bisection, against Shi et al.
+    (1996).
+    """
     system = column_system(
         engine, contact={"friction_coefficient": 0.8}, integration={"dt_s": 2e-3}
     )
@@ -326,7 +331,7 @@ def overturning(engine: str) -> Row:
     exact = GRAVITY * np.tan(rigid.slenderness) / np.sin(psi)
 
     def overturns(amplitude):
-        trial = begin(engine, system)
+        trial = begin_trial(engine, system)
         onset = (
             np.arcsin(GRAVITY * np.tan(rigid.slenderness) / amplitude) / frequency
         )  # Shi's pulse starts where it lifts the column

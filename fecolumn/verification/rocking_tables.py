@@ -92,7 +92,9 @@ def _bands(rows):
 
 
 def lost(shape: str, rows) -> tuple[int, int]:
-    """Bands of a pulse that are not found within both of their ends, and all that are looked for."""
+    """Bands of a pulse that are not found within both of their ends, and all that are looked
+    for.
+    """
     missed = count = 0
     for ratio in dict.fromkeys(
         float(row["omega_p_over_p"]) for row in rows if row["pulse"] == shape

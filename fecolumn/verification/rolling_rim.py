@@ -37,7 +37,9 @@ class RollingRim:
 
     @classmethod
     def of(cls, system) -> RollingRim:
-        """That of a system's column, from its consistent mass and the farthest nodes of its foot."""
+        """That of a system's column, from its consistent mass and the farthest nodes of its
+        foot.
+        """
         column = system.body
         turns = [np.cross(axis, column.X - column.center) for axis in np.eye(3)]
         transverse, _, axial = (column.dot(turn, column.momentum(turn)) for turn in turns)

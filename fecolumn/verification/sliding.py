@@ -7,7 +7,8 @@ the ledger's friction is force times path.
 Derivation. A rigid block of mass m that does not tip, relative displacement u on a base with
 acceleration a_g, slope b, obeys
 
-    u'' = g sin(b) e_x - a_g - mu g cos(b) u' / |u'|    while it slides,    |g sin(b) e_x - a_g| <= mu g cos(b) while it sticks.
+    u'' = g sin(b) e_x - a_g - mu g cos(b) u' / |u'|    while it slides,
+    |g sin(b) e_x - a_g| <= mu g cos(b)                 while it sticks.
 
 Slope: rest for mu > tan b; else s = a t^2 / 2, a = g (sin b - mu cos b), friction takes mu m g
 cos(b) s. Ramp a_g = k t: slip starts at mu g; at a slip d since then the ground has reached mu g +
@@ -48,7 +49,8 @@ from fecolumn.verification.coulomb_block import NewmarkBlock, TurningBlock
 from fecolumn.verification.models import block_system, box, column_system
 from fecolumn.verification.result import Result, Row
 from fecolumn.verification.rocking import ramp
-from fecolumn.verification.trial import Trial, begin
+from fecolumn.verification.trial import Trial
+from fecolumn.verification.trials import begin_trial
 
 SLOPE, FRICTION = 0.3, 0.3
 RESISTANCE = FRICTION * GRAVITY
@@ -70,7 +72,9 @@ MARKS = {
 
 
 def run(engine: str, long: bool) -> Result:
-    """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless `long`."""
+    """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless
+    `long`.
+    """
     result = Result(size=(7.2, 2.5))
     result.rows += [creep(engine), *(row for share in (0.5, 0.9) for row in slope(engine, share))]
     if long or engine != "total_lagrangian":
@@ -155,7 +159,7 @@ def centre(trial: Trial) -> np.ndarray:
 
 def on_slope(engine: str, share: float, start=glued) -> Trial:
     """A block on the slope with friction `share` tan(slope)."""
-    return begin(
+    return begin_trial(
         engine,
         block(
             engine,
@@ -206,7 +210,9 @@ def slope(engine: str, share: float) -> list[Row]:
 
 
 def slipped(trial: Trial, friction: float, slip: float = 1e-6) -> float:
-    """Ground acceleration [m/s2] at which a trial's foot has slipped by `slip` [m], on a slow ramp."""
+    """Ground acceleration [m/s2] at which a trial's foot has slipped by `slip` [m], on a slow
+    ramp.
+    """
     return ramp(
         trial,
         friction * GRAVITY,
@@ -219,7 +225,7 @@ def slipped(trial: Trial, friction: float, slip: float = 1e-6) -> float:
 def threshold(engine: str) -> Row:
     """Ground acceleration of a slow ramp at which the column has slipped by 1e-6 m."""
     friction, slip = 0.05, 1e-6
-    trial = begin(
+    trial = begin_trial(
         engine,
         column_system(
             engine, contact={"friction_coefficient": friction}, integration={"dt_s": 4e-3}
@@ -238,7 +244,10 @@ def one_sine(engine: str, dt: float, shift: float):
     """(exact block, times [s], slip [m] at them, friction energy / mu m g [m]) under a pulse that
     starts `shift` dt late.
     """
-    exact, trial = NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE), begin(engine, block(engine, dt))
+    exact, trial = (
+        NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE),
+        begin_trial(engine, block(engine, dt)),
+    )
     start, path = centre(trial), [0.0]
     while trial.state.time < 0.7:
         time = trial.state.time + (1 - shift) * dt
@@ -307,7 +316,7 @@ def two_directions(engine: str, dt: float, seconds: float = 0.6):
         state.a -= state.ground
         return state
 
-    trial = begin(engine, block(engine, dt), moving)
+    trial = begin_trial(engine, block(engine, dt), moving)
     start, path, angles = centre(trial), [np.zeros(2)], []
     for _ in range(round(seconds / dt)):
         trial.step((*exact.ground(trial.state.time + dt), 0.0))
@@ -330,7 +339,7 @@ def turn_rows(turns) -> list[Row]:
         np.polyfit(np.log(STEPS), np.log([turn[k] for turn in turns.values()]), 1)[0]
         for k in (0, 3)
     )
-    for dt, (error, _, ode, angle) in turns.items():
+    for dt, (error, _, ode, _) in turns.items():
         size = np.linalg.norm(ode[-1])
         rows.append(
             Row(
@@ -346,7 +355,7 @@ def turn_rows(turns) -> list[Row]:
         Row(
             f"angle of friction to -velocity, dt {dt:g} s, largest [rad]",
             0.0,
-            angle,
+            turns[dt][3],
             w * dt / 2,
             order=direction,
         )
@@ -365,7 +374,7 @@ def rest(engine: str) -> Row:
         state.v[:, 0] = 16.5 * RESISTANCE * dt
         return state
 
-    trial = begin(engine, block(engine, dt), pushed)
+    trial = begin_trial(engine, block(engine, dt), pushed)
     for _ in range(67):
         trial.step()
     return Row(

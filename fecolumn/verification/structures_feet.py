@@ -222,7 +222,9 @@ def _swings(name: str, body: dict, engine: str, dt: float = 1e-3, amplitude: flo
 
 
 def _overturns(engine: str, dt: float = 1e-4):
-    """A test tube, whose bottom is half a sphere: its centre of mass is above that of the sphere."""
+    """A test tube, whose bottom is half a sphere: its centre of mass is above that of the
+    sphere.
+    """
     body, spin, tilt = TUBE | dict(foot_radius_m=0.01), 0.5, 0.6
     rolling = Rolling(structure_model(alone(body, engine, dt)).parts[0].model, 0.01)
     rows, columns = advanced(alone(body, engine, dt, spin_rad_s=[0.0, spin, 0.0]), 0.5)

@@ -31,6 +31,7 @@ class Finding:
 
     @property
     def ok(self) -> bool:
+        """Whether the case ran and all of its rows hold."""
         return not self.failure and all(row.ok for row in self.rows)
 
 
@@ -91,9 +92,10 @@ def verify(pairs, folder: Path, long: bool = False, workers: int = 1, show=print
 
 
 def header() -> str:
+    """Titles of the columns of `lines`."""
     return (
-        f"{'case, quantity':<{_WIDTH}}{'exact':>12}{'computed':>12}{'error':>10}{'allowed':>10}{'order':>7} "
-        " ok"
+        f"{'case, quantity':<{_WIDTH}}{'exact':>12}{'computed':>12}{'error':>10}"
+        f"{'allowed':>10}{'order':>7}  ok"
     )
 
 
@@ -103,9 +105,8 @@ def lines(finding: Finding) -> str:
     for row in finding.rows:
         order = f"{row.order:.2f}" if row.order is not None else ""
         text.append(
-            "  "
-            f"{row.quantity:<{_WIDTH - 2}}{row.exact:>12.5g}{row.computed:>12.5g}{row.error:>10.1e}{row.tolerance:>10.1e}{order:>7}"
-            f"  {'yes' if row.ok else 'NO'}"
+            f"  {row.quantity:<{_WIDTH - 2}}{row.exact:>12.5g}{row.computed:>12.5g}"
+            f"{row.error:>10.1e}{row.tolerance:>10.1e}{order:>7}  {'yes' if row.ok else 'NO'}"
         )
     if finding.failure:
         text.append(f"  FAILED: {finding.failure}")

@@ -41,7 +41,9 @@ def tied_blocks(engine: str, lower, upper, height: float) -> Tied:
 
 
 def end_areas(body, mesh, z: float) -> np.ndarray:
-    """Tributary areas (n_owned,) [m2] of a body's nodes in its end at height z [m], nil elsewhere."""
+    """Tributary areas (n_owned,) [m2] of a body's nodes in its end at height z [m], nil
+    elsewhere.
+    """
     at_end = np.any(mesh.points[mesh.cells, 2] == z, axis=1)
     quads = boundary_faces(mesh, mesh.part[at_end][0], z, 1e-9)
     return nodal_areas(

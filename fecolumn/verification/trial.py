@@ -11,7 +11,6 @@ from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.dynamics.system import State
-from fecolumn.verification import FULL
 
 #: Elastic modes with inertia of the engine "reduced": a case's default.
 N_MODES = Integration().n_modes
@@ -42,7 +41,9 @@ class Trial:
     Attributes
     ----------
     state
-        the present state. penetration: deepest so far [m].
+        the present state.
+    penetration
+        deepest so far [m].
     """
 
     def __init__(self, system, start=standing, impact: str = "plastic"):
@@ -92,19 +93,6 @@ class Trial:
         return self.state.x[node] - self.system.body.X[node]
 
 
-def begin(
-    engine: str, system, start=standing, impact: str = "plastic", n_modes: int = N_MODES
-) -> Trial:
-    """A trial of a system in an engine of `verification.ELEMENTS`; arguments as of `Trial`, n_modes
-    of `ReducedTrial`.
-    """
-    if engine in FULL:
-        return Trial(system, start, impact)
-    from fecolumn.verification.reduced_trial import ReducedTrial
-
-    return ReducedTrial(system, start, n_modes if engine == "reduced" else 0)
-
-
 def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:
     """Velocity (n,) [m/s] by which the solver may let an analysis that began at 0 drift until
     `times` (n,) [s].
@@ -125,9 +113,15 @@ class RigidRocking:
     Attributes
     ----------
     slenderness
-        critical tilt alpha [rad]. diagonal: R from rim to centre of mass [m]. inertia: I_O about
-        the rim
-    [kg m2]. p: sqrt(m g R / I_O) [rad/s]. restitution: 1 - 2 m R^2 sin^2(alpha) / I_O [-].
+        critical tilt alpha [rad].
+    diagonal
+        R from rim to centre of mass [m].
+    inertia
+        I_O about the rim [kg m2].
+    p
+        sqrt(m g R / I_O) [rad/s].
+    restitution
+        1 - 2 m R^2 sin^2(alpha) / I_O [-].
     """
 
     def __init__(self, system):

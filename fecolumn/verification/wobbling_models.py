@@ -165,7 +165,7 @@ def _statics(frame):
 def _samples():
     for name, (planned, p, pairs) in BINS.items():
         found = samples_of_p(p, planned - 17, planned)
-        for place, (n, k) in enumerate(pairs):
+        for n, k in pairs:
             yield Row(
                 f"{name}: p of n = {n}, D = {k}/{n} [-] (W, Table 2)",
                 p,
@@ -196,7 +196,7 @@ def _samples():
 def _energy(frame, paths):
     from fecolumn.rocking.wobbling_motion import SPIN, TILT, energies
 
-    for turn, (rows, passages, _) in paths.items():
+    for turn, (rows, _, _) in paths.items():
         total, words = (
             energies(frame.body, rows).sum(axis=1),
             f"free motion from 0.05 rad, {turn:g} rad/s",

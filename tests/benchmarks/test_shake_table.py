@@ -31,13 +31,13 @@ OVERTURNS = {1: False, 2: True, 3: False}
 MISSING = 4
 
 
-def box_file(path, turn=np.eye(3)):
+def box_file(path, turn=((1, 0, 0), (0, 1, 0), (0, 0, 1))):
     """A closed .obj of the box, far from the origin as scans are, wound inside out as the
     campaign's is.
     """
     corners = np.array(
         [(x, y, z) for x in (0, LENGTH) for y in (0, WIDTH) for z in (0, HEIGHT)]
-    ) @ turn.T + [100.0, 50.0, 300.0]
+    ) @ np.transpose(turn) + [100.0, 50.0, 300.0]
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     triangles = [(a, b, c) for p, q, r, s in quads for a, b, c in ((p, r, q), (p, s, r))]
     lines = ["v {:.9f} {:.9f} {:.9f}".format(*corner) for corner in corners] + [

@@ -112,7 +112,7 @@ def test_surfaces_without_corners_holes_and_parts_left_out_are_convex():
     assert not is_convex(grid_of([[1, 1, 1], [1, 0, 0], [1, 1, 1]], known=False))
 
 
-def test_points_over_nodes_that_lack_inside_a_surface_are_unknown_and_those_beyond_its_outline_off_it():
+def test_points_over_missing_nodes_of_a_surface_are_unknown_and_those_beyond_its_outline_off_it():
     facets, rng = grid_of([[1, 1, 1], [1, 0, 1], [1, 1, 1]], known=False), np.random.default_rng(7)
     interface = np.zeros(1, INTERFACE)
     interface["facet_count"], interface["width"], interface["convex"] = len(facets), 1.0, True

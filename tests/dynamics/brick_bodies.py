@@ -18,7 +18,7 @@ from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.effective import blocks, unit_loads
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.modes import elastic_modes
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts as reduced_of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
@@ -186,7 +186,7 @@ class Structure:
         eye = view_of(model, structure, structure.bodies.body["mass"].sum() * 9.81)
         return Engine(
             lambda step: structure_of(model, step, GRAVITY),
-            model.base,
+            model.bases,
             eye,
             hht,
             lambda made: reduced_of_parts(made, model.parts, stands),

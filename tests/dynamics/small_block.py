@@ -4,7 +4,7 @@ import numpy as np
 
 from fecolumn.dynamics.hht import HHT
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 
 ENGINES = ("corotated", "rigid")
 G = 9.80665
@@ -22,7 +22,7 @@ def block(width, height, dt=1e-3, alpha=0.0, bricks=1, plate=(0.5, 0.5), **optio
 
 
 def trial(engine, system, start, n_modes=30):
-    return begin(engine, system, start, n_modes=n_modes)
+    return begin_trial(engine, system, start, n_modes=n_modes)
 
 
 def centre(trial):

@@ -1,4 +1,6 @@
-"""Damping of elastic modes: what it takes from them, and that it takes nothing from rigid motion."""
+"""Damping of elastic modes: what it takes from them, and that it takes nothing from rigid
+motion.
+"""
 
 import numpy as np
 import pytest
@@ -72,7 +74,7 @@ def test_a_damped_landing_closes_its_ledger_in_both_engines_and_loses_the_same()
         one = trial(
             engine,
             system,
-            lambda system: afloat(
+            lambda system, still=still: afloat(
                 system, still, still + [0.0, 0.0, -0.1], still + [0.0, 0.0, -9.80665], 5e-5
             ),
         )

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from fecolumn.contact.rim import lowest
 from fecolumn.dynamics.gravity import tilted
 from fecolumn.verification.rolling_rim import RollingRim
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 from fecolumn.verification.wobbling import rolling
 
 TILT, RESISTANCE = 0.03, 5e-4
@@ -23,7 +23,7 @@ def wobble(engine, steps):
         contact={"friction_coefficient": 0.8, "rolling_resistance": RESISTANCE},
     )
     rim = RollingRim.of(system)
-    one = begin(engine, system, rolling(rim, TILT, rim.untwisted(TILT)))
+    one = begin_trial(engine, system, rolling(rim, TILT, rim.untwisted(TILT)))
     angles = []
     for _ in range(steps):
         one.step()
@@ -69,7 +69,7 @@ def test_planar_rocking_does_not_roll():
         integration={"dt_s": 1e-3},
         contact={"friction_coefficient": 0.8, "rolling_resistance": RESISTANCE},
     )
-    one = begin("rigid", system, lambda system: tilted(system, 0.03, 0.0))
+    one = begin_trial("rigid", system, lambda system: tilted(system, 0.03, 0.0))
     for _ in range(300):
         one.step()
     assert one.energy()["impact"] < 0 and abs(one.energy()["rolling"]) < 1e-3 * abs(

@@ -20,7 +20,8 @@ points = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1)
 mesh = _dolfinx.create_brick_mesh(MPI.COMM_WORLD, points, np.arange(8)[None])
 print("begins", flush=True)
 space = _dolfinx.vector_space(mesh, 1)
-mass = _dolfinx.assemble_matrix(ufl.inner(ufl.TrialFunction(space), ufl.TestFunction(space)) * ufl.dx)
+u, w = ufl.TrialFunction(space), ufl.TestFunction(space)
+mass = _dolfinx.assemble_matrix(ufl.inner(u, w) * ufl.dx)
 print("mass", sum(mass.getRow(row)[1].sum() for row in range(24)))
 """
 

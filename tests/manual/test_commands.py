@@ -74,7 +74,7 @@ def test_links_lead_somewhere(page):
 def test_every_fenced_block_has_a_language_that_is_tested():
     for page in PAGES:
         fences = re.findall(r"^```(.*)$", PAGES[page].read_text(encoding="utf-8"), re.MULTILINE)
-        assert {fence for fence in fences[::2]} <= {*SHELLS, "toml", "python", "csv"}, page
+        assert set(fences[::2]) <= {*SHELLS, "toml", "python", "csv"}, page
         assert not any(fences[1::2]), page
 
 

@@ -5,8 +5,8 @@ import numpy as np
 from fecolumn.dynamics import gravity
 from fecolumn.reduced import start
 from fecolumn.reduced.build import column_model
+from fecolumn.reduced.engine import column_engine
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import column_engine
 from fecolumn.verification.models import column_system
 from fecolumn.verification.trial import Trial
 

@@ -9,7 +9,7 @@ from fecolumn.case import GRAVITY, Initial
 from fecolumn.dynamics.gravity import begin as begin_state
 from fecolumn.dynamics.gravity import standing
 from fecolumn.verification.models import column_system
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 
 # a stout steel tube with 24 bricks around and two through the wall
 STOUT = dict(
@@ -78,7 +78,7 @@ def test_column_settles_by_its_weight_over_the_subgrade(on_pad):
     assert area == pytest.approx(
         np.pi * (0.1**2 - 0.06**2), rel=0.02
     )  # of a polygon with 20 corners
-    state = begin("rigid", on_pad).state
+    state = begin_trial("rigid", on_pad).state
     assert state.contact["indentation"][:, 2] == pytest.approx(
         on_pad.weight / (SUBGRADE * area), rel=1e-4
     )
@@ -89,7 +89,7 @@ def test_column_bounces_on_its_pad_as_a_damped_oscillator(on_pad):
     """m z'' + c z' + k A z = 0 with the damping ratio of the case, released with 5 mm/s down: z =
     -(v / w_d) exp(-D w t) sin(w_d t).
     """
-    trial = begin("rigid", on_pad, moved(lambda x: np.tile([0.0, 0.0, -0.005], (len(x), 1))))
+    trial = begin_trial("rigid", on_pad, moved(lambda x: np.tile([0.0, 0.0, -0.005], (len(x), 1))))
     w = np.sqrt(on_pad.laws["pad"].stiffness[:, 2].sum() / on_pad.body.total_mass)
     damped, times = w * np.sqrt(1 - 0.05**2), 5e-4 * np.arange(1, round(3 * 2 * np.pi / w / 5e-4))
     still = trial.top()[2]
@@ -104,7 +104,7 @@ def test_column_bounces_on_its_pad_as_a_damped_oscillator(on_pad):
     assert abs(energy["closure"]) < 1e-8 * abs(energy["damping"])
 
 
-def test_rigid_column_rocks_on_springs_with_the_frequency_of_the_whole_foot_and_lifts_at_its_uplift_moment():
+def test_rigid_column_on_springs_has_the_frequency_of_its_whole_foot_and_lifts_at_its_moment():
     """Stiff along, undamped: it turns about the foot's middle, I_O q'' + (k I_f - m g h) q = 0,
     until k q R = W / A lifts the rim.
     """
@@ -120,7 +120,7 @@ def test_rigid_column_rocks_on_springs_with_the_frequency_of_the_whole_foot_and_
     uplift = system.weight / (SUBGRADE * system.footprint.areas.sum() * edge)
     times = 5e-4 * np.arange(1, round(2 * np.pi / w / 5e-4))
     for share, lifts in ((0.97, False), (1.06, True)):
-        trial, tilts, least = begin("rigid", system, turning(share * uplift * w)), [], np.inf
+        trial, tilts, least = begin_trial("rigid", system, turning(share * uplift * w)), [], np.inf
         for _ in times:
             state = trial.step()
             tilts.append(state.rotation[0, 0, 2])
@@ -132,7 +132,7 @@ def test_rigid_column_rocks_on_springs_with_the_frequency_of_the_whole_foot_and_
 
 
 def test_column_that_rocks_off_half_its_pad_loses_to_its_dashpots_alone(on_pad):
-    trial = begin("rigid", on_pad, turning(1.2))
+    trial = begin_trial("rigid", on_pad, turning(1.2))
     lost, moves, least = [0.0], trial.energy()["kinetic"], np.inf
     for _ in range(300):
         least = min(least, (trial.step().forces[:, 2] > 0).sum())
@@ -148,7 +148,9 @@ def test_column_that_rocks_off_half_its_pad_loses_to_its_dashpots_alone(on_pad):
 
 
 def test_flat_without_edges_is_the_plate_near_its_middle():
-    """Layer and plate differ by the plate's edges only, here by 1e-3 of micrometres of settlement."""
+    """Layer and plate differ by the plate's edges only, here by 1e-3 of micrometres of
+    settlement.
+    """
     ground = np.array(
         [[8.0 * np.sin(40 * 1e-3 * k), 3.0 * np.sin(55 * 1e-3 * k), 0.0] for k in range(1, 61)]
     )
@@ -157,7 +159,7 @@ def test_flat_without_edges_is_the_plate_near_its_middle():
         {"length_m": 0.4, "width_m": 0.4, "slide_allowance_m": 0.06},
         {"kind": "unbounded"},
     ):
-        trial = begin("rigid", system_of(base, integration={"dt_s": 1e-3}))
+        trial = begin_trial("rigid", system_of(base, integration={"dt_s": 1e-3}))
         for one in ground:
             trial.step(one)
         paths.append(trial.top())
@@ -172,7 +174,7 @@ def test_column_slides_over_a_flat_without_edges_as_newmark_has_it():
     system = system_of(
         {"kind": "unbounded"}, contact={"friction_coefficient": 0.05}, integration={"dt_s": 4e-3}
     )
-    trial = begin(
+    trial = begin_trial(
         "rigid", system, lambda system: begin_state(system, Initial(velocity_m_s=(0.6, 0.0, 0.0)))
     )
     start = trial.state.anchors.mean(axis=0)

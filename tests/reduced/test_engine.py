@@ -34,7 +34,9 @@ def test_free_rocking_is_that_of_the_full_engine():
 
 @pytest.mark.parametrize("alpha", [0.0, pytest.param(-0.1, marks=pytest.mark.slow)])
 def test_shaken_column_slides_rocks_and_wobbles_as_in_the_full_engine(alpha):
-    """Eight impacts and a slide in 0.2 s: top within 1e-3 of its peak; contact takes energy only."""
+    """Eight impacts and a slide in 0.2 s: top within 1e-3 of its peak; contact takes energy
+    only.
+    """
     system = system_of(
         integration={"dt_s": 1e-3, "alpha_hht": alpha}, base={"length_m": 0.4, "width_m": 0.4}
     )

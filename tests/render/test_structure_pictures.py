@@ -1,4 +1,6 @@
-"""Pictures of structures of many bodies: movies, stills, files for ParaView; and what is refused."""
+"""Pictures of structures of many bodies: movies, stills, files for ParaView; and what is
+refused.
+"""
 
 import shutil
 
@@ -92,7 +94,9 @@ def test_paraview_opens_a_structure_as_a_time_series(gate, building):
 
 
 def test_fields_that_an_analysis_wrote_are_drawn_as_its_states_are(gate, tmp_path):
-    """As the full-order engine writes them: here from the states, so that both must show the same."""
+    """As the full-order engine writes them: here from the states, so that both must show the
+    same.
+    """
     render(gate, Wish(paraview=True), quiet=True)
     folder = shutil.copytree(
         gate, tmp_path / "run", ignore=shutil.ignore_patterns("render", "states.h5")

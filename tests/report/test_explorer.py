@@ -21,7 +21,9 @@ MOTIONS = 9
 
 
 def write_history(folder, peak: float, duration: float, rows: int = 3000) -> None:
-    """A rocking of a given peak [m] as history.h5: a wobble that decays, with the kinks of impacts."""
+    """A rocking of a given peak [m] as history.h5: a wobble that decays, with the kinks of
+    impacts.
+    """
     time = np.linspace(0.0, duration, rows)
     size = np.sin(np.pi * time / duration) * np.exp(-time / duration)
     u = np.column_stack(

@@ -132,7 +132,9 @@ class Reader:
         return [button.text for button in self.part("list").find_elements("css selector", "button")]
 
     def lines(self, name: str) -> list[str]:
-        """Points of the lines of a chart that are not black (foot and critical displacement are)."""
+        """Points of the lines of a chart that are not black (foot and critical displacement
+        are).
+        """
         return [
             one.get_attribute("points")
             for one in self.part(name).find_elements("css selector", "polyline")

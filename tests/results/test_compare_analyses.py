@@ -1,4 +1,6 @@
-"""fecolumn compare of two analyses: when they part, by how much, and what of their cases differs."""
+"""fecolumn compare of two analyses: when they part, by how much, and what of their cases
+differs.
+"""
 
 import csv
 import json

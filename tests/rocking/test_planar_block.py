@@ -92,7 +92,9 @@ def test_restoring_moment_is_the_slope_of_the_potential(keys):
     rocker = block(**keys).planes[0].rocker
     for side in (1, -1):
         for lean in (0.05, 0.2, 0.6):
-            work = quad(lambda phi: float(rocker.restoring(phi, side)), 0, lean, epsabs=1e-9)[0]
+            work = quad(
+                lambda phi, side=side: float(rocker.restoring(phi, side)), 0, lean, epsabs=1e-9
+            )[0]
             assert sum(rocker.potential(lean, side)) == pytest.approx(work, rel=1e-9)
 
 

@@ -34,7 +34,9 @@ def test_kolmogorov_smirnov_without_overturns_is_scipys_exact_one(n, m):
 
 
 def test_kolmogorov_smirnov_with_overturns_counts_all_orders():
-    """All 252 ways to deal ten runs, six of them overturned, to two settings, counted one by one."""
+    """All 252 ways to deal ten runs, six of them overturned, to two settings, counted one by
+    one.
+    """
     pooled = np.array([1, 2, 3, 4] + [math.inf] * 6)
     a, b = pooled[[0, 1, 2, 4, 5]], pooled[[3, 6, 7, 8, 9]]
 

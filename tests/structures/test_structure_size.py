@@ -94,7 +94,7 @@ def test_elements_that_would_not_fit_are_refused_at_once_with_a_size_that_fits(k
         dict(outer_diameter_m=0.3, height_m=0.5)
         if kind in ("cylinder", "tube")
         else dict(length_m=0.3, width_m=0.2)
-        | dict({"thickness_m" if kind == "plate" else "height_m": 0.1})
+        | {"thickness_m" if kind == "plate" else "height_m": 0.1}
     )
 
     def case(value):

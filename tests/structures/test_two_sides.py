@@ -2,8 +2,6 @@
 every engine, whichever body is named first.
 """
 
-import warnings
-
 import numpy as np
 import pytest
 
@@ -199,48 +197,3 @@ def test_a_landing_in_a_part_of_a_step_is_plastic(displaced):
         integration=dict(engine="rigid", dt_s=5e-4, duration_s=1.0, substeps="impacts"),
     )
     assert abs(rocked(made, rocks(*arms(displaced)), 0.0)[3]) < 1e-5
-
-
-def test_outlines_that_cross_of_faces_that_are_not_convex_are_told(tmp_path):
-    import meshio
-
-    across = np.array([-0.3, -0.1, 0.1, 0.3])
-    columns = [(i, j) for i in range(3) for j in range(3) if 1 in (i, j)]
-    corners = ((0, 0), (1, 0), (1, 1), (0, 1))
-    points = [
-        (across[i + a], across[j + b], z)
-        for i, j in columns
-        for z in (0.0, 0.2)
-        for a, b in corners
-    ]
-    places, cells = np.unique(np.array(points), axis=0, return_inverse=True)
-    meshio.Mesh(places, [("hexahedron", cells.reshape(-1, 8))]).write(tmp_path / "plus.vtk")
-    plus = dict(
-        kind="mesh",
-        mesh_file=str(tmp_path / "plus.vtk"),
-        density_kg_m3=2000.0,
-        youngs_modulus_pa=1e10,
-        poissons_ratio=0.2,
-    )
-
-    def model(turned):
-        return structure_model(
-            case_from_tables(
-                dict(
-                    bodies=dict(low=plus, up=plus | dict(at_m=[0.0, 0.0, 0.2], turned_deg=turned)),
-                    interfaces=dict(
-                        feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])
-                    ),
-                ),
-                "a test",
-            )
-        )
-
-    with pytest.warns(
-        UserWarning,
-        match='interfaces.joint: outlines of "up" and "low" cross, and one of them is not convex',
-    ):
-        model(45.0)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        model(0.0)

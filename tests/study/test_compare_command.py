@@ -1,4 +1,6 @@
-"""fecolumn compare: studies, settings of a study, and an experiment's maxima, by the same command."""
+"""fecolumn compare: studies, settings of a study, and an experiment's maxima, by the same
+command.
+"""
 
 import csv
 import io

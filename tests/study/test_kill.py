@@ -103,9 +103,8 @@ def test_killed_at_random_moments_a_study_gives_the_bytes_of_an_uninterrupted_on
     )
 
     out, kept, kills = tmp_path / "out", {}, 0
-    for turn in range(
-        8
-    ):  # that all is done before the last one, two workers at 0.2 s an analysis are too slow by design
+    # two workers at 0.2 s an analysis are too slow to be done before the last turn
+    for turn in range(8):
         driver = _driver(study, out, "--retry-failed", sleep_s=0.2)
         if turn % 3:  # in the middle of the work, however fast the machine is; else while it starts
             _wait_for_results(driver, out, len(kept) + draw.randint(1, 12))

@@ -396,7 +396,7 @@ def test_what_a_new_machine_makes_first_is_seen_in_its_cache(
         _compiled.compiled_folder.cache_clear()
 
 
-def test_a_model_is_being_made_while_a_process_holds_its_lock_and_not_where_a_killed_one_left_the_file(
+def test_a_model_is_being_made_while_a_process_holds_its_lock_and_not_after_that_was_killed(
     tmp_path, monkeypatch
 ):
     monkeypatch.setenv("FECOLUMN_CACHE", str(tmp_path))
