@@ -80,7 +80,7 @@ def structure_system(
     return System(
         composite,
         CompositeKinematics(composite, kinematics),
-        model.base,
+        model.bases,
         nodes,
         joints_of(parts, model.joints),
         gravity,
@@ -88,6 +88,7 @@ def structure_system(
         filtered,
         damping,
         links_of(model, hht),
+        model.levels,
     )
 
 

@@ -253,10 +253,6 @@ class ReducedAnalysis(Analysis):
             sum(base.made_cpu_s for base in self.bases),
         )
 
-    def grounds(self, step: int) -> np.ndarray:
-        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        return self.ground(step)
-
     def _note(self, rows: np.ndarray) -> None:
         columns, place = {}, 0
         for name, width in COLUMNS:

@@ -59,6 +59,55 @@ class OfStructure:
             self._barrier_j = least_barrier(self.structure, standing_of(self.case, self.structure))
         return self._barrier_j
 
+    def _load_motion(self, file):
+        from fecolumn.motions.load import load_motion
+
+        dt, first = self.case.integration.dt_s, super()._load_motion(file)
+        #: Motion of each ground, None of one at rest.
+        self.motions = [
+            load_motion(one.motion, dt, file) if one.motion else first
+            for one in self.case.grounds.values()
+        ]
+        return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
+
+    def ground(self, step: int) -> np.ndarray:
+        return self.grounds(step)[:3]
+
+    def grounds(self, step: int) -> np.ndarray:
+        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
+        found = np.zeros((len(self.motions), 3))
+        for own, motion in zip(found, self.motions):
+            if motion is not None and step < len(motion.acceleration):
+                own[:] = motion.acceleration[step]
+        return found.ravel()
+
+    def off_ground(self, failure, bases, grounds, foot) -> Ending | None:
+        """The ending of a structure whose step failed because a foot met the edge of its ground, one
+        of `bases` and of `grounds` (G,) of GROUND; None for another failure.
+
+        Parameters
+        ----------
+        foot
+            function of a joint, the model of its slave and rows (k,) of that: places (k, 3) [m] and
+            velocities (k, 3) [m/s].
+        """
+        for joint in self.structure.joints:
+            if joint.master != GROUND:
+                continue
+            part, ground = self.structure.parts[joint.slave], grounds[joint.ground]
+            nodes = part.model.surfaces[joint.slave_surface].nodes
+            places, velocities = foot(joint, part.model, nodes)
+            ending = self.slid_off(
+                failure,
+                bases[joint.ground],
+                places - ground["place"],
+                velocities - ground["velocity"],
+            )
+            if ending is not None:
+                self._off = part.name
+                return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
+        return None
+
     def limits(self) -> dict:
         """Of the summary: the least tilt of a body at which it would overturn by itself, None where
         none stands so; of a structure no displacement is known beyond which it falls.
@@ -138,45 +187,17 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
             self._keep()
 
     def _off_base(self, failure) -> Ending | None:
-        motion, joints = self.engine.motion, self.structure.joints
-        for joint in joints:
-            if joint.master != GROUND:
-                continue
-            part, frame = self.structure.parts[joint.slave], motion.frames[joint.slave]
-            arms = part.model.arms[part.model.surfaces[joint.slave_surface].nodes]
-            turn, ground = motion.rotation[joint.slave].T, motion.grounds[joint.ground]
-            ending = self.slid_off(
-                failure,
-                self.bases[joint.ground],
-                frame["center"] + arms @ turn - ground["place"],
-                frame["velocity"] + np.cross(frame["spin"], arms) @ turn - ground["velocity"],
+        motion = self.engine.motion
+
+        def foot(joint, model, nodes):
+            frame, arms = motion.frames[joint.slave], model.arms[nodes]
+            turn = motion.rotation[joint.slave].T
+            return (
+                frame["center"] + arms @ turn,
+                frame["velocity"] + np.cross(frame["spin"], arms) @ turn,
             )
-            if ending is not None:
-                self._off = part.name
-                return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
-        return None
 
-    def _load_motion(self, file):
-        from fecolumn.motions.load import load_motion
-
-        dt, first = self.case.integration.dt_s, super()._load_motion(file)
-        #: Motion of each ground, None of one at rest.
-        self.motions = [
-            load_motion(one.motion, dt, file) if one.motion else first
-            for one in self.case.grounds.values()
-        ]
-        return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
-
-    def ground(self, step: int) -> np.ndarray:
-        return self.grounds(step)[:3]
-
-    def grounds(self, step: int) -> np.ndarray:
-        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        found = np.zeros((len(self.motions), 3))
-        for own, motion in zip(found, self.motions):
-            if motion is not None and step < len(motion.acceleration):
-                own[:] = motion.acceleration[step]
-        return found.ravel()
+        return self.off_ground(failure, self.bases, motion.grounds, foot)
 
     def _standing_energy(self, file) -> float:
         """As `reduced.analysis.standing_energy`."""

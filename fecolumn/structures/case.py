@@ -91,6 +91,7 @@ class StructureCase:
     observed: str = ""
     motion: Motion | None = None
     mesh: Mesh = Mesh()
+    grounds: dict[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
     short: ShortForm | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self):

@@ -9,6 +9,7 @@ from fecolumn.dynamics.analysis import FullAnalysis
 from fecolumn.schema import InputError
 from fecolumn.structures.analysis import OfStructure
 from fecolumn.structures.engine import leans, upright
+from fecolumn.structures.pads import warn_of_grounds
 
 
 class FullStructureAnalysis(OfStructure, FullAnalysis):
@@ -27,7 +28,7 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
         self.standing = upright(case, self.structure)
         damped = [case.modes_of(name) for name in case.bodies for _ in case.names_of(name)]
         plastic = case.contact.impact == "plastic"
-        if not plastic and any(getattr(joint, "pad", None) for joint in self.structure.joints):
+        if not plastic and any(joint.pad for joint in self.structure.joints):
             raise InputError(
                 file,
                 "contact.impact",
@@ -68,6 +69,11 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
             self.system.bodies, self.meshed, self.standing, self.system.interface.points
         )
 
-    def foot(self) -> tuple[np.ndarray, np.ndarray]:
-        places = self.system.interface.node_positions(self.state.x, self.state.rotation)
-        return places, np.zeros_like(places)  # the ground has no edge
+    def warn_of_grounds(self, file) -> None:
+        warn_of_grounds(self.case, self.structure, file)
+
+    def off_base(self, failure):
+        def foot(joint, _, nodes):
+            return self.foot(joint.slave, self.meshed[joint.slave].nodes[nodes])
+
+        return self.off_ground(failure, self.system.bases, self.state.grounds, foot)

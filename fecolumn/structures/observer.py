@@ -7,8 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, poses_of
-from fecolumn.dynamics.linkage import STILL
+from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, never_alone
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.reduced.structure import LOST
@@ -42,7 +41,9 @@ class StructureObserver:
             np.array([getattr(part, name) for part in structure.parts])
             for name in ("center", "rotation")
         )
-        reference = poses_of(system.interface.interfaces, self._centers, upright, STILL)
+        reference = poses_of(
+            system.interface.interfaces, self._centers, upright, grounds_at(structure.levels)
+        )
         self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
         standing = [joint for joint in structure.joints if joint.slave == self.body]
         nodes = part.model.surfaces[standing[0].slave_surface].nodes if standing else []
@@ -76,7 +77,7 @@ class StructureObserver:
             penetration=max(
                 0.0, -float(state.relative[state.contact["located"], 2].min(initial=0.0))
             ),
-            ground=state.ground,
+            ground=state.ground[:3],
         )
         for b, part in enumerate(structure.parts):
             row |= {
@@ -84,7 +85,7 @@ class StructureObserver:
                 f"body/{part.name}/tilt": tilt_angle(R[b]),
                 f"mark/{part.name}.top/displacement": tops[b],
             }
-        poses = poses_of(interface.interfaces, moved + self._centers, R, STILL)
+        poses = poses_of(interface.interfaces, moved + self._centers, R, state.grounds)
         normal = np.bincount(
             interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses)
         )
@@ -125,7 +126,7 @@ class StructureObserver:
         LOST.
         """
         if any(
-            center[2] + measures[f"body/{part.name}/displacement"][2] < 0
+            center[2] + measures[f"body/{part.name}/displacement"][2] < min(self.structure.levels)
             for center, part in zip(self._centers, self.structure.parts)
         ):
             return FELL
