@@ -103,6 +103,10 @@ class Analysis:
             return np.zeros(3)
         return self.motion.acceleration[step]
 
+    def grounds(self, step: int) -> np.ndarray:
+        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
+        return self.ground(step)
+
     def steepest(self, step: int) -> float:
         """Tangent of the steepest inclination of apparent gravity from a step on; see
         `dynamics.overturning`.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from fecolumn.dynamics.overturning import FELL
@@ -9,7 +11,8 @@ from fecolumn.ending import SLID_OFF, Ending
 from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.lost import limits_of
-from fecolumn.structures.model import StructureModel
+from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.shaking import accelerations, motions_of
 from fecolumn.structures.structure import standing_of
 
 _WHOLE = (
@@ -41,6 +44,45 @@ class OfStructure:
         if self._barrier_j is None:
             self._barrier_j = least_barrier(self.structure, standing_of(self.case, self.structure))
         return self._barrier_j
+
+    def _load_motion(self, file):
+        #: Motion of each ground, None of one at rest; that which lasts longest is told.
+        self.motions = motions_of(self.case, super()._load_motion(file), file)
+        return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
+
+    def ground(self, step: int) -> np.ndarray:
+        return self.grounds(step)[:3]
+
+    def grounds(self, step: int) -> np.ndarray:
+        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
+        return accelerations(self.motions, step)
+
+    def off_ground(self, failure, bases, grounds, foot) -> Ending | None:
+        """The ending of a structure whose step failed because a foot met the edge of its ground, one
+        of `bases` and of `grounds` (G,) of GROUND; None for another failure.
+
+        Parameters
+        ----------
+        foot
+            function of a joint, the model of its slave and rows (k,) of that: places (k, 3) [m] and
+            velocities (k, 3) [m/s].
+        """
+        for joint in self.structure.joints:
+            if joint.master != GROUND:
+                continue
+            part, ground = self.structure.parts[joint.slave], grounds[joint.ground]
+            nodes = part.model.surfaces[joint.slave_surface].nodes
+            places, velocities = foot(joint, part.model, nodes)
+            ending = self.slid_off(
+                failure,
+                bases[joint.ground],
+                places - ground["place"],
+                velocities - ground["velocity"],
+            )
+            if ending is not None:
+                self._off = part.name
+                return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
+        return None
 
     def limits(self) -> dict:
         """Of the summary: the least tilt of a body at which it would overturn by itself, None where

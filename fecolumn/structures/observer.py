@@ -8,8 +8,7 @@ import numpy as np
 
 from fecolumn._compiled import interpreted
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, poses_of
-from fecolumn.dynamics.linkage import STILL
+from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, gone, never_alone
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.structures.analysis import of_both_sides
@@ -45,7 +44,9 @@ class StructureObserver:
             np.array([getattr(part, name) for part in structure.parts])
             for name in ("center", "rotation")
         )
-        reference = poses_of(system.interface.interfaces, self._centers, upright, STILL)
+        reference = poses_of(
+            system.interface.interfaces, self._centers, upright, grounds_at(structure.levels)
+        )
         self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
         standing = [joint for joint in structure.joints if joint.slave == self.body]
         nodes = part.model.surfaces[standing[0].slave_surface].nodes if standing else []
@@ -79,7 +80,7 @@ class StructureObserver:
             penetration=max(
                 0.0, -float(state.relative[state.contact["located"], 2].min(initial=0.0))
             ),
-            ground=state.ground,
+            ground=state.ground[:3],
         )
         for b, part in enumerate(structure.parts):
             row |= {
@@ -87,7 +88,7 @@ class StructureObserver:
                 f"body/{part.name}/tilt": tilt_angle(R[b]),
                 f"mark/{part.name}.top/displacement": tops[b],
             }
-        poses = poses_of(interface.interfaces, moved + self._centers, R, STILL)
+        poses = poses_of(interface.interfaces, moved + self._centers, R, state.grounds)
         normal = np.bincount(
             interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses)
         )
@@ -127,7 +128,9 @@ class StructureObserver:
         """As `reduced.observe.lost`; on all ranks together."""
         tilts = []
         for center, part in zip(self._centers, self.structure.parts):
-            if center[2] + measures[f"body/{part.name}/displacement"][2] < 0:
+            if center[2] + measures[f"body/{part.name}/displacement"][2] < min(
+                self.structure.levels
+            ):
                 return FELL
             tilts.append(measures[f"body/{part.name}/tilt"])
         limits, R = self._limits, state.rotation.copy()
@@ -147,7 +150,7 @@ class StructureObserver:
         """Angular velocities (nb, 3) [rad/s] in the frames of the bodies, of rigid ones with their
         angular momentum.
         """
-        column, spins = self.system.column, []
+        column, spins = self.system.bodies, []
         momentum, centers = column.momentum(state.v), column.centers(state.x)
         for part, rows, center, R in zip(
             self.structure.parts, column.rows, centers, state.rotation

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import io
 import time
-from dataclasses import replace
 
 import numpy as np
 
@@ -26,9 +25,7 @@ from fecolumn.reduced.run import advance
 from fecolumn.reduced.states import States, state_of
 from fecolumn.structures.analysis import OfStructure, columns_of
 from fecolumn.structures.engine import engine_of, leans, upright
-from fecolumn.structures.model import GROUND
 from fecolumn.structures.pads import warn_of_grounds
-from fecolumn.structures.shaking import accelerations, motions_of
 from fecolumn.structures.structure import structure_model
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
@@ -64,18 +61,6 @@ class ReducedAnalysis(OfStructure, Analysis):
             self.engine.begin_shaking(self.grounds(0))
             self._note(self.engine.row()[None])
             self._keep()
-
-    def _load_motion(self, file):
-        #: Motion of each ground, None of one at rest; that which lasts longest is told.
-        self.motions = motions_of(self.case, super()._load_motion(file), file)
-        return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
-
-    def ground(self, step: int) -> np.ndarray:
-        return self.grounds(step)[:3]
-
-    def grounds(self, step: int) -> np.ndarray:
-        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        return accelerations(self.motions, step)
 
     def _standing_energy(self, file) -> float:
         """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained structure, where
@@ -164,23 +149,17 @@ class ReducedAnalysis(OfStructure, Analysis):
         )
 
     def _off_base(self, failure) -> Ending | None:
-        motion, joints = self.engine.motion, self.structure.joints
-        for joint in joints:
-            if joint.master != GROUND:
-                continue
-            part, frame = self.structure.parts[joint.slave], motion.frames[joint.slave]
-            arms = part.model.arms[part.model.surfaces[joint.slave_surface].nodes]
-            turn, ground = motion.rotation[joint.slave].T, motion.grounds[joint.ground]
-            ending = self.slid_off(
-                failure,
-                self.bases[joint.ground],
-                frame["center"] + arms @ turn - ground["place"],
-                frame["velocity"] + np.cross(frame["spin"], arms) @ turn - ground["velocity"],
+        motion = self.engine.motion
+
+        def foot(joint, model, nodes):
+            frame, arms = motion.frames[joint.slave], model.arms[nodes]
+            turn = motion.rotation[joint.slave].T
+            return (
+                frame["center"] + arms @ turn,
+                frame["velocity"] + np.cross(frame["spin"], arms) @ turn,
             )
-            if ending is not None:
-                self._off = part.name
-                return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
-        return None
+
+        return self.off_ground(failure, self.bases, motion.grounds, foot)
 
     def _dofs(self) -> int:
         """Degrees of freedom of all different meshes."""
