@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fecolumn.case import Case, case_from_tables, read_case
+    from fecolumn.case import case_from_tables, read_case
     from fecolumn.case import read_case as load_case
     from fecolumn.dynamics.history import read_history
     from fecolumn.mesh.specimen import specimen_mesh
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from fecolumn.schema import InputError
     from fecolumn.simulation import AnalysisFailed, run
     from fecolumn.statistics.ecdf import ecdf
+    from fecolumn.structures.case import StructureCase as Case
 
 __version__ = "0.7.0"
 __all__ = [
@@ -46,7 +47,7 @@ __all__ = [
 
 # module of each name, and the name there where it is another; as imported above
 _HOMES = {
-    "Case": "case",
+    "Case": "structures.case:StructureCase",
     "load_case": "case:read_case",
     "case_from_tables": "case",
     "InputError": "schema",
