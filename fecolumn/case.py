@@ -386,9 +386,9 @@ def case_from_tables(tables: dict, file) -> StructureCase:
 
     Tables with [column] are a short form, see `fecolumn.short_form`.
     """
-    from fecolumn.rocking.model import TABLES, engine_of
+    from fecolumn.rocking.model import TABLES, model_engine_of
 
-    if engine_of(tables, file):
+    if model_engine_of(tables, file):
         from fecolumn.rocking.table_case import table_case
 
         return table_case(tables, file)

@@ -101,7 +101,7 @@ def brick_mesh(points, cells, part: int) -> BrickMesh:
     return BrickMesh(points, cells, np.full(len(cells), part, dtype=np.int8))
 
 
-def merge(meshes) -> BrickMesh:
+def merged_mesh(meshes) -> BrickMesh:
     """One mesh of several; coincident points stay apart, so the parts stay disconnected."""
     meshes = list(meshes)
     offsets = np.cumsum([0] + [len(m.points) for m in meshes[:-1]])

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from fecolumn.mesh.bricks import FLANGE, LOWER, UPPER, BrickMesh, merge
+from fecolumn.mesh.bricks import FLANGE, LOWER, UPPER, BrickMesh, merged_mesh
 from fecolumn.mesh.gmsh_section import extruded
 from fecolumn.mesh.section import Annulus, Disc, Rectangle
 from fecolumn.short_form import ShortForm
@@ -46,7 +46,7 @@ def column_mesh(case: ShortForm) -> BrickMesh:
             factor[at_joint] = above.outline(mesh.points[at_joint]) * above.equal_area
         mesh.points[:, :2] *= factor[:, None]
         parts.append(mesh)
-    return merge(parts)
+    return merged_mesh(parts)
 
 
 def part_layers(case: ShortForm) -> list[tuple[int, float, float, int]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.mesh.bricks import merge
+from fecolumn.mesh.bricks import merged_mesh
 from fecolumn.mesh.specimen import SpecimenMesh
 
 
@@ -73,7 +73,7 @@ def _blocks(specimen: SpecimenMesh):
     """Kind, cells and parts of each block of elements of one kind, and all points."""
     meshes = specimen.body, specimen.base
     if not specimen.body.is_tetrahedral:
-        meshes = (merge(meshes),)
+        meshes = (merged_mesh(meshes),)
     offsets = np.cumsum([0] + [len(mesh.points) for mesh in meshes])
     blocks = [
         (

@@ -37,7 +37,7 @@ def picture(specimen: SpecimenMesh, path) -> Path:
 
     path = Path(path)
     meshes = specimen.body, specimen.base
-    right, up, toward = view()
+    right, up, toward = projection_axes()
     points = np.concatenate([mesh.points for mesh in meshes])
     plan, rise = points @ right, points @ up
     centre = np.array([(plan.min() + plan.max()) / 2, (rise.min() + rise.max()) / 2])
@@ -106,7 +106,7 @@ def picture(specimen: SpecimenMesh, path) -> Path:
     return path
 
 
-def view() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def projection_axes() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Unit vectors of the projection: to the right, upwards, towards the viewer."""
     toward = np.array(
         [
@@ -178,7 +178,7 @@ def rendered(
     focus
         (3,) middle of the picture [m].
     view
-        right, up and toward, unit vectors (3,) as of `view`.
+        right, up and toward, unit vectors (3,) as of `projection_axes`.
     half_height
         of the picture [m].
     reach

@@ -63,7 +63,7 @@ class MassProperties:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class QualityRow:
     """One line of the quality table; `exact` and `difference` (relative) are None where there is no
     closed form.
     """
@@ -186,7 +186,7 @@ def box(a, b, c, bottom, density) -> MassProperties:
     return MassProperties(a * b * c, mass, np.array([0, 0, bottom + c / 2]), inertia)
 
 
-def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[Row, ...]:
+def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[QualityRow, ...]:
     """Jacobians, and mass properties of flange, column, cap and their assembly, against closed
     forms where the column is a built one.
 
@@ -202,10 +202,12 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[Row, ...]:
     }
     parts = {name: _part(body, mask) for name, mask in kept.items() if mask.any()}
     exact = {"flange": exact_flange, "column": exact_column, "cap": exact_cap}
-    rows = [Row("smallest Jacobian of the body", "m3", float(corner_jacobians(body).min()))]
+    rows = [QualityRow("smallest Jacobian of the body", "m3", float(corner_jacobians(body).min()))]
     shown = {**parts, "base": base} if len(base.cells) else parts
     rows += [
-        Row(f"smallest scaled Jacobian of the {name}", "-", float(scaled_jacobian(mesh).min()))
+        QualityRow(
+            f"smallest scaled Jacobian of the {name}", "-", float(scaled_jacobian(mesh).min())
+        )
         for name, mesh in shown.items()
     ]
 
@@ -224,7 +226,7 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[Row, ...]:
         foot = body.points[specimen.foot_nodes, :2] - whole.centre[:2]
         reach = min(foot.max(axis=0).min(), -foot.min(axis=0).max())
         rows += [
-            Row(
+            QualityRow(
                 "tilt with the centre of mass over the foot's nearest side",
                 "rad",
                 float(np.arctan2(reach, whole.centre[2])),
@@ -233,7 +235,7 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[Row, ...]:
     plate = case.base
     if len(base.cells):
         rows += [
-            Row(
+            QualityRow(
                 "base: volume",
                 "m3",
                 mass_properties(base, plate.density_kg_m3).volume,
@@ -245,7 +247,7 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[Row, ...]:
 
 def _mass_rows(name, found, exact):
     def row(what, unit, of):
-        return Row(
+        return QualityRow(
             f"{name}: {what}", unit, float(of(found)), None if exact is None else float(of(exact))
         )
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.mesh.base_plate import base_mesh
-from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh, boundary_faces, merge
+from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh, boundary_faces, merged_mesh
 from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh, section
 from fecolumn.mesh.imported import imported_column
@@ -66,7 +66,7 @@ def body_mesh(case) -> tuple[BrickMesh, tuple[Tie, ...]]:
     height = column.points[:, 2].max()
     body = column
     if cap is not None:
-        body = merge([column, cap.shifted(height - cap.points[:, 2].min())])
+        body = merged_mesh([column, cap.shifted(height - cap.points[:, 2].min())])
     flat = 1e-6 * height
 
     ties = []

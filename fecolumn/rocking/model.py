@@ -161,7 +161,7 @@ def model_class(name: str) -> Any:
     return getattr(importlib.import_module(f"fecolumn.rocking.{module}"), attribute)
 
 
-def engine_of(tables: dict, file) -> str | None:
+def model_engine_of(tables: dict, file) -> str | None:
     """Name of the model that a case's tables ask for by a table of its own; None where an engine of
     finite elements is asked for, or no model's table is there.
 

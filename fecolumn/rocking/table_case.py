@@ -17,7 +17,7 @@ import json
 from dataclasses import dataclass
 
 from fecolumn.case import Integration, Motion, Output, Overturn, located, section_table
-from fecolumn.rocking.model import TABLES, Model, engine_of, model_class
+from fecolumn.rocking.model import TABLES, Model, model_engine_of, model_class
 from fecolumn.schema import InputError, Section, build, merge, nested, parameter, stated
 
 #: Tables of a structure of [bodies] that a model of the same file passes over
@@ -111,14 +111,14 @@ def table_case(tables: dict, file, engine: str | None = None) -> TableCase:
     Parameters
     ----------
     engine
-        name of the model; left out: as `model.engine_of` says.
+        name of the model; left out: as `model.model_engine_of` says.
 
     Raises
     ------
     InputError
         unknown key, value out of range, parts that do not fit.
     """
-    engine = engine or engine_of(tables, file)
+    engine = engine or model_engine_of(tables, file)
     table = next(name for name, model in TABLES.items() if model == engine)
     structure = "bodies" in tables
     tables = {

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.atomic import write_bytes
-from fecolumn.mesh.picture import rendered, view
+from fecolumn.mesh.picture import rendered, projection_axes
 from fecolumn.structures.drawn import link_ends, outside
 
 _COLOURS = ("#c67b5c", "#9fb2c1", "#d8c08a", "#7f9a75", "#b58fa8", "#8c8fb5", "#c9a27e", "#86aeb0")
@@ -36,7 +36,7 @@ def structure_picture(layout, structure, copies, path) -> Path:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    right, up, toward = view()
+    right, up, toward = projection_axes()
     solids = [
         _solid(layout.drawings[name], part) for (name, _), part in zip(copies, structure.parts)
     ]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fecolumn.mesh.bricks import CAP, FLANGE, UPPER, BrickMesh, merge
+from fecolumn.mesh.bricks import CAP, FLANGE, UPPER, BrickMesh, merged_mesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import extruded, swept_grid
 from fecolumn.mesh.imported import own_mesh
@@ -277,7 +277,7 @@ def _round(key: str, body, file) -> Shape:
             )
         )
         joints.append((CAP, top, f"{key}.cap, {key}.element_size_m"))
-    mesh = merge(parts)
+    mesh = merged_mesh(parts)
     # how far a slave may be moved: the sagittas of the chords, and a tenth of an element
     reach = (
         sum(one.equal_area * _outer(one) * (1 - math.cos(math.pi / one.n_around)) for one in planes)

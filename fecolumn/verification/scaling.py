@@ -46,7 +46,7 @@ STEP = 1e-3  # s, of the first specimen
 LOSSES = ("friction", "impact", "contact")
 
 
-def sized(engine: str, size: float, modulus: float):
+def sized_system(engine: str, size: float, modulus: float):
     """System of the coarse specimen `size` times larger, of Young's modulus `modulus` [Pa], with a
     step sqrt(size) times longer.
     """
@@ -73,7 +73,7 @@ def run(engine: str, long: bool) -> CaseRows:
 
     def analysed(size, modulus):
         """Path of top and foot over the diameter, (n, 2, 3), and the trial."""
-        trial = begin_trial(engine, sized(engine, size, modulus))
+        trial = begin_trial(engine, sized_system(engine, size, modulus))
         return trial.shake(shaking(times)) / (size * diameter), trial
 
     def apart(path, other):

@@ -10,7 +10,7 @@ from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.effective import effective_factor
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.fem.total_lagrangian import TotalLagrangian
-from fecolumn.mesh.bricks import LOWER, UPPER, boundary_faces, merge
+from fecolumn.mesh.bricks import LOWER, UPPER, boundary_faces, merged_mesh
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.specimen import SpecimenMesh
 from fecolumn.mesh.surface import nodal_areas
@@ -35,7 +35,7 @@ def tied_blocks(engine: str, lower, upper, height: float) -> Tied:
             lines, lines, bottom + np.linspace(0, height, 1 + round((len(lines) - 1) / 2)), part
         )
 
-    mesh = merge([block(lower, 0.0, LOWER), block(upper, height, UPPER)])
+    mesh = merged_mesh([block(lower, 0.0, LOWER), block(upper, height, UPPER)])
     ties = (tie(mesh, LOWER, UPPER, height, 1e-9, 1e-9, "none"),)
     return Tied(column_case(engine), SpecimenMesh(adjust(mesh, ties), None, ties, np.zeros(0, int)))
 

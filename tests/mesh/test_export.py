@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from small_specimen import small_case
 
-from fecolumn.mesh.bricks import merge
+from fecolumn.mesh.bricks import merged_mesh
 from fecolumn.mesh.export import write_meshes
 from fecolumn.mesh.picture import picture
 from fecolumn.mesh.specimen import specimen_mesh
@@ -15,7 +15,7 @@ def specimen():
 
 
 def test_written_files_hold_the_mesh_and_its_parts(specimen, tmp_path):
-    whole = merge([specimen.body, specimen.base])
+    whole = merged_mesh([specimen.body, specimen.base])
     for _ in range(2):  # the second time over existing files
         paths = write_meshes(specimen, tmp_path / "new" / "folder")
     assert sorted(p.name for p in (tmp_path / "new" / "folder").iterdir()) == sorted(

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from small_specimen import small_case
 
-from fecolumn.mesh.bricks import CAP, LOWER, UPPER, merge
+from fecolumn.mesh.bricks import CAP, LOWER, UPPER, merged_mesh
 from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh
 from fecolumn.mesh.specimen import specimen_mesh
@@ -48,7 +48,7 @@ def test_the_lower_part_ends_in_the_polygon_of_the_upper_one():
 
 def test_points_off_the_surface_are_moved_onto_it():
     case = small_case(cap_length_m=0.1, cap_width_m=0.1)
-    raw = merge([column_mesh(case), cap_mesh(case)])
+    raw = merged_mesh([column_mesh(case), cap_mesh(case)])
     joint = tie(raw, UPPER, CAP, 0.3, 1e-9, 0.01, "cap")
     # corners of the equal-area polygon stand over the edge of a cap as wide as the column
     assert joint.masters(raw.points)[2].max() > 1e-4
@@ -57,7 +57,7 @@ def test_points_off_the_surface_are_moved_onto_it():
 
 def test_adjustment_moves_slaves_only():
     case = small_case(cap_length_m=0.1, cap_width_m=0.1)
-    raw = merge([column_mesh(case), cap_mesh(case)])
+    raw = merged_mesh([column_mesh(case), cap_mesh(case)])
     specimen = specimen_mesh(case)
     moved = np.flatnonzero(np.any(raw.points != specimen.body.points, axis=1))
     slaves = np.concatenate([one.slave_nodes for one in specimen.ties])
@@ -70,13 +70,13 @@ def test_adjustment_moves_slaves_only():
 
 def test_parts_that_do_not_meet_are_refused():
     case = small_case()
-    apart = merge([column_mesh(case), cap_mesh(case).shifted(0.001)])
+    apart = merged_mesh([column_mesh(case), cap_mesh(case).shifted(0.001)])
     with pytest.raises(InputError, match="cap has no faces"):
         tie(apart, UPPER, CAP, 0.3, 1e-6, 0.01, "column.height_m")
     aside = cap_mesh(case)
     aside.points[:, 0] += 0.1
     with pytest.raises(InputError, match="off the surface"):
-        tie(merge([column_mesh(case), aside]), UPPER, CAP, 0.3, 1e-6, 0.01, "column.height_m")
+        tie(merged_mesh([column_mesh(case), aside]), UPPER, CAP, 0.3, 1e-6, 0.01, "column.height_m")
 
 
 def test_point_on_a_warped_quadrilateral_is_found_again():

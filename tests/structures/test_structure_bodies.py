@@ -256,14 +256,14 @@ def test_labels_of_a_picture_stand_on_the_side_of_what_they_name():
     """So that no line from a label to a column crosses another column: left ones are named to the
     left.
     """
-    from fecolumn.mesh.picture import view
+    from fecolumn.mesh.picture import projection_axes
     from fecolumn.structures.picture import _labels
     from fecolumn.structures.structure import structure_model
 
     tendon = dict(
         kind="tendon", body="column", to="slab", to_point_m=[0, 0, 1.5], stiffness_n_m=1e5
     )
-    right = view()[0]
+    right = projection_axes()[0]
     labels = _labels(
         structure_model(structure(**frame(links=dict(tendon=tendon)))), right, 0.0, 2.0
     )
