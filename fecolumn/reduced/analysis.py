@@ -110,10 +110,15 @@ class ReducedAnalysis(Analysis):
     def _fields(self):
         """Writer of the fields, and what expands a state to them."""
         from fecolumn.post.fields import FieldWriter
-        from fecolumn.reduced.fields import StateFields
 
-        fields = StateFields(self.case, self.model, self.model_folder)
-        return FieldWriter(self.folder / "fields", fields.specimen), fields
+        fields = self.scene().fields()
+        return FieldWriter(self.folder / "fields", fields), fields
+
+    def scene(self):
+        """`post.scene.Scene` of the case."""
+        from fecolumn.post.column_scene import column_scene
+
+        return column_scene(self.case)
 
     def _states(self) -> States | None:
         every = self.case.output.states_every_s

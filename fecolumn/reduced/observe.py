@@ -37,16 +37,19 @@ ENERGY = WIDTH - len(TERMS)
 #: A point of a body that is watched: arm: (3,) from its centre of mass in its frame [m].
 MARK = record(("body", "i8"), ("arm", "f8", 3))
 #: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its
-#: centre of mass [m] and tilt [rad]; of each interface tilt of the slave from the master [rad],
-#: rise of the middle of its foot and its slide along two tangents [m], normal force [N]; of each
-#: mark its displacement [m]; of each link tension [N], elongation from its unstressed length and
-#: the part of it that has yielded [m], energy that it has taken [J], whether it is broken.
+#: centre of mass [m], tilt [rad] and rotation vector [rad]; of each interface tilt of the slave from
+#: the master [rad], rise of the middle of its foot and its slide along two tangents [m], normal
+#: force [N]; of each mark its displacement [m]; of each link tension [N], elongation from its
+#: unstressed length and the part of it that has yielded [m], energy that it has taken [J], whether
+#: it is broken.
 OF_BODY, OF_INTERFACE, OF_MARK = (
-    (("displacement", 3), ("tilt", 1)),
+    (("displacement", 3), ("tilt", 1), ("rotation", 3)),
     (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)),
     (("displacement", 3),),
 )
 OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("broken", 1))
+#: Numbers of a row that a body has.
+PER_BODY = sum(count for _, count in OF_BODY)
 
 
 class View(NamedTuple):
@@ -79,7 +82,7 @@ class View(NamedTuple):
             WIDTH
             if not len(self.limits)
             else WIDTH
-            + 4 * len(self.center)
+            + PER_BODY * len(self.center)
             + 5 * len(self.feet)
             + 3 * len(self.marks)
             + len(OF_LINK) * self.links
@@ -165,7 +168,12 @@ def _observe_all(structure, points, poses, eye, motion, row):
         for a in range(3):
             row[place + a] = motion.frames[b].center[a] - eye.center[b, a]
         row[place + 3] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
-        place += 4
+        # sine and cosine of the angle of the rotation, along its axis the first
+        x, y, z = (R[2, 1] - R[1, 2]) / 2, (R[0, 2] - R[2, 0]) / 2, (R[1, 0] - R[0, 1]) / 2
+        sine, cosine = np.sqrt(x * x + y * y + z * z), (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
+        factor = np.arctan2(sine, cosine) / sine if sine > 0 else 1.0
+        row[place + 4], row[place + 5], row[place + 6] = factor * x, factor * y, factor * z
+        place += PER_BODY
     find_poses(structure.interfaces, motion.frames, motion.rotation, poses)
     first = place
     for k in range(len(structure.interfaces)):
@@ -211,7 +219,7 @@ def lost(eye, motion, row, steepest):
         for b in range(len(eye.limits)):
             if motion.frames[b].center[2] < 0.0:
                 return FELL
-            if row[WIDTH + 4 * b + 3] > eye.limits[b]:
+            if row[WIDTH + PER_BODY * b + 3] > eye.limits[b]:
                 return NO_RETURN
         return CAPPED if top >= eye.stance.cap else STANDS
     # what is short of both its cap and its critical tilt stands: most steps, at no cost

@@ -12,10 +12,11 @@ import numpy as np
 from fecolumn.case import Case, finished
 from fecolumn.content import content
 from fecolumn.dynamics.energy import TERMS
+from fecolumn.post.column_scene import column_scene, ends_of
+from fecolumn.render.joints import motion
 from fecolumn.render.pose import poses
 from fecolumn.render.quantity import Quantity
-from fecolumn.render.solid import solid_of
-from fecolumn.render.strips import LIFTED, uplift
+from fecolumn.render.strips import LIFTED
 from fecolumn.results.analysis import AnalysisResult
 from fecolumn.schema import InputError, stated
 
@@ -179,9 +180,11 @@ def _uplift(case, history) -> tuple[np.ndarray, bool]:
     interfaces; 0 of a model whose history has none.
     """
     if isinstance(case, Case):
-        solid = solid_of(case)
-        height = uplift(solid, poses(history, solid.foot, solid.top))
-        return height, bool(height.max() > LIFTED * solid.foot_width)
+        scene = column_scene(case)
+        foot = scene.contacts[0]
+        height, _ = motion(scene, foot, (poses(history, *ends_of(scene)),))
+        width = np.ptp(scene.points[foot.points], axis=0).max()
+        return height, bool(height.max() > LIFTED * width)
     rises, tilts = (
         [
             values

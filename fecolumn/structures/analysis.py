@@ -112,8 +112,8 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
 
     def __init__(self, case, folder, comm, file, quiet):
         Analysis.__init__(self, case, folder, comm, file, quiet)
-        self.structure, self.fields = structure_model(case, file, self.say), None
-        self.states = self._states()
+        self.structure = structure_model(case, file, self.say)
+        self.fields, self.states = self._fields() if self.field_steps else None, self._states()
         different = {id(part.model): part.model.dofs for part in self.structure.parts}
         self.base, self.model = (
             self.structure.base,
@@ -140,6 +140,12 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
             self._note(self.engine.row()[None])
             self._keep()
 
+    def scene(self):
+        """`post.scene.Scene` of the case."""
+        from fecolumn.post.structure_scene import scene_of
+
+        return scene_of(self.case, self.structure, self.folder / "case.json")
+
     def _standing_energy(self, file) -> float:
         """As `reduced.analysis.standing_energy`."""
         try:
@@ -160,7 +166,8 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
     """Rows (k, width) of the engine as columns by name: those of any analysis, and of the
     structure's parts.
 
-    "body/NAME/displacement" of the centre of mass [m] and "body/NAME/tilt" [rad];
+    "body/NAME/displacement" of the centre of mass [m], "body/NAME/tilt" [rad] and
+    "body/NAME/rotation", the rotation vector [rad] from where the body stood upright;
     "interface/NAME/tilt" of the slave from the master [rad], "rise" of the middle of its foot [m],
     "slide" along two tangents [m], normal "force" [N]; "mark/NAME.MARK/displacement" [m];
     "link/NAME/tension" [N], "elongation" from its unstressed length and the part of it that has
