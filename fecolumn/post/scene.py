@@ -78,6 +78,8 @@ class Contact:
         numbers of the slave and of what it stands on, GROUND of the ground.
     faces
         (n, 4 or 3) numbers of the scene's points.
+    domed
+        whether it touches at one point of a dome.
     origin, axes
         (3,) [m] and (3, 3): a point of the face, two tangents and the normal out of the slave, in
         columns, as it stands upright; of a level face the tangents are x and y.
@@ -91,6 +93,7 @@ class Contact:
     faces: np.ndarray
     origin: np.ndarray
     axes: np.ndarray
+    domed: bool = False
 
     @property
     def on_ground(self) -> bool:

@@ -176,7 +176,8 @@ def _contact(joint, shown: _Shown, part, first: np.ndarray) -> Contact:
     faces = shown.face(part.model, joint.slave_surface) + first[joint.slave]
     name = joint.name.partition(":")[0]
     origin = part.center + surface.origin
-    return Contact(name, part.name, joint.name, joint.slave, joint.master, faces, origin, axes)
+    domed = bool(joint.ball and joint.ball.is_dome)
+    return Contact(name, part.name, joint.name, joint.slave, joint.master, faces, origin, axes, domed)
 
 
 def _expanded(case, structure, kinds, shown, scene: Scene, file) -> StateFields:

@@ -107,8 +107,6 @@ class Canvas:
 
     def _add(self, surface, frame: Frame, colour):
         """A surface coloured by values of its faces or of its points."""
-        import pyvista
-
         mesh = _mesh_of(surface, frame)
         quantity = self._frames.colour_quantity
         self._coloured(mesh)["colour"] = np.asarray(colour, np.float32)

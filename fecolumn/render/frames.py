@@ -115,6 +115,9 @@ class Frames:
             interval / _FINER, 4 * rows
         )  # of momentum, for which velocities are wanted
         self.centres = self._pressure_centres(self.times)
+        # what presses at one point has no pressure that could be drawn
+        at_point = self.centres is not None and self.scene.contacts[0].domed
+        self._pressed = self.from_fields and not at_point
         self._scale(exaggerate, like)
 
     def _scale(self, exaggerate: float | str, like: Frames | None) -> None:
@@ -138,7 +141,7 @@ class Frames:
             largest = max(np.nanpercentile(frame.colour, RANGE) for frame in frames)
             self.colour_quantity = Quantity.of("von Mises stress", "Pa", largest, DECADES)
         self.pressure_quantity = None
-        if self.from_fields:
+        if self._pressed:
             largest = max(np.percentile(np.concatenate(one.pressures), RANGE) for one in frames)
             self.pressure_quantity = Quantity.of("contact pressure", "Pa", largest, DECADES)
 
@@ -165,11 +168,15 @@ class Frames:
             colour = np.linalg.norm(true[nodes] - scene.points[nodes], axis=1)
         drawn = true if self.exaggeration == 1.0 else self._exaggerated(true)
         faces = [true[contact.faces] for contact in scene.contacts]
-        if self.from_fields:
-            pressures = [fields.pressure[one.faces].mean(axis=1) for one in scene.contacts]
-            centres = np.array(
-                [self._centre(*one) for one in zip(scene.contacts, faces, pressures)]
-            )
+        if self._pressed:
+            corners = [fields.pressure[contact.faces] for contact in scene.contacts]
+            pressures = [values.mean(axis=1) for values in corners]
+            if self.centres is None and fields.centres is not None:
+                centres = fields.centres
+            else:
+                centres = np.array(
+                    [self._centre(*one) for one in zip(scene.contacts, faces, corners)]
+                )
         else:
             pressures = [self._gaps(contact, true, k) for contact in scene.contacts]
             centres = np.full((len(scene.contacts), 2), np.nan)
@@ -260,17 +267,17 @@ class Frames:
         rest = self.scene.points[contact.points]
         moved = displacement(contact, true[contact.points], rest, self._poses, k)
         at_points = np.zeros(len(true))
-        at_points[contact.points] = gaps(contact, moved)
+        at_points[contact.points] = gaps(contact, moved, rest)
         return at_points[contact.faces].mean(axis=1)
 
     def _centre(self, contact: Contact, faces: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-        """Centre (2,) [m] of the pressure (n_faces,) [Pa] on faces with corners (n_faces, k, 3)."""
+        """Centre (2,) [m] of the pressure (n_faces, k) [Pa] at the corners (n_faces, k, 3) of faces."""
         plan = self.plan(contact, faces)
         x, y = plan[..., 0], plan[..., 1]
         areas = np.abs((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)) / 2
-        force = pressure * areas
+        force = pressure * areas[:, None]
         return (
-            np.einsum("f,fa->a", force, plan.mean(axis=1)) / force.sum()
+            np.einsum("fc,fca->a", force, plan) / force.sum()
             if force.sum() > 0
             else np.full(2, np.nan)
         )

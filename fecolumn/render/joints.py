@@ -25,13 +25,15 @@ def displacement(
     return (places - master.foot[k][..., None, :]) @ master.rotation[k] + master.origin - rest
 
 
-def gaps(contact: Contact, moved: np.ndarray) -> np.ndarray:
-    """Gap (...) [m] between slave and master at points displaced by (..., 3) [m]."""
-    return -moved @ contact.axes[:, 2]
+def gaps(contact: Contact, moved: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """Gap (..., n) [m] between slave and master at points displaced by (..., n, 3) [m] from `rest`
+    (n, 3) [m].
+    """
+    return (contact.origin - rest - moved) @ contact.axes[:, 2]
 
 
 def motion(scene, contact: Contact, poses: tuple[Poses, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Gap (n,) [m] at the edge that is lifted most, and slide (n, 2) [m] of the face's middle, at n
+    """Uplift (n,) [m] of the point of the edge that is lifted most, and slide (n, 2) [m] of the face's middle, at n
     poses.
     """
     corners = scene.points[np.unique(contact.outline if len(contact.outline) else contact.points)]
@@ -41,6 +43,6 @@ def motion(scene, contact: Contact, poses: tuple[Poses, ...]) -> tuple[np.ndarra
     for own in np.array_split(np.arange(len(uplift)), max(1, len(uplift) * len(rest) // 10**6)):
         places = poses[contact.piece].move(rest, own)
         moved = displacement(contact, places, rest, poses, own)
-        uplift[own] = np.maximum(gaps(contact, moved).max(axis=1), 0.0)
+        uplift[own] = np.maximum((-moved @ contact.axes[:, 2]).max(axis=1), 0.0)
         slide[own] = moved[:, -1] @ contact.axes[:, :2]
     return uplift, slide

@@ -80,8 +80,8 @@ class StateFrames(FrameSeries):
         InputError
             the modes of a body, made anew, are others than those of the analysis.
         """
-        values = self.values(k)
-        return Fields(values["displacement"], values["von_mises"], values["pressure"])
+        values, (_, centres) = self.values(k), self.drawn.pressures(self.state(k))
+        return Fields(values["displacement"], values["von_mises"], values["pressure"], centres)
 
     def values(self, k: int) -> dict[str, np.ndarray]:
         """Fields of frame `k` by the names of `StateFields.values`."""

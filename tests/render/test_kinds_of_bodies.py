@@ -86,7 +86,9 @@ def test_all_kinds_of_bodies_are_drawn_and_those_without_elements_are_grey(row):
     surface, part = result.scene.surface, result.scene.surface.part
     assert np.isfinite(frame.colour[part == 0]).all() and np.isnan(frame.colour[part > 0]).all()
     assert [
-        np.ptp(result.scene.points[surface.nodes[np.unique(surface.faces[part == k])]], axis=0).tolist()
+        np.ptp(
+            result.scene.points[surface.nodes[np.unique(surface.faces[part == k])]], axis=0
+        ).tolist()
         for k in range(3)
     ] == [pytest.approx([0.4, 0.4, height]) for height in (0.8, 0.4, 0.8)]
     leaning = frame.points[result.scene.first[2] :]
