@@ -67,7 +67,9 @@ def resident_mb() -> float:
 
 
 def write_study(file: Path, analyses: int) -> None:
-    """Study file of so many analyses, of the reference specimen under motions that are only named."""
+    """Study file of so many analyses, of the reference specimen under motions that are only
+    named.
+    """
     specimen = Path(__file__).parents[1] / "meshes" / "stout.toml"
     sources = json.dumps([f"none:{number}" for number in range(analyses // len(_ALPHAS))])
     file.write_text(

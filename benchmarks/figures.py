@@ -96,7 +96,7 @@ def standing_still():
             drifts.append(np.abs(run.state.x - run.start.x).max())
             changes.append(
                 abs(run.mechanical() - run.ledger.start)
-                / (run.system.weight * run.system.column.all_X[:, 2].max())
+                / (run.system.weight * run.system.body.all_X[:, 2].max())
             )
         yield f"standing, dt {dt:g} s, five alphas: drift [m]", 0.0, max(drifts), max(drifts) < 1e-7
         yield (
@@ -109,7 +109,7 @@ def standing_still():
 
 def uplift():
     """Uplift on a slow ramp of the ground acceleration."""
-    row = rocking.uplift("corotated")
+    row = rocking.uplift_acceleration("corotated")
     yield row.quantity, row.exact, row.computed, row.ok
 
 
@@ -130,7 +130,9 @@ def sliding():
 
 
 def free_rocking():
-    """Release from 0.4 of the critical tilt: quarter period, first impact, ledger (Housner 1963)."""
+    """Release from 0.4 of the critical tilt: quarter period, first impact, ledger (Housner
+    1963).
+    """
     for alpha in (0.0, -0.2):
         found, lost, trial, rigid = rocking.release(
             "corotated", 0.4, integration={"alpha_hht": alpha}
@@ -181,7 +183,9 @@ def _shaken(tables, steps, coarse=True):
 
 
 def penalty():
-    """Penalty against augmented Lagrangian through 0.4 s of shaking, and the latter's penetration."""
+    """Penalty against augmented Lagrangian through 0.4 s of shaking, and the latter's
+    penetration.
+    """
     reference, _, _, run = _shaken({}, 400)
     peak, last = np.abs(reference).max(), np.inf
     for factor in (0.01, 1.0, 100.0, 1e4):

@@ -53,9 +53,8 @@ def main(folder) -> None:
             times, paths = aligned(
                 [(history["time"], history["u_top"][:, :2]) for history in histories]
             )
-            if all(
-                lost(summary) for _, summary in runs
-            ):  # the last row, at the fall, may come a step earlier or later
+            # the last row, at the fall, may come a step earlier or later
+            if all(lost(summary) for _, summary in runs):
                 kept = times < min(history["time"][-1] for history in histories) - 1e-9
                 times, paths = times[kept], paths[:, kept]
             grown = spread(paths, times, _SHARE, size)

@@ -34,12 +34,16 @@ BODY = sp.symbols(
 )
 radius, centre, height, mass, slab, across, along, stiffness, pull, gravity = BODY
 
-_HEAD = '''"""Equations of motion of the wobbling column and frame. Written by benchmarks.wobbling_equations with sympy {version}: do not edit.
+_HEAD = '''"""Equations of motion of the wobbling column and frame.
+
+Written by benchmarks.wobbling_equations with sympy {version}: do not edit.
 
 Of one column with its share of the slab; arguments, in SI units:
-    body: (10,) radius of rim, height of the centre of mass, height of column [m]; mass, share of the slab [kg]; inertia about the centre
-        of mass across and along the axis [kg m2]; tendon's stiffness [N/m] and pull while the column stands [N]; gravity [m/s2].
-    tilt, azimuth [rad]: of the axis; the foot's rim touches at the azimuth, which is where the column leans.
+    body: (10,) radius of rim, height of the centre of mass, height of column [m]; mass, share of
+        the slab [kg]; inertia about the centre of mass across and along the axis [kg m2]; tendon's
+        stiffness [N/m] and pull while the column stands [N]; gravity [m/s2].
+    tilt, azimuth [rad]: of the axis; the foot's rim touches at the azimuth, to which the column
+        leans.
     tilt_rate [rad/s]; spin [kg m2/s]: momentum of the azimuth, inertia[1] times its rate.
     ground_x, ground_y, ground_z: acceleration of the ground [m/s2].
 """
@@ -87,7 +91,9 @@ def zero(expression) -> bool:
 
 
 def derive() -> dict[str, sp.Expr]:
-    """Inertias of tilt and azimuth, potential and levers of one column with its share of the slab."""
+    """Inertias of tilt and azimuth, potential and levers of one column with its share of the
+    slab.
+    """
     rotation = turned(azimuth, "z") * turned(tilt, "y") * turned(-azimuth, "z")
     towards = turned(azimuth, "z") * sp.Matrix([1, 0, 0])
 
@@ -207,8 +213,9 @@ def source() -> str:
             "force",
             "tilt, tilt_rate, spin, push, across_push, ground_z",
             base_force(found),
-            "Of the ground on the foot towards the azimuth, across it and up [N]; "
-            "push, across_push: the ground's acceleration along the same.",
+            "Force of the ground on the foot [N]: towards the azimuth, across it, up.\n\n"
+            "    push, across_push: ground's acceleration [m/s2] to the azimuth and across it.\n"
+            "    ",
         ),
         (
             "inertia",
@@ -226,8 +233,9 @@ def source() -> str:
             "moments",
             "tilt",
             [found["rise"].diff(tilt), found["lever"].diff(tilt), found["tendon"].diff(tilt)],
-            "What tilting asks: d/d tilt of weight's height and of horizontal lever "
-            "[kg m], and of the tendon's energy [N m].",
+            "Derivatives by the tilt of mass times height and times lever of the weight [kg m],\n"
+            "    and of the tendon's energy [N m].\n"
+            "    ",
         ),
         (
             "shifts",

@@ -5,9 +5,46 @@ Units are SI everywhere. z points up, gravity along -z; displacements are relati
 gap is positive when open, a contact pressure positive in compression.
 """
 
-__version__ = "0.7.0"
+from __future__ import annotations
 
-# module, and the name there where it is another
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fecolumn.case import Case, case_from_tables, read_case
+    from fecolumn.case import read_case as load_case
+    from fecolumn.dynamics.history import read_history
+    from fecolumn.mesh.specimen import specimen_mesh
+    from fecolumn.motions.array import motion_file
+    from fecolumn.motions.load import load_motion
+    from fecolumn.results.analysis import AnalysisResult
+    from fecolumn.results.load import load
+    from fecolumn.results.script import run_study
+    from fecolumn.results.study import StudyResult
+    from fecolumn.schema import InputError
+    from fecolumn.simulation import AnalysisFailed, run
+    from fecolumn.statistics.ecdf import ecdf
+
+__version__ = "0.7.0"
+__all__ = [
+    "AnalysisFailed",
+    "AnalysisResult",
+    "Case",
+    "InputError",
+    "StudyResult",
+    "case_from_tables",
+    "ecdf",
+    "load",
+    "load_case",
+    "load_motion",
+    "motion_file",
+    "read_case",
+    "read_history",
+    "run",
+    "run_study",
+    "specimen_mesh",
+]
+
+# module of each name, and the name there where it is another; as imported above
 _HOMES = {
     "Case": "case",
     "load_case": "case:read_case",
@@ -27,10 +64,9 @@ _HOMES = {
     "read_case": "case",
     "read_history": "dynamics.history",
 }
-__all__ = list(_HOMES)
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> object:
     """Import on first use, so that `fecolumn --help` does not wait for dolfinx."""
     if name not in _HOMES:
         raise AttributeError(f"module fecolumn has no attribute {name!r}")
@@ -40,5 +76,5 @@ def __getattr__(name):
     return getattr(importlib.import_module(f"fecolumn.{module}"), there or name)
 
 
-def __dir__():
+def __dir__() -> list[str]:
     return sorted([*globals(), *_HOMES])

@@ -57,9 +57,10 @@ def _compile_apart(declarations, sources, objects, name: str, options, folder, *
                         declarations, sources, objects, name, options, Path(apart), *how, **more
                     )
                     ready = f"{name}.c.cached"
+                    # the sign that all is there comes last
                     for file in sorted(
                         Path(apart).glob(f"{name}*"), key=lambda file: file.name == ready
-                    ):  # the sign that all is there comes last
+                    ):
                         os.replace(file, folder / file.name)
     except Exception:
         with contextlib.suppress(OSError):

@@ -6,10 +6,11 @@ at every level of the call tree: the contact solver five times over. Here a func
 by compiled code is only translated; optimisation and code are left to the function that Python
 calls (see numba's pull request 9566). A fourth of the time, the same digits.
 
-In one piece LLVM sees, too, which references to arrays need no counting: those of
-`_borrowed.borrowed`, whose owner is nobody. numba keeps the counting out of line for a pass of its
-own that prunes it; put in place, all of it that meets nobody falls away with the arguments that
-hand nobody on. A step of a rocking column takes a third of the time.
+In one piece LLVM also sees which references to arrays need no counting: those of
+`_borrowed.borrowed`, which have no owner. numba calls its counting functions and removes needless
+calls in a pass of its own. Here the counting functions are inlined. LLVM then removes every count
+of a reference without an owner, and the arguments that only handed such references on. A step of a
+rocking column takes a third of the time.
 
 This reaches into numba's internals, as they are in the versions TESTED. With any other version
 functions are compiled as numba does.
@@ -89,7 +90,8 @@ class _Library(JITCodeLibrary):
 
     def _callees(self) -> list:
         """Libraries of all functions called from here, directly or not, each once."""
-        found, waiting = {}, list(self._linking_libraries)
+        found: dict = {}
+        waiting = list(self._linking_libraries)
         while waiting:
             library = waiting.pop(0)
             if library not in found:
@@ -167,9 +169,8 @@ class Kernel(CPUDispatcher):
 
     def compile(self, sig):
         with contextlib.ExitStack() as stack:
-            if not self._keeps(
-                sig
-            ):  # one process of this machine compiles; others wait and open what it made
+            # one process of this machine compiles; others wait and open what it made
+            if not self._keeps(sig):
                 stack.enter_context(alone(Path(self.stats.cache_path) / self.__name__))
             stack.enter_context(_one_piece(self.py_func))
             return super().compile(sig)

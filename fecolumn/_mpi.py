@@ -7,8 +7,9 @@ import re
 
 
 def launch_environment() -> dict[str, str]:
-    """This process's environment without what its own MPI left there: mpirun would take itself for
-    a child of it.
+    """Environment of this process without the variables of its own MPI.
+
+    With them mpirun would take itself for a child of this process.
     """
     return {
         key: value

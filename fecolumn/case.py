@@ -7,17 +7,18 @@ shaking table).
 from __future__ import annotations
 
 import dataclasses
-import hashlib
-import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fecolumn.content import content
 from fecolumn.dynamics.cuts import SUBSTEPS
-from fecolumn.model_keys import check_model, check_substeps
 from fecolumn.paths import OF_SECTIONS as FILES
 from fecolumn.paths import absolute
-from fecolumn.schema import InputError, Section, build, merge, nested, parameter, read_toml, stated
+from fecolumn.schema import InputError, Section, parameter, read_toml
+
+if TYPE_CHECKING:
+    from fecolumn.structures.case import StructureCase
 
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
@@ -29,55 +30,6 @@ MODEL_ENGINES = (
     "wobbling_frame",
     "podium",
 )  # words of integration.engine that are rocking models, of fecolumn.rocking.model.MODELS
-
-
-@dataclass(frozen=True, slots=True)
-class Column(Section):
-    """Upright column, its axis along z, its foot at z = 0: tube, solid cylinder, block, or the
-    user's own mesh.
-    """
-
-    outer_diameter_m: float | None = parameter(
-        None, doc="outer diameter; a tube and a solid cylinder need it", unit="m", above=0, high=100
-    )
-    height_m: float | None = parameter(
-        None,
-        doc="height of the column without cap and flange; every built column needs it",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    wall_m: float | None = parameter(
-        None,
-        doc="wall thickness, which a tube needs; half the diameter makes a solid cylinder",
-        unit="m",
-        above=0,
-        high=50,
-    )
-    fine_height_m: float | None = parameter(
-        None,
-        doc="height of the finely meshed lower part; left out: half the width of the foot",
-        unit="m",
-        low=0,
-        high=1000,
-    )
-    mesh_file: str = parameter(
-        "",
-        doc="mesh of 8-node bricks or of tetrahedra in any format meshio reads, lengths in "
-        "metres; replaces the built column",
-    )
-    shape: str = parameter(
-        "tube",
-        doc="built column: tube, solid cylinder or rectangular block",
-        choices=("tube", "solid", "block"),
-        since="0.2",
-    )
-    length_m: float | None = parameter(
-        None, doc="length along x, which a block needs", unit="m", above=0, high=100, since="0.2"
-    )
-    width_m: float | None = parameter(
-        None, doc="width along y, which a block needs", unit="m", above=0, high=100, since="0.2"
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,80 +53,6 @@ class Cap(Section):
 
 
 @dataclass(frozen=True, slots=True)
-class Base(Section):
-    """What the column stands on: an elastic plate held at its bottom, a flat of the same layer
-    without edges, or a pad of springs and dashpots.
-    """
-
-    length_m: float | None = parameter(
-        None,
-        doc="length along x; left out: the foot's and three times the larger side of the foot",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    width_m: float | None = parameter(
-        None,
-        doc="length along y; left out: the foot's and three times the larger side of the foot",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    thickness_m: float | None = parameter(
-        None,
-        doc="thickness along z; left out: a quarter of the foot's smaller side",
-        unit="m",
-        above=0,
-        high=100,
-    )
-    slide_allowance_m: float | None = parameter(
-        None,
-        doc="finely meshed margin around the footprint; left out: a quarter of the foot's "
-        "smaller side",
-        unit="m",
-        low=0,
-        high=1000,
-    )
-    youngs_modulus_pa: float = parameter(
-        200e9, doc="Young's modulus of the base", unit="Pa", above=0, high=1e15
-    )
-    poissons_ratio: float = parameter(0.3, doc="Poisson's ratio of the base", low=0, high=0.49)
-    density_kg_m3: float = parameter(
-        7850.0, doc="density of the base", unit="kg/m3", above=0, high=1e5
-    )
-    kind: str = parameter(
-        "plate",
-        doc="plate: elastic plate with edges; unbounded: the same layer without edges; "
-        "pad: springs and dashpots per area, without edges",
-        choices=("plate", "unbounded", "pad"),
-        since="0.2",
-    )
-    stiffness_n_m3: float = parameter(
-        0.0,
-        doc="springs across a pad per area (subgrade modulus); needed for a pad",
-        unit="N/m3",
-        low=0,
-        high=1e15,
-        since="0.2",
-    )
-    shear_stiffness_n_m3: float = parameter(
-        0.0,
-        doc="springs along a pad per area; 0 takes 0.8 of stiffness_n_m3",
-        unit="N/m3",
-        low=0,
-        high=1e15,
-        since="0.2",
-    )
-    damping_ratio: float = parameter(
-        0.0,
-        doc="of the dashpots of a pad: that of the standing column's vertical mode",
-        low=0,
-        high=10,
-        since="0.2",
-    )
-
-
-@dataclass(frozen=True, slots=True)
 class Material(Section):
     """Linear elastic material of column and cap."""
 
@@ -190,57 +68,6 @@ class Material(Section):
         low=0,
         high=0.5,
         since="0.2",
-    )
-
-
-@dataclass(frozen=True, slots=True)
-class Mesh(Section):
-    """Element sizes."""
-
-    fine_size_m: float | None = parameter(
-        None,
-        doc="brick size of the column's lower part, of the flange and of the base below; "
-        "left out: see fecolumn.sizes",
-        unit="m",
-        above=0,
-        high=10,
-    )
-    coarse_size_m: float | None = parameter(
-        None,
-        doc="brick size along height and circumference of the column's upper part; left "
-        "out: three fine bricks of a tube, two of a solid column",
-        unit="m",
-        above=0,
-        high=10,
-    )
-    cap_size_m: float | None = parameter(
-        None,
-        doc="brick size of the cap plate; left out: a coarse brick, but 16 of the cap's "
-        "longer side at most",
-        unit="m",
-        above=0,
-        high=10,
-    )
-    base_size_m: float | None = parameter(
-        None,
-        doc="largest brick size of the base, away from the footprint; left out: six fine bricks",
-        unit="m",
-        above=0,
-        high=10,
-    )
-    element_order: int | None = parameter(
-        None,
-        doc="polynomial order of the column's and cap's elements; left out: 1 for bricks, "
-        "2 for tetrahedra",
-        low=1,
-        high=2,
-    )
-    limit_dofs: int = parameter(
-        500_000,
-        doc="degrees of freedom above which a mesh is refused before it is built",
-        low=100,
-        high=10**9,
-        counts=False,
     )
 
 
@@ -296,7 +123,7 @@ class Integration(Section):
         high=0,
     )
     engine: str = parameter(
-        "full",
+        "reduced",
         doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, "
         "exact static compliance of the same mesh; rigid: reduced without modes, a "
         "structure's bodies without any give; housner: no finite elements, the planar "
@@ -306,7 +133,7 @@ class Integration(Section):
         choices=("full", "reduced", "rigid", *MODEL_ENGINES),
     )
     n_modes: int = parameter(
-        100,
+        30,
         doc="elastic modes of the reduced engine, all where the mesh has fewer; the others "
         "respond statically",
         low=0,
@@ -517,91 +344,9 @@ class Output(Section):
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Case(Section):
-    """One analysis."""
-
-    column: Column
-    base: Base
-    material: Material
-    mesh: Mesh
-    contact: Contact
-    integration: Integration
-    initial: Initial
-    overturn: Overturn
-    output: Output
-    title: str = parameter("", doc="title for figures")
-    cap: Cap | None = None
-    motion: Motion | None = None
-    flange: Flange | None = dataclasses.field(default=None, metadata={"since": "0.2"})
-
-    @property
-    def id(self) -> str:
-        """Twelve hexadecimal digits that name everything but title and output cadence.
-
-        Motions and meshes count by content, so that a study may be moved, and a file that changed
-        makes another case.
-        """
-        return digest({name: section_text(name, getattr(self, name)) for name in SECTIONS})
-
-    def replace(self, changes: dict | None = None, **sections) -> Case:
-        """This case with other values, checked as a file's would be; sizes that followed the column
-        follow the new one.
-
-        Parameters
-        ----------
-        changes
-            values by dotted key, such as {"contact.friction_coefficient": 0.5}; None removes a
-            section that may be absent.
-        sections
-            the same by section, such as contact={"friction_coefficient": 0.5}; title="...".
-
-        Raises
-        ------
-        InputError
-            unknown key, value out of range, parts that do not fit.
-        """
-        from fecolumn import sizes
-
-        tables = stated(dataclasses.asdict(sizes.opened(self)))
-        for key, value in {**(changes or {}), **sections}.items():
-            if value is None:
-                tables.pop(key, None)
-            else:
-                tables = merge(tables, nested(key, value))
-        return case_from_tables(tables, "case")
-
-    @property
-    def n_modes(self) -> int:
-        """Elastic modes that move with inertia in the reduced engine."""
-        return 0 if self.integration.engine == "rigid" else self.integration.n_modes
-
-    @property
-    def mean_radius_m(self) -> float:
-        """Radius of the wall's middle surface."""
-        return (self.column.outer_diameter_m - self.column.wall_m) / 2
-
-    @property
-    def seat_m(self) -> float:
-        """Height at which the column begins: the flange's thickness."""
-        return self.flange.thickness_m if self.flange else 0.0
-
-    @property
-    def top_m(self) -> float:
-        """Height of the top of column and cap."""
-        return self.seat_m + self.column.height_m + (self.cap.thickness_m if self.cap else 0.0)
-
-
-# what tells one case from another: all but title and output
-SECTIONS = tuple(
-    field.name for field in dataclasses.fields(Case) if field.name not in ("title", "output")
-)
-# keys of [base] that a pad alone has
-PAD_KEYS = "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"
 # keys of [integration] that the full-order engine alone has, and their defaults
 FULL_ORDER_KEYS = "tolerance", "max_iterations"
 DEFAULT = {field.name: field.default for field in dataclasses.fields(Integration)}
-_YOUNGER = {field.name for field in dataclasses.fields(Case) if field.metadata.get("since")}
 
 
 def section_table(name: str, section) -> dict | None:
@@ -626,21 +371,6 @@ def section_table(name: str, section) -> dict | None:
     return table
 
 
-def section_text(name: str, section) -> str:
-    """JSON of `section_table`: what a section adds to `Case.id`."""
-    return json.dumps(section_table(name, section), sort_keys=True)
-
-
-def digest(texts: dict[str, str]) -> str:
-    """`Case.id` from the `section_text` of every one of SECTIONS; a younger section that is absent
-    says nothing.
-    """
-    said = sorted(name for name in texts if not (name in _YOUNGER and texts[name] == "null"))
-    return hashlib.sha256(
-        f"{{{', '.join(f'{json.dumps(name)}: {texts[name]}' for name in said)}}}".encode()
-    ).hexdigest()[:12]
-
-
 def located(name: str, section, file):
     """A section of a case with its relative paths taken from the folder of `file`."""
     folder = Path(file).resolve().parent
@@ -651,11 +381,10 @@ def located(name: str, section, file):
     return dataclasses.replace(section, **found) if found else section
 
 
-def case_from_tables(tables: dict, file) -> Case:
+def case_from_tables(tables: dict, file) -> StructureCase:
     """Case from TOML tables; relative paths are taken from the folder of `file`.
 
-    Tables with [bodies] make a `structures.case.StructureCase`, those with a rocking model's own,
-    such as [podium], a `rocking.table_case.TableCase`.
+    Tables with [column] are a short form, see `fecolumn.short_form`.
     """
     from fecolumn.rocking.model import TABLES, engine_of
 
@@ -663,21 +392,14 @@ def case_from_tables(tables: dict, file) -> Case:
         from fecolumn.rocking.table_case import table_case
 
         return table_case(tables, file)
-    if "bodies" in tables:
-        tables = {key: table for key, table in tables.items() if key not in TABLES}
-        from fecolumn.structures.case import structure_from_tables
+    from fecolumn.structures.case import structure_from_tables
 
-        return structure_from_tables(tables, file)
-    case = build(Case, tables, file)
-    return finished(
-        dataclasses.replace(
-            case, **{name: located(name, getattr(case, name), file) for name in FILES}
-        ),
-        file,
+    return structure_from_tables(
+        {key: table for key, table in tables.items() if key not in TABLES}, file
     )
 
 
-def read_case(path) -> Case:
+def read_case(path) -> StructureCase:
     """Case of a TOML file.
 
     Raises
@@ -688,126 +410,7 @@ def read_case(path) -> Case:
     return case_from_tables(read_toml(path), path)
 
 
-def finished(case: Case, file) -> Case:
-    """The case with the sizes that it leaves open, checked as a whole.
-
-    Raises
-    ------
-    InputError
-        as of `read_case`.
-    """
-    from fecolumn import sizes
-
-    sizes.check_shape(case, file)
-    case = sizes.with_sizes(case, file)
-    sizes.check_sizes(case, file)
-    check(case, file)
-    return case
-
-
-def check(case: Case, file) -> None:
-    """What no single key can know, but for sizes (`fecolumn.sizes`)."""
-
-    def refuse(key, value, allowed):
-        raise InputError(file, key, value, allowed)
-
-    check_base(case, refuse)
-    for key in ("velocity_m_s", "spin_rad_s"):
-        if len(value := getattr(case.initial, key)) != 3:
-            refuse(f"initial.{key}", list(value), "must be three numbers: x, y, z")
-    if case.contact.impact == "none":
-        for key in ("restitution", "rolling_resistance"):
-            if value := getattr(case.contact, key):
-                refuse(f"contact.{key}", value, "must be 0 where contact.impact = 'none'")
-    if (
-        case.contact.rolling_resistance
-        and case.column.shape == "block"
-        and not case.column.mesh_file
-    ):
-        refuse(
-            "contact.rolling_resistance",
-            case.contact.rolling_resistance,
-            "must be 0 for a block: only a round foot rolls",
-        )
-    if (
-        case.material.damping_ratio
-        and case.integration.engine == "full"
-        and case.integration.kinematics != "corotated"
-    ):
-        refuse(
-            "material.damping_ratio",
-            case.material.damping_ratio,
-            "must be 0 where integration.kinematics is not 'corotated'",
-        )
-    if case.integration.engine != "full":
-        for section, key, needed in (
-            ("integration", "kinematics", "corotated"),
-            ("contact", "impact", "plastic"),
-        ):
-            if (value := getattr(getattr(case, section), key)) != needed:
-                refuse(
-                    f"{section}.{key}",
-                    value,
-                    f"must be {needed} where integration.engine = {case.integration.engine!r}",
-                )
-        for key in FULL_ORDER_KEYS:
-            if (value := getattr(case.integration, key)) != DEFAULT[key]:
-                refuse(
-                    f"integration.{key}",
-                    value,
-                    "has no effect where integration.engine = "
-                    f"{case.integration.engine!r}, which solves a step's "
-                    "contact to its own tolerance: leave it out, or choose "
-                    "integration.engine = 'full'",
-                )
-    check_model(case, MODEL_ENGINES, refuse)
-    check_substeps(case, MODEL_ENGINES, refuse)
-    time = case.integration.duration_s or (
-        case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
-    )
-    if time / case.integration.dt_s > MOST_STEPS:
-        refuse(
-            "integration.dt_s",
-            case.integration.dt_s,
-            f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} "
-            f"steps in {time:g} s",
-        )
-    if case.motion:
-        part = case.motion.strong_part
-        if len(part) != 2 or not part[0] < part[1]:
-            refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
-
-
-def check_base(case: Case, refuse) -> None:
-    """Keys of a pad, where there is one and where there is none."""
-    base = case.base
-    if base.kind != "pad":
-        for key in PAD_KEYS:
-            if value := getattr(base, key):
-                refuse(f"base.{key}", value, f"is of a pad; base.kind = {base.kind!r} has none")
-        return
-    if not base.stiffness_n_m3:
-        refuse(
-            "base.stiffness_n_m3",
-            base.stiffness_n_m3,
-            "must be greater than 0 N/m3 where base.kind = 'pad'",
-        )
-    if case.contact.impact != "plastic":
-        refuse(
-            "contact.impact",
-            case.contact.impact,
-            "must be plastic where base.kind = 'pad', whose springs take the place of impacts",
-        )
-    for key in ("restitution", "rolling_resistance"):
-        if value := getattr(case.contact, key):
-            refuse(
-                f"contact.{key}",
-                value,
-                "must be 0 where base.kind = 'pad'; base.damping_ratio takes energy there",
-            )
-
-
-def check_duration(case: Case, file) -> None:
+def check_duration(case: StructureCase, file) -> None:
     """Refuse to analyse a case that does not say for how long; its mesh may still be looked at."""
     if case.motion is None and case.integration.duration_s == 0:
         raise InputError(

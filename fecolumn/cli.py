@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import io
 import os
 import sys
 import traceback
 import warnings
+from typing import cast
 
 
 def main(argv=None) -> int:
@@ -25,12 +27,10 @@ def main(argv=None) -> int:
     from fecolumn.atomic import disk_full
     from fecolumn.schema import InputError
 
-    for stream in (
-        sys.stdout,
-        sys.stderr,
-    ):  # a terminal that cannot write a folder's name must not end what is at work there
+    # a terminal that cannot write a folder's name must not end what is at work there
+    for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(AttributeError):
-            stream.reconfigure(errors="backslashreplace")
+            cast(io.TextIOWrapper, stream).reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
     try:
         code = args.command(args)
@@ -73,7 +73,7 @@ def _abandon_other_ranks(code: int) -> None:
         MPI.COMM_WORLD.Abort(code)
 
 
-def _show_warning(message, category, *_) -> None:
+def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:
     """One line, from one rank."""
     _refuse(f"warning: {message}", 0)
 
@@ -88,7 +88,7 @@ def _refuse(message, code: int) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     """Of all commands; nothing here may load a library, so that --help is quick."""
-    from fecolumn import __version__, completion, keys, manual, templates
+    from fecolumn import __version__, completion, keys, manual, show, templates
     from fecolumn.motions import command as motions
     from fecolumn.render import command as render
     from fecolumn.report import command as report
@@ -153,6 +153,7 @@ def _parser() -> argparse.ArgumentParser:
         rocking,
     )
     add("motions", "make, fit, look at and convert ground motions", motions)
+    add("show", "print the full form of a case: bodies, grounds, joints", show)
     add("keys", "every key of a case and of a study: meaning, unit, range, default", keys)
     add("help", "the manual, topic by topic", manual)
     add("verify", "check the engines against exact solutions", verify)

@@ -25,7 +25,7 @@ INSTALL = "run through ./containers/run, which installs it"
 
 
 @dataclass(frozen=True)
-class Finding:
+class LibraryFinding:
     """One line of the table; `warning` names a trap and its remedy, `fit` is False if no analysis
     can run.
     """
@@ -39,12 +39,17 @@ class Finding:
 
 def origin(name: str) -> str:
     """Debian, or the folder of a wheel; without importing the module."""
-    folder = str(Path(importlib.util.find_spec(name).origin).parent.parent)
+    found = importlib.util.find_spec(name)
+    if found is None or found.origin is None:
+        raise ModuleNotFoundError(f"No module named {name!r}")
+    folder = str(Path(found.origin).parent.parent)
     return "Debian" if folder.startswith("/usr/lib/") else folder
 
 
 def loaded_libraries(pattern: str) -> list[str]:
-    """Shared libraries of this process whose file name begins like this, those of wheels left out."""
+    """Shared libraries of this process whose file name begins like this, those of wheels left
+    out.
+    """
     files = {
         line.split()[-1]
         for line in Path("/proc/self/maps").read_text().splitlines()
@@ -55,7 +60,7 @@ def loaded_libraries(pattern: str) -> list[str]:
     )
 
 
-def look_at_machine() -> list[Finding]:
+def look_at_machine() -> list[LibraryFinding]:
     """System, Python, compiler, cores, memory and environment variables."""
     release = dict(
         re.findall(r'^(\w+)="?(.*?)"?$', Path("/etc/os-release").read_text(), re.MULTILINE)
@@ -67,25 +72,27 @@ def look_at_machine() -> list[Finding]:
     foreign = "not the Python that Debian's dolfinx was built for: run through ./containers/run"
     crowded = "analyses side by side would fight for the cores: export OMP_NUM_THREADS=1"
     findings = [
-        Finding(
+        LibraryFinding(
             "system",
             release.get("PRETTY_NAME", "unknown"),
             platform.machine(),
             "" if known else untried,
         ),
-        Finding(
+        LibraryFinding(
             "Python",
             platform.python_version(),
             sys.prefix,
             "" if sys.base_prefix == "/usr" else foreign,
         ),
-        Finding("cores", str(len(os.sched_getaffinity(0))), f"of {os.cpu_count()}"),
-        Finding("memory", f"{memory:.1f} GiB"),
-        Finding("OMP_NUM_THREADS", threads or "unset", "", "" if threads == "1" else crowded),
+        LibraryFinding("cores", str(len(os.sched_getaffinity(0))), f"of {os.cpu_count()}"),
+        LibraryFinding("memory", f"{memory:.1f} GiB"),
+        LibraryFinding(
+            "OMP_NUM_THREADS", threads or "unset", "", "" if threads == "1" else crowded
+        ),
     ]
     if not (shutil.which("mpicc") or shutil.which("cc")):
         findings.append(
-            Finding(
+            LibraryFinding(
                 "C compiler", "missing", "", f"dolfinx compiles forms with it: {INSTALL}", fit=False
             )
         )
@@ -94,10 +101,10 @@ def look_at_machine() -> list[Finding]:
             "Open MPI refuses root: export OMPI_ALLOW_RUN_AS_ROOT=1 "
             "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"
         )
-        findings.append(Finding("mpirun", "as root", "", remedy))
+        findings.append(LibraryFinding("mpirun", "as root", "", remedy))
     if importlib.util.find_spec("netCDF4") and origin("netCDF4") != "Debian":
         findings.append(
-            Finding("netCDF4", "wheel", "", "crashes beside dolfinx: pip uninstall netCDF4")
+            LibraryFinding("netCDF4", "wheel", "", "crashes beside dolfinx: pip uninstall netCDF4")
         )
     return findings
 
@@ -107,6 +114,7 @@ def look_at_machine() -> list[Finding]:
 
 
 def look_at_numpy():
+    """Version and origin; advice where it is not Debian's, for which petsc4py was built."""
     import numpy
 
     debian = origin("numpy") == "Debian"
@@ -118,6 +126,7 @@ def look_at_numpy():
 
 
 def look_at_scipy():
+    """Version and origin, and whether it has stats.ecdf (scipy 1.11)."""
     import scipy.stats
 
     return (
@@ -128,6 +137,7 @@ def look_at_scipy():
 
 
 def look_at_mpi():
+    """The MPI library and mpi4py's version."""
     import mpi4py
     from mpi4py import MPI
 
@@ -140,6 +150,7 @@ def look_at_mpi():
 
 
 def look_at_petsc():
+    """Versions of PETSc and petsc4py; complex scalars are an error."""
     import petsc4py
     from petsc4py import PETSc
 
@@ -156,6 +167,7 @@ def look_at_petsc():
 
 
 def look_at_mumps():
+    """Factor a matrix by MUMPS and name the library that did it."""
     from petsc4py import PETSc
 
     _factor(PETSc, "lu", "mumps")
@@ -163,6 +175,7 @@ def look_at_mumps():
 
 
 def look_at_cholmod():
+    """Factor a matrix by CHOLMOD, which PETSc may lack."""
     from petsc4py import PETSc
 
     try:
@@ -187,6 +200,7 @@ def _factor(PETSc, kind: str, package: str) -> None:
 
 
 def look_at_blas():
+    """Which BLAS is loaded; advice where it is the slow reference implementation."""
     import numpy.linalg  # noqa: F401  loads BLAS
     from petsc4py import PETSc  # noqa: F401  loads BLAS
 
@@ -198,6 +212,7 @@ def look_at_blas():
 
 
 def look_at_dolfinx():
+    """Version, and whether it writes fields by VTX or by XDMF."""
     import dolfinx.io
 
     return (
@@ -208,6 +223,7 @@ def look_at_dolfinx():
 
 
 def look_at_h5py():
+    """Version and its HDF5 library; a wheel of h5py is an error."""
     if origin("h5py") != "Debian":  # not imported: it may take the process down
         raise RuntimeError(
             f"a wheel in {origin('h5py')}, which crashes beside dolfinx: pip uninstall h5py"
@@ -223,6 +239,7 @@ def look_at_h5py():
 
 
 def look_at_gmsh():
+    """Version and origin of Gmsh."""
     import gmsh
 
     gmsh.initialize()
@@ -230,6 +247,7 @@ def look_at_gmsh():
 
 
 def look_at_pyvista():
+    """Draw a sphere off screen; a blank picture is an error."""
     import pyvista
 
     plotter = pyvista.Plotter(off_screen=True, window_size=(64, 64))
@@ -247,12 +265,14 @@ def look_at_pyvista():
 
 
 def look_at_other(name: str):
+    """Version and origin of a library that needs no trial."""
     return importlib.import_module(name).__version__, origin(name), ""
 
 
 # in the order an analysis loads them; h5py after dolfinx, whose HDF5 it must get along with
 LIBRARIES = {
-    "numpy": look_at_numpy, "scipy": look_at_scipy, "MPI": look_at_mpi, "PETSc": look_at_petsc, "MUMPS": look_at_mumps, "CHOLMOD": look_at_cholmod,
+    "numpy": look_at_numpy, "scipy": look_at_scipy, "MPI": look_at_mpi, "PETSc": look_at_petsc,
+    "MUMPS": look_at_mumps, "CHOLMOD": look_at_cholmod,
     "BLAS": look_at_blas, "dolfinx": look_at_dolfinx, "h5py": look_at_h5py, "Gmsh": look_at_gmsh,
     "numba": lambda: look_at_other("numba"), "meshio": lambda: look_at_other("meshio"),
     "matplotlib": lambda: look_at_other("matplotlib"), "pyvista": look_at_pyvista,
@@ -260,10 +280,10 @@ LIBRARIES = {
 OPTIONAL = {"matplotlib", "pyvista", "CHOLMOD"}
 
 
-def look_at_library(name: str) -> Finding:
+def look_at_library(name: str) -> LibraryFinding:
     """One library's line, whatever its import raises."""
     try:
-        return Finding(name, *LIBRARIES[name]())
+        return LibraryFinding(name, *LIBRARIES[name]())
     except Exception as error:  # noqa: BLE001  a broken library may raise anything
         state = (
             "missing"
@@ -272,10 +292,10 @@ def look_at_library(name: str) -> Finding:
         )
         reason = " ".join(str(error).split())[:200]
         remedy = reason if re.search("pip |apt ", reason) else f"{reason}: {INSTALL}"
-        return Finding(name, state, "", remedy, fit=name in OPTIONAL)
+        return LibraryFinding(name, state, "", remedy, fit=name in OPTIONAL)
 
 
-def look_at_libraries() -> list[Finding]:
+def look_at_libraries() -> list[LibraryFinding]:
     """Every library's line, from a child process, and another child after each crash."""
     # a child is no rank of the MPI job that the doctor may be part of
     environment = {
@@ -288,7 +308,7 @@ def look_at_libraries() -> list[Finding]:
             command, env=environment, capture_output=True, text=True, check=False
         )
         found = [
-            Finding(**json.loads(line[1:]))
+            LibraryFinding(**json.loads(line[1:]))
             for line in child.stdout.splitlines()
             if line.startswith("@{")
         ]
@@ -300,7 +320,7 @@ def look_at_libraries() -> list[Finding]:
                 f"ends the process with exit code {child.returncode}; to see why: python -c "
                 f"'import {name.lower()}'"
             )
-            findings.append(Finding(name, "crashes", "", remedy, fit=name in OPTIONAL))
+            findings.append(LibraryFinding(name, "crashes", "", remedy, fit=name in OPTIONAL))
     return findings
 
 

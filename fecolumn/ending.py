@@ -24,8 +24,14 @@ REST_SHARE = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """outcome: one of the words above; ended_by: what stopped the analysis, in words, with its time
-    [s].
+    """How an analysis ended.
+
+    Attributes
+    ----------
+    outcome
+        one of the words above.
+    ended_by
+        what stopped the analysis, in words, with its time [s].
     """
 
     outcome: str
@@ -89,7 +95,9 @@ def cut_short(summaries) -> str:
 
 
 def lost(summary: dict) -> bool:
-    """Whether the column overturned or slid off its base: what its top did after that is not known."""
+    """Whether the column overturned or slid off its base: what its top did after that is not
+    known.
+    """
     return bool(summary["overturned"] or summary.get("slid_off"))
 
 

@@ -74,7 +74,7 @@ def main(args) -> int:
 
 def tables() -> list[Table]:
     """Every table of a case file, of a study file and of a rocking model."""
-    from fecolumn.case import Case
+    from fecolumn.short_form import ShortForm
     from fecolumn.study.keys import LatinHypercube, StudyKeys
     from fecolumn.study.plan import DEFAULTS
 
@@ -87,12 +87,12 @@ def tables() -> list[Table]:
     )
     sections = {
         name: inner
-        for name, kind in typing.get_type_hints(Case).items()
+        for name, kind in typing.get_type_hints(ShortForm).items()
         for inner in (kind, *typing.get_args(kind))
         if dataclasses.is_dataclass(inner)
     }
-    found = [Table("", _sentence(Case), (extends, *_keys(Case, skip=sections)), "case")]
-    for field in dataclasses.fields(Case):
+    found = [Table("", _sentence(ShortForm), (extends, *_keys(ShortForm, skip=sections)), "case")]
+    for field in dataclasses.fields(ShortForm):
         if field.name in sections:
             absent = "" if field.default is dataclasses.MISSING else " The table may be left out."
             kind = sections[field.name]
@@ -125,10 +125,11 @@ def _model_sections() -> dict[str, type]:
 
 def _of_structures() -> list[Table]:
     """Tables of a structure's case beside those that it has in common with a column's."""
-    from fecolumn.case import Cap, Flange, Initial, Material
+    from fecolumn.case import Cap, Flange, Initial, Material, Motion
     from fecolumn.structures.keys import (
         KINDS,
         Footed,
+        Ground,
         Interface,
         LinkKeys,
         Mesh,
@@ -162,6 +163,8 @@ def _of_structures() -> list[Table]:
         "bodies.NAME.flange": Flange,
         "bodies.NAME.cap": Cap,
         "materials.NAME": Material,
+        "grounds.NAME": Ground,
+        "grounds.NAME.motion": Motion,
         "interfaces.NAME": Interface,
         "links.NAME": LinkKeys,
         "initial.NAME": Initial,
@@ -176,7 +179,10 @@ def _of_structures() -> list[Table]:
             "structure",
         ),
         *bodies,
-        *(Table(name, _sentence(kind), _keys(kind), "structure") for name, kind in others.items()),
+        *(
+            Table(name, _sentence(kind), _keys(kind, skip=("motion",)), "structure")
+            for name, kind in others.items()
+        ),
     ]
 
 

@@ -10,9 +10,10 @@ import fcntl
 import os
 import stat
 from pathlib import Path
+from typing import IO
 
 
-def open_lock(file):
+def open_lock(file: Path | str) -> IO[str]:
     """A lock's file open for reading and writing, made if need be.
 
     Raises
@@ -54,7 +55,7 @@ def alone(path: Path):
             file.unlink(missing_ok=True)
 
 
-def held(file: Path) -> bool:
+def is_held(file: Path) -> bool:
     """Whether a process holds the lock in `file` alone; one that was killed holds none, though its
     file may be left.
     """

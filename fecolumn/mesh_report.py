@@ -7,22 +7,22 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case import Case
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
 from fecolumn.mesh.bricks import PART_NAMES
-from fecolumn.mesh.column import is_solid
 from fecolumn.mesh.estimate import estimate
 from fecolumn.mesh.export import write_meshes
 from fecolumn.mesh.jacobian import scaled_jacobian
 from fecolumn.mesh.picture import picture
 from fecolumn.mesh.quality import quality_table
 from fecolumn.mesh.specimen import specimen_mesh
+from fecolumn.short_form import ShortForm
+from fecolumn.sizes import is_solid
 
 # Below so many widths high Timoshenko's beam is too short to compare with
 _STUBBY = 2.0
 
 
-def mesh_report(case: Case, folder, say=lambda text: None) -> str:
+def mesh_report(case: ShortForm, folder, say=lambda text: None) -> str:
     """Write .msh, .xdmf, picture and table of a case's meshes into `folder`; returns the table.
 
     `say` is told the estimate first.
@@ -63,7 +63,7 @@ def mesh_report(case: Case, folder, say=lambda text: None) -> str:
     return text
 
 
-def bending_theory(case: Case) -> float | None:
+def bending_theory(case: ShortForm) -> float | None:
     """First free-free bending frequency [Hz] of the bare column as a Timoshenko beam; None of a
     user's mesh and of a stubby column.
     """
@@ -79,7 +79,7 @@ def bending_theory(case: Case) -> float | None:
             else None
         )
     outer = column.outer_diameter_m / 2
-    inner = 0.0 if is_solid(case) else outer - column.wall_m
+    inner = 0.0 if is_solid(case.column) else outer - column.wall_m
     return (
         free_free_bending_frequency(outer, inner, column.height_m, *elastic)
         if column.height_m > _STUBBY * 2 * outer
@@ -87,7 +87,7 @@ def bending_theory(case: Case) -> float | None:
     )
 
 
-def _bending(case: Case, specimen) -> tuple[float, float | None, str]:
+def _bending(case: ShortForm, specimen) -> tuple[float, float | None, str]:
     """First bending frequency [Hz] of the bare column's finite elements and ties, its closed form,
     and of what it is.
 

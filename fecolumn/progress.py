@@ -8,6 +8,7 @@ import contextlib
 import os
 import sys
 import time
+from typing import Any
 
 
 class Bar:
@@ -24,10 +25,10 @@ class Bar:
         keep: bool = True,
     ):
         self.total, self._quiet, self._stream, self._keep = total, quiet, stream or sys.stderr, keep
-        self._in_place = (
-            self._stream.isatty() or "ipykernel" in type(self._stream).__module__
-        )  # a notebook's
-        self._pause_s, self._bar = pause_s if self._in_place else 10.0, None
+        # a notebook's
+        self._in_place = self._stream.isatty() or "ipykernel" in type(self._stream).__module__
+        self._pause_s = pause_s if self._in_place else 10.0
+        self._bar: Any = None
         self._began = self._shown = time.monotonic()
 
     def due(self) -> bool:
@@ -76,9 +77,10 @@ class Progress(Bar):
         that are, and rest may come before.
         """
         super().__init__(steps if until_rest_from is None else until_rest_from, quiet)
-        self.steps, self.dt, self._first = steps, dt, None
+        self.steps, self.dt = steps, dt
+        self._first: int | None = None
 
-    def show(self, step: int, measures: dict, record) -> None:
+    def show(self, step: int, measures: dict[str, Any], record: Any) -> None:
         """Show the state after `step` where it is time to."""
         if self._first is None:
             self._first, self._iterations, self._counted = step - 1, record.iterations, step

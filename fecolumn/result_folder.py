@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import fcntl
 import os
 from pathlib import Path
 
 from fecolumn.atomic import disk_full, write_json
-from fecolumn.case import Case
 from fecolumn.files import Unreadable, read_json
 from fecolumn.lock import open_lock
 from fecolumn.schema import InputError
+from fecolumn.structures.case import StructureCase
 
 
 @contextlib.contextmanager
-def held(folder: Path, case: Case, comm, file):
+def held(folder: Path, case: StructureCase, comm, file):
     """Hold the folder for one process; yields the function that makes it this case's, for when the
     analysis has started.
 
@@ -42,9 +41,8 @@ def held(folder: Path, case: Case, comm, file):
             if refusal is None:
                 lock = open_lock(folder / ".lock")
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                if not os.path.samestat(
-                    os.fstat(lock.fileno()), os.stat(folder / ".lock")
-                ):  # its holder has just given the folder up
+                # its holder has just given the folder up
+                if not os.path.samestat(os.fstat(lock.fileno()), os.stat(folder / ".lock")):
                     raise BlockingIOError
         except (BlockingIOError, FileNotFoundError):
             refusal = "-o", str(folder), "another run is writing into this folder"
@@ -68,7 +66,7 @@ def held(folder: Path, case: Case, comm, file):
 
     def claim():
         if lock and not known.is_file():
-            write_json(known, {"id": case.id, "file": str(file), "case": dataclasses.asdict(case)})
+            write_json(known, {"id": case.id, "file": str(file), "case": case.as_stated()})
 
     try:
         yield claim

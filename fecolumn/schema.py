@@ -43,7 +43,7 @@ class InputError(ValueError):
             _in_text(allowed),
         )
         told = f" = {shown(value)}" if value is not None else ""
-        self.all = (self,)
+        self.all: tuple[InputError, ...] = (self,)
         super().__init__(
             f"{self.file}: {_in_text(key)}{told}: {self.allowed}"
             if key
@@ -93,29 +93,11 @@ def _in_text(words: str) -> str:
     )
 
 
-def parameter(
-    default=dataclasses.MISSING,
-    *,
-    doc: str,
-    unit: str = "-",
-    low=None,
-    high=None,
-    above=None,
-    choices=None,
-    words=(),
-    since: str = "",
-    counts: bool = True,
-):
-    """Dataclass field of a case section.
+class Rules(typing.TypedDict, total=False):
+    """What the value of a key must be, and what the key is for.
 
-    Parameters
+    Attributes
     ----------
-    default
-        value when the key is absent; without one the key is required.
-    doc
-        meaning of the key, shown in error messages.
-    unit
-        physical unit, "-" when dimensionless.
     low, high
         closed bounds of a number.
     above
@@ -130,17 +112,40 @@ def parameter(
     counts
         whether the key makes another analysis; False for what only guards or tells.
     """
-    metadata = dict(
-        doc=doc,
-        unit=unit,
-        low=low,
-        high=high,
-        above=above,
-        choices=choices,
-        words=words,
-        since=since,
-        counts=counts,
-    )
+
+    low: float | None
+    high: float | None
+    above: float | None
+    choices: typing.Sequence[str] | None
+    words: typing.Sequence[str]
+    since: str
+    counts: bool
+
+
+_NO_RULES = dict(low=None, high=None, above=None, choices=None, words=(), since="", counts=True)
+
+
+def parameter(
+    default=dataclasses.MISSING,
+    *,
+    doc: str,
+    unit: str = "-",
+    **rules: typing.Unpack[Rules],
+) -> typing.Any:
+    """Dataclass field of a case section.
+
+    Parameters
+    ----------
+    default
+        value when the key is absent; without one the key is required.
+    doc
+        meaning of the key, shown in error messages.
+    unit
+        physical unit, "-" when dimensionless.
+    rules
+        what a value must be.
+    """
+    metadata = _NO_RULES | rules | dict(doc=doc, unit=unit)
     if isinstance(default, (list, dict)):
         raise TypeError("defaults must be immutable")
     return dataclasses.field(default=default, metadata=metadata)
@@ -271,7 +276,7 @@ class Section:
             names section, key, value and range.
         """
         prefix, errors = (
-            "" if type(self).__name__ == "Case" else f"{type(self).__name__.lower()}.",
+            "" if type(self).__name__ == "ShortForm" else f"{type(self).__name__.lower()}.",
             [],
         )
         for key, (field, kind, inner, optional) in _kinds(type(self)).items():

@@ -13,6 +13,8 @@ import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
+from typing import Any
 
 from fecolumn.files import Unreadable, read_bytes
 
@@ -56,7 +58,7 @@ def sealed(content: bytes) -> bytes:
     return content + _SEAL + hashlib.sha256(content).hexdigest().encode() + b"\n"
 
 
-def open_whole(path):
+def open_whole(path: Path | str) -> Any:
     """An HDF5 file open for reading, once it is known that it can be read.
 
     Raises
@@ -66,7 +68,7 @@ def open_whole(path):
     """
     import h5py
 
-    if fault := fault_of(path):
+    if fault := hdf5_fault(path):
         raise Unreadable(fault)
     try:
         return h5py.File(path, "r")
@@ -74,7 +76,7 @@ def open_whole(path):
         raise Unreadable(f"is no HDF5 file, or damaged ({error})") from None
 
 
-def fault_of(path) -> str:
+def hdf5_fault(path) -> str:
     """What keeps a file from being read as HDF5, in words; empty where nothing does."""
     try:
         status = os.stat(path)
@@ -88,7 +90,7 @@ def fault_of(path) -> str:
 
 @functools.lru_cache(maxsize=256)
 def _fault(path: str, version) -> str:
-    """As `fault_of`; `version` tells whether the file is still the one read before."""
+    """As `hdf5_fault`; `version` tells whether the file is still the one read before."""
     content = read_bytes(path, _MOST_BYTES)
     if not content.startswith(_SIGNATURE):
         return "is no HDF5 file"

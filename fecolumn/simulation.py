@@ -7,20 +7,20 @@ import warnings
 from pathlib import Path
 
 from fecolumn.analysis import Analysis, AnalysisFailed
-from fecolumn.case import MODEL_ENGINES, Case, check_duration, finished, read_case
+from fecolumn.case import MODEL_ENGINES, check_duration, read_case
 from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.result_folder import held
 from fecolumn.rocking.table_case import TableCase
 from fecolumn.schema import InputError
 from fecolumn.sources import code, code_text
-from fecolumn.structures.case import StructureCase
+from fecolumn.structures.case import StructureCase, check
 from fecolumn.summary import NAME, read_summary
 
 __all__ = ["AnalysisFailed", "read_folder_case", "run"]
 
 
 def run(
-    case: Case | StructureCase | TableCase | str | Path,
+    case: StructureCase | TableCase | str | Path,
     folder,
     *,
     comm=None,
@@ -63,13 +63,13 @@ def run(
     comm = comm or MPI.COMM_WORLD
     if isinstance(case, (str, Path)):
         case, file = read_case(case), str(case)
-    if not isinstance(case, (Case, StructureCase, TableCase)):
+    if not isinstance(case, (StructureCase, TableCase)):
         raise TypeError(
             f"run takes a Case or the path of a case file, not {type(case).__name__}; "
             "see fecolumn.read_case"
         )
     folder, file = Path(folder), file or "case"
-    case = finished(case, file) if isinstance(case, Case) else case
+    check(case, file)
     with held(folder, case, comm, file) as claim:
         summary, damage = comm.bcast(_earlier_summary(folder, case.id) if comm.rank == 0 else None)
         if summary:
@@ -96,15 +96,10 @@ def run(
 
 def _analysis_class(case, comm, file) -> type[Analysis]:
     check_duration(case, file)
-    structure = isinstance(case, StructureCase)
-    if case.integration.engine == "full" and structure:
+    if case.integration.engine == "full":
         from fecolumn.structures.full import FullStructureAnalysis
 
         return FullStructureAnalysis
-    if case.integration.engine == "full":
-        from fecolumn.dynamics.analysis import FullAnalysis
-
-        return FullAnalysis
     if comm.size > 1:
         raise InputError(
             file,
@@ -112,17 +107,13 @@ def _analysis_class(case, comm, file) -> type[Analysis]:
             case.integration.engine,
             "runs on one process: start it without mpirun",
         )
-    if structure:
-        from fecolumn.structures.analysis import StructureAnalysis
-
-        return StructureAnalysis
     if case.integration.engine in MODEL_ENGINES:
         from fecolumn.rocking.analysis import ModelAnalysis
 
         return ModelAnalysis
-    from fecolumn.reduced.analysis import ReducedAnalysis
+    from fecolumn.structures.analysis import StructureAnalysis
 
-    return ReducedAnalysis
+    return StructureAnalysis
 
 
 def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
@@ -135,7 +126,7 @@ def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
         return None, str(error)
 
 
-def read_folder_case(folder) -> tuple[Case | StructureCase | TableCase, str]:
+def read_folder_case(folder) -> tuple[StructureCase | TableCase, str]:
     """The case of a result folder, and its file's name."""
     from fecolumn.case import case_from_tables
 

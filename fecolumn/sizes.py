@@ -16,7 +16,6 @@ import dataclasses
 import functools
 import math
 
-from fecolumn.case import Case
 from fecolumn.content import content
 from fecolumn.files import is_file
 from fecolumn.schema import InputError
@@ -36,7 +35,7 @@ _IDLE = {
 _COARSE = {"tube": 3, "solid": 2, "block": 2}
 
 
-def check_shape(case: Case, file) -> None:
+def check_shape(case, file) -> None:
     """Refuse a column whose shape misses dimensions, all of them told at once, or has some that say
     nothing of it.
     """
@@ -98,7 +97,7 @@ def check_shape(case: Case, file) -> None:
         )
 
 
-def with_sizes(case: Case, file) -> Case:
+def with_sizes(case, file):
     """The case with every size that it leaves open.
 
     Raises
@@ -107,13 +106,13 @@ def with_sizes(case: Case, file) -> Case:
         a mesh of one's own cannot be read.
     """
     mesh = content(case.column.mesh_file) if case.column.mesh_file else ""
-    column, base, sizes = _sized(case.column, case.flange, case.cap, case.base, case.mesh, mesh)
+    column, base, sizes = sized(case.column, case.flange, case.cap, case.base, case.mesh, mesh)
     if (column, base, sizes) == (case.column, case.base, case.mesh):
         return case
     return dataclasses.replace(case, column=column, base=base, mesh=sizes)
 
 
-def opened(case: Case) -> Case:
+def opened(case):
     """A finished case with those sizes left open that it would be given anyway, so that another
     column gets its own.
     """
@@ -136,7 +135,7 @@ def opened(case: Case) -> Case:
     return case
 
 
-def foot_sides(case: Case) -> tuple[float, float]:
+def foot_sides(case) -> tuple[float, float]:
     """Length along x and width along y [m] of the rectangle around the foot."""
     return _foot(case.column, case.flange)
 
@@ -165,9 +164,9 @@ def _own(column):
 
 
 @functools.lru_cache(maxsize=256)
-def _sized(column, flange, cap, base, mesh, mesh_content):
-    """Column, base and mesh sections without open sizes; `mesh_content` tells that a file is still
-    the one read before.
+def sized(column, flange, cap, base, mesh, mesh_content):
+    """Column, base and mesh sections without open sizes, those of the short form; `mesh_content`
+    tells that a file is still the one read before.
     """
     foot = _foot(column, flange)
     shorter, longer = min(foot), max(foot)
@@ -186,7 +185,7 @@ def _sized(column, flange, cap, base, mesh, mesh_content):
             )  # to the last digit: a finished case is finished again
         fine, times = (
             _fine(column),
-            _COARSE["solid" if column.shape == "tube" and _is_solid(column) else column.shape],
+            _COARSE["solid" if column.shape == "tube" and is_solid(column) else column.shape],
         )
         coarse = times * fine
         if flange:
@@ -228,12 +227,13 @@ def _fine(column) -> float:
     if column.shape == "block":
         sides = column.length_m, column.width_m
         return min(math.sqrt(sides[0] * sides[1]) / 12, min(sides) / 4)
-    if _is_solid(column):
+    if is_solid(column):
         return math.pi * column.outer_diameter_m / 32
     return math.pi * (column.outer_diameter_m - column.wall_m) / 48
 
 
-def _is_solid(column) -> bool:
+def is_solid(column) -> bool:
+    """Whether the round section of a [column] has no hole."""
     return column.shape == "solid" or column.wall_m >= column.outer_diameter_m / 2 * (1 - 1e-6)
 
 
@@ -252,7 +252,7 @@ def _rounded(value: float) -> float:
     return float(f"{math.floor(value / unit * (1 + 1e-12)) * unit:.4g}")
 
 
-def check_sizes(case: Case, file) -> None:
+def check_sizes(case, file) -> None:
     """Refuse parts that do not fit, and a mesh above `mesh.limit_dofs`."""
     column, base, mesh, cap, flange = case.column, case.base, case.mesh, case.cap, case.flange
     outline = foot_sides(case) if column.mesh_file else _outline(column)
@@ -297,7 +297,7 @@ def check_sizes(case: Case, file) -> None:
                 )
         else:
             around = math.pi * (
-                column.outer_diameter_m if _is_solid(column) else 2 * case.mean_radius_m
+                column.outer_diameter_m if is_solid(column) else 2 * case.mean_radius_m
             )
             if around / mesh.coarse_size_m < 8:
                 refuse(
@@ -323,7 +323,7 @@ def check_sizes(case: Case, file) -> None:
             )
         hole = (
             min(outline) - 2 * column.wall_m
-            if column.shape == "tube" and not _is_solid(column)
+            if column.shape == "tube" and not is_solid(column)
             else min(outline)
         )
         if (

@@ -18,9 +18,8 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 def _cache_of_the_tests() -> str:
     from fecolumn._compiled import cache_folder, compiled_folder
 
-    os.environ["FECOLUMN_COMPILED"] = str(
-        cache_folder()
-    )  # of functions that take code from their own file alone
+    # of functions that take code from their own file alone
+    os.environ["FECOLUMN_COMPILED"] = str(cache_folder())
     compiled = Path(compiled_folder())
     compiled_folder.cache_clear()
     compiled.mkdir(parents=True, exist_ok=True)
@@ -29,8 +28,7 @@ def _cache_of_the_tests() -> str:
     return folder
 
 
-if (
-    "PYTEST_XDIST_WORKER" not in os.environ
-):  # workers of pytest-xdist share the cache of the process that started them
+# workers of pytest-xdist share the cache of the process that started them
+if "PYTEST_XDIST_WORKER" not in os.environ:
     os.environ["FECOLUMN_CACHE"] = _cache_of_the_tests()
     atexit.register(shutil.rmtree, os.environ["FECOLUMN_CACHE"], ignore_errors=True)

@@ -87,24 +87,23 @@ def test_endless_chain_of_files_is_refused(tmp_path):
 def test_section_set_to_false_takes_away_what_extends_brought(tmp_path):
     bare = read_case(
         _write(tmp_path, f'extends = "{STOUT}"\ncap = false\nmotion = false\nmaterial = false\n')
-    )
-    whole = read_case(STOUT)
+    ).short
+    whole = read_case(STOUT).short
     assert (
         whole.cap
         and bare.cap is None
         and bare.motion is None
         and bare.top_m == whole.column.height_m
     )
-    assert (
-        bare.material == type(whole.material)()
-    )  # what must be there is as if the file said nothing of it
+    # what must be there is as if the file said nothing of it
+    assert bare.material == type(whole.material)()
     again = read_case(
         _write(
             tmp_path,
             'extends = "case.toml"\n[cap]\nlength_m = 0.2\nwidth_m = 0.2\nthickness_m = 0.02\n',
             "again.toml",
         )
-    )
+    ).short
     assert again.cap.length_m == 0.2
 
 
@@ -115,7 +114,10 @@ def test_study_varies_a_column_with_cap_and_without(tmp_path):
         f"[false, {{length_m = 0.2, width_m = 0.2, thickness_m = 0.01}}]\n",
         "study.toml",
     )
-    assert [analysis.case.cap is None for analysis in read_plan(path).analyses] == [True, False]
+    assert [analysis.case.short.cap is None for analysis in read_plan(path).analyses] == [
+        True,
+        False,
+    ]
 
 
 @pytest.mark.parametrize(
@@ -135,7 +137,7 @@ def test_study_varies_a_column_with_cap_and_without(tmp_path):
 def test_no_invalid_section_can_be_made_from_python(section, key, value):
     case = read_case(STOUT)
     with pytest.raises(InputError, match=f"^case: {section}.{key}"):
-        dataclasses.replace(getattr(case, section), **{key: value})
+        dataclasses.replace(getattr(case.short, section), **{key: value})
 
 
 def test_case_takes_only_sections_of_their_kind():
@@ -154,11 +156,9 @@ def test_numbers_of_numpy_and_whole_numbers_make_the_same_case():
 
 def test_run_checks_what_no_single_key_can_know(tmp_path):
     case = read_case(STOUT)
-    with pytest.raises(InputError, match="column.wall_m.*outer radius"):
-        run(
-            dataclasses.replace(case, column=dataclasses.replace(case.column, wall_m=1.0)),
-            tmp_path / "out",
-        )
+    wrong = dataclasses.replace(case.bodies["column"], wall_m=1.0)
+    with pytest.raises(InputError, match="bodies.column.wall_m.*outer radius"):
+        run(dataclasses.replace(case, bodies={"column": wrong}), tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 

@@ -1,4 +1,6 @@
-"""Packages stand one above the other: none imports from those above it, not even inside a function."""
+"""Packages stand one above the other: none imports from those above it, not even inside a
+function.
+"""
 
 import pytest
 from imported_modules import ROOT, closure, imports

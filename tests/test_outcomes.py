@@ -68,9 +68,10 @@ def test_column_released_short_of_its_critical_tilt_comes_back(tmp_path):
         math.hypot(0.25, 0.8),
         math.atan2(0.25, 0.8),
     )
+    # a coarse polygon is lighter
     assert summary["energy_to_overturn_j"] == pytest.approx(
         weight * arm * (1 - math.cos(alpha)), rel=0.06
-    )  # a coarse polygon is lighter
+    )
     assert 0.3 < summary["energy_left_j"] / summary["energy_to_overturn_j"] < 1
 
 
@@ -214,9 +215,8 @@ def test_a_column_in_free_flight_is_not_at_rest_and_one_that_lands_beside_its_ba
         tmp_path / "up",
         quiet=True,
     )
-    weight = flying["energy_to_overturn_j"] / (
-        math.hypot(0.25, 0.8) - 0.8
-    )  # N, but for the polygon's edges
+    # N, but for the polygon's edges
+    weight = flying["energy_to_overturn_j"] / (math.hypot(0.25, 0.8) - 0.8)
     assert flying["outcome"] == "still rocking" and flying["energy_left_j"] == pytest.approx(
         weight / 9.80665 * 4.5, rel=0.1
     )

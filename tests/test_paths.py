@@ -83,7 +83,7 @@ def test_mesh_of_a_column_and_of_a_body_is_that_beside_the_file_that_names_it(tm
     cube = _cube(tmp_path / "a" / "meshes" / "cube.vtk")
     _write(tmp_path / "a" / "case.toml", '[column]\nmesh_file = "meshes/cube.vtk"\n')
     _write(tmp_path / "b" / "case.toml", 'extends = "../a/case.toml"\n')
-    assert read_case(tmp_path / "b" / "case.toml").column.mesh_file == str(cube)
+    assert read_case(tmp_path / "b" / "case.toml").short.column.mesh_file == str(cube)
     _write(tmp_path / "a" / "meshes" / "bodies.toml", BODIES)
     _write(tmp_path / "b" / "bodies.toml", 'extends = "../a/meshes/bodies.toml"\n')
     _write(tmp_path / "bodies.toml", 'extends = "b/bodies.toml"\n')

@@ -23,9 +23,8 @@ def terminal():
 
     def read() -> str:
         text = b""
-        while select.select([reader], [], [], 0.5)[
-            0
-        ]:  # a terminal hands on what it gets some time later
+        # a terminal hands on what it gets some time later
+        while select.select([reader], [], [], 0.5)[0]:
             text += os.read(reader, 1_000_000)
         return text.decode()
 

@@ -131,7 +131,7 @@ def test_an_interrupted_analysis_goes_on_with_its_parts_to_the_last_digit(tmp_pa
     for word, start in dict(none=ROLLS, rolling=ROLLS, impacts=dict(tilt_rad=0.05)).items():
         case, asked = case_of("column", "reduced", word, start, 0.4), iter([False] * 4 + [True])
         with pytest.raises(KeyboardInterrupt):
-            simulation.run(case, tmp_path / word, quiet=True, stop=lambda: next(asked))
+            simulation.run(case, tmp_path / word, quiet=True, stop=asked.__next__)
         two, one = (
             simulation.run(case, tmp_path / word, quiet=True),
             simulation.run(case, tmp_path / f"{word} at once", quiet=True),

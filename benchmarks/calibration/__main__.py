@@ -23,7 +23,7 @@ from fecolumn.atomic import write_bytes
 from fecolumn.post.style import PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.store import DONE
 
 TARGET = 0.435
@@ -47,7 +47,9 @@ def nearest(found) -> tuple[float, float]:
 
 
 def draw(found, path) -> list[Path]:
-    """The map: P(overturn) with its 95 % interval (Wilson) and the number of motions in each cell."""
+    """The map: P(overturn) with its 95 % interval (Wilson) and the number of motions in each
+    cell.
+    """
     diameters, heights = (np.unique([key[axis] for key in found]) for axis in (0, 1))
     shares = np.full((len(heights), len(diameters)), np.nan)
     with styled():
@@ -135,7 +137,7 @@ def main() -> None:
     )
     args = parser.parse_args()
     found = cells(
-        run_study(
+        complete_study(
             read_plan(Path(__file__).with_name("map.toml")),
             Path(args.output) / "study",
             workers=args.jobs,

@@ -2,11 +2,14 @@
 
     ./containers/run python -m benchmarks.engines [NAME ...]
 
-physics      specimen: thresholds, quarter period, restitution; ten motions to the third main impact, 30 and 100 modes (five minutes)
+physics      specimen: thresholds, quarter period, restitution; ten motions to the
+    third main impact, 30 and 100 modes (five minutes)
 convergence  n_modes 0 to 200 (three minutes)
-impact       loss of the first impact over a rigid block's, and rebound of a flat landing, by time step, reduced engine (a minute)
+impact       loss of the first impact over a rigid block's, and rebound of a flat landing, by
+    time step, reduced engine (a minute)
 literal      the same of the literal scheme, by alpha_HHT (five minutes)
-ensemble     24 motions on a coarse mesh in both engines (an hour; goes on where it stopped; ENGINES_JOBS=2 for two processes)
+ensemble     24 motions on a coarse mesh in both engines (an hour; goes on where it stopped;
+    ENGINES_JOBS=2 for two processes)
 standing     a minute at every (dt, alpha) (five minutes)
 speed        a step, a motion, memory: on a machine that does nothing else
 motions115   115 motions on two cores

@@ -8,8 +8,9 @@ import numpy as np
 
 from fecolumn.dynamics.gravity import standing
 from fecolumn.verification.models import column_system, shaking
-from fecolumn.verification.rocking import leaning, rocked
-from fecolumn.verification.trial import RigidRocking, begin
+from fecolumn.verification.rocking import leaning_start, rocked_trial
+from fecolumn.verification.trial import RigidRocking
+from fecolumn.verification.trials import begin_trial
 
 MODES = (0, 6, 20, 60, 200)
 DT, AMPLITUDE, SHAKEN = 1e-4, 0.1, 0.12
@@ -37,10 +38,13 @@ def convergence():
 
             return moved
 
-        lost = rocked(
-            begin(engine, system, disturbed(leaning(AMPLITUDE)), n_modes=modes), AMPLITUDE
+        lost = rocked_trial(
+            begin_trial(engine, system, disturbed(leaning_start(AMPLITUDE)), n_modes=modes),
+            AMPLITUDE,
         )[1]
-        path = begin(engine, system, disturbed(standing), n_modes=modes).shake(grounds)[:, 0, :2]
+        path = begin_trial(engine, system, disturbed(standing), n_modes=modes).shake(grounds)[
+            :, 0, :2
+        ]
         return np.array([np.sqrt(1 - lost / initial), np.linalg.norm(path, axis=1).max()])
 
     full, values = found("corotated"), {modes: found("reduced", modes) for modes in MODES}

@@ -13,7 +13,7 @@ from fecolumn.statistics.bands import dkw_distance
 from fecolumn.statistics.ecdf import censored, percentile
 from fecolumn.statistics.two_sample import kolmogorov_smirnov, paired_kolmogorov_smirnov
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.store import DONE
 
 STUDY = Path(__file__).with_name("ensemble.toml")
@@ -26,7 +26,7 @@ def peaks(workers: int) -> dict[str, np.ndarray]:
     plan, found = read_plan(STUDY), {}
     rows = {
         row["id"]: row
-        for row in run_study(plan, RESULTS / "ensemble", workers=workers, retry_failed=True)
+        for row in complete_study(plan, RESULTS / "ensemble", workers=workers, retry_failed=True)
     }
     for analysis in plan.analyses:
         row = rows[analysis.id]

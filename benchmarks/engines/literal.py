@@ -17,8 +17,9 @@ from fecolumn.dynamics.assembly import build_system
 from fecolumn.fem.rotation import tilt_angle
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.study.plan import read_plan
-from fecolumn.verification.rocking import leaning
-from fecolumn.verification.trial import RigidRocking, begin
+from fecolumn.verification.rocking import leaning_start
+from fecolumn.verification.trial import RigidRocking
+from fecolumn.verification.trials import begin_trial
 
 STUDY = Path(__file__).parents[1] / "literal_scheme.toml"
 SHARE = 0.4  # of the critical tilt
@@ -68,7 +69,7 @@ def losses(system, engine: str, impact: str, beside) -> list[float]:
         share = SHARE * more
         tilt = share * rigid.slenderness
         found.append(
-            lost(begin(engine, system, leaning(share), impact), tilt)
+            lost(begin_trial(engine, system, leaning_start(share), impact), tilt)
             / (rigid.energy(tilt) * (1 - rigid.restitution**2))
         )
     return found
@@ -79,9 +80,9 @@ def lost(trial, tilt: float) -> float:
     it on the other, as in `impact`.
     """
     before, lean = None, 1.0
-    while lean > 0 or tilt_angle(trial.state.rotation) < tilt / 3:
+    while lean > 0 or tilt_angle(trial.state.rotation[0]) < tilt / 3:
         trial.step()
-        lean = trial.state.rotation[0, 2]
-        if lean > 0 and tilt_angle(trial.state.rotation) > tilt / 3:
+        lean = trial.state.rotation[0, 0, 2]
+        if lean > 0 and tilt_angle(trial.state.rotation[0]) > tilt / 3:
             before = trial.mechanical()
     return before - trial.mechanical()

@@ -1,4 +1,6 @@
-"""Where these benchmarks keep what they computed, and the ground motions they share with the study."""
+"""Where these benchmarks keep what they computed, and the ground motions they share with the
+study.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +14,8 @@ RESULTS = Path(__file__).parents[2] / "results" / "engines"
 
 
 def strong_shaking(number: int, begin: float) -> GroundMotion:
-    """A motion of the Lick ensemble from a share of its Arias intensity on, at the specimen's dt."""
+    """A motion of the Lick ensemble from a share of its Arias intensity on, at the specimen's
+    dt.
+    """
     case = case_of(motion={"source": f"lick:{number}", "strong_part": [begin, 1.0]})
     return load_motion(case.motion, case.integration.dt_s, "benchmarks.engines")

@@ -13,8 +13,8 @@ from fecolumn.dynamics.assembly import build_system
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.reduced.analysis import engine_of
 from fecolumn.reduced.cache import load_model
+from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.observe import COLUMNS
-from fecolumn.reduced.run import Engine
 from fecolumn.schema import merge
 
 SPECIMEN = Path(__file__).parents[2] / "meshes" / "specimen.toml"

@@ -10,9 +10,10 @@ import numpy as np
 from benchmarks.engines.motions import strong_shaking
 from benchmarks.engines.pair import case_of, column, engine, mesh, system_of
 from fecolumn.dynamics.observer import top_of
-from fecolumn.verification.rocking import leaning, lifted, rocked
+from fecolumn.verification.rocking import leaning_start, rocked_trial, uplift_accelerations
 from fecolumn.verification.sliding import slipped
-from fecolumn.verification.trial import RigidRocking, Trial, begin
+from fecolumn.verification.trial import RigidRocking, Trial
+from fecolumn.verification.trials import begin_trial
 
 MOTIONS, IMPACTS, MOST = 10, 3, 1000
 # beside the default: up to 11 kHz
@@ -36,7 +37,7 @@ def thresholds():
     a column does not lift before.
     """
     for name, friction, found in (
-        ("uplift, mu 0.8", 0.8, lambda trial: lifted(trial)[1]),
+        ("uplift, mu 0.8", 0.8, lambda trial: uplift_accelerations(trial)[1]),
         ("sliding, mu 0.02", 0.02, lambda trial: slipped(trial, 0.02)),
     ):
         system = system_of(
@@ -45,7 +46,7 @@ def thresholds():
                 integration={"dt_s": 4e-3, "alpha_hht": 0.0},
             )
         )
-        full, reduced = (found(begin(one, system)) for one in ENGINES)
+        full, reduced = (found(begin_trial(one, system)) for one in ENGINES)
         yield f"{name}: ground acceleration [m/s2]", full, reduced, abs(reduced / full - 1) <= 0.005
 
 
@@ -54,7 +55,9 @@ def rocking():
     system = system_of(case_of(contact={"friction_coefficient": 0.8}))
     rigid = RigidRocking(system)
     initial = rigid.energy(0.4 * rigid.slenderness)
-    full, reduced = (rocked(begin(one, system, leaning(0.4)), 0.4) for one in ENGINES)
+    full, reduced = (
+        rocked_trial(begin_trial(one, system, leaning_start(0.4)), 0.4) for one in ENGINES
+    )
     rebounds = [np.sqrt(1 - lost / initial) for _, lost in (full, reduced)]
     yield (
         "free rocking from 0.4 alpha: quarter period [s]",
@@ -146,10 +149,10 @@ def full_order(system, shaking) -> tuple[np.ndarray, list[int]]:
     """
     trial, rigid, path, impacts, seen = Trial(system), RigidRocking(system), [], [], 0.0
     main = 2e-4 * rigid.energy(rigid.slenderness)
-    nodes, weights = top_of(system.column, mesh())
+    nodes, weights = top_of(system.body, mesh())
     for step, ground in enumerate(shaking):
         state = trial.step(ground)
-        path.append(weights @ (state.x[nodes] - system.column.X[nodes])[:, :2])
+        path.append(weights @ (state.x[nodes] - system.body.X[nodes])[:, :2])
         if seen - trial.ledger.work["impact"] > main:
             seen = trial.ledger.work["impact"]
             if not impacts or (step - impacts[-1]) * system.hht.dt > 0.1:

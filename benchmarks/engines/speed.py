@@ -17,7 +17,7 @@ import numpy as np
 from benchmarks.engines.motions import RESULTS
 from benchmarks.engines.pair import case_of, engine
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.store import DONE
 
 FOLDER = Path(__file__).parent
@@ -63,7 +63,9 @@ def best(run, times: int) -> float:
 
 
 def analysis(case, folder) -> tuple[int, float, float]:
-    """Steps of one analysis, its wall time [s] and the largest memory of this process so far [GiB]."""
+    """Steps of one analysis, its wall time [s] and the largest memory of this process so far
+    [GiB].
+    """
     from mpi4py import MPI
 
     from fecolumn import simulation
@@ -95,7 +97,7 @@ def _study(name: str, limit: float):
     # a fresh folder each time: what is done already would not be timed
     with tempfile.TemporaryDirectory(dir=RESULTS) as folder:
         began = time.perf_counter()
-        rows = run_study(plan, Path(folder) / "study", workers=min(CORES, os.cpu_count() or 1))
+        rows = complete_study(plan, Path(folder) / "study", workers=min(CORES, os.cpu_count() or 1))
         spent = time.perf_counter() - began
     done = sum(row["state"] == DONE for row in rows)
     yield (

@@ -158,8 +158,10 @@ def summary(records) -> str:
             *(f"{label}: solved, worst, ms median, longest" for label in LABELS.values()),
         )
     ]
-    for name, group in itertools.groupby(records, key=lambda record: record["name"].split(",")[0]):
-        group, cells = list(group), []
+    for name, records_of_it in itertools.groupby(
+        records, key=lambda record: record["name"].split(",")[0]
+    ):
+        group, cells = list(records_of_it), []
         for solver in LABELS:
             found = [record["solvers"][solver] for record in group if solver in record["solvers"]]
             bad, ms = [one["violation"] for one in found], [1e3 * one["seconds"] for one in found]

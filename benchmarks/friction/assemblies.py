@@ -50,8 +50,9 @@ class Assembly:
         )
         return len(self.masses) - 1
 
-    def box(self, centre, size, turn=np.eye(3)) -> int:
+    def box(self, centre, size, turn=None) -> int:
         """Add a block of size (3,) [m] whose edges are the columns of `turn`; its number."""
+        turn = np.eye(3) if turn is None else turn
         mass, squares = DENSITY * np.prod(size), np.square(size)
         return self.body(
             mass, turn @ np.diag(mass / 12 * (squares.sum() - squares)) @ turn.T, centre

@@ -22,7 +22,7 @@ from fecolumn.contact.problem import STICKS_STILL, near_points
 from fecolumn.contact.stick import operator_of
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.structures.model import GROUND
-from fecolumn.verification.boxes import box, engine, frame, joint, part, pulse, stack
+from fecolumn.verification.boxes import box_model, engine, frame, joint, part, sine_pulse, stack
 
 
 def problem_of(engine, name: str, start) -> Problem | None:
@@ -70,7 +70,7 @@ def _still(steps):
 
 def _tilted_block(per_side, mu=0.7, height=1.2, breadth=0.4):
     """A block that falls back on its foot: tilted by a tenth of its slenderness about an edge."""
-    model, tilt = box(breadth, breadth, height, per_side=per_side), 0.1 * breadth / height
+    model, tilt = box_model(breadth, breadth, height, per_side=per_side), 0.1 * breadth / height
     turn, edge = (
         rotation_matrix(np.array([0.0, tilt, 0.0])),
         np.array([breadth / 2, 0.0, -height / 2]),
@@ -87,12 +87,12 @@ def structures(few: bool = False) -> Iterator[Problem]:
     """
     yield from recorded(stack(), "two blocks, rest", _still(2), 1)
     yield from recorded(
-        stack(), "two blocks, shaken", pulse(7.0, 0.4, 12 if few else 400), 4 if few else 20
+        stack(), "two blocks, shaken", sine_pulse(7.0, 0.4, 12 if few else 400), 4 if few else 20
     )
     if few:
         return
     yield from recorded(frame(4)[0], "slab on four, rest", _still(2), 1)
-    yield from recorded(frame(4)[0], "slab on four, shaken", pulse(3.0, 0.6, 600), 30)
+    yield from recorded(frame(4)[0], "slab on four, shaken", sine_pulse(3.0, 0.6, 600), 30)
     yield from recorded(_tilted_block(10), "block on 100, landing", _still(300), 30)
 
 
@@ -110,7 +110,7 @@ def column(file) -> Iterator[Problem]:
     yield from recorded(
         engine_of(case, model, base),
         "column, shaken",
-        pulse(4.0, 0.3, 400, case.integration.dt_s),
+        sine_pulse(4.0, 0.3, 400, case.integration.dt_s),
         20,
     )
     released = replace(case, initial=replace(case.initial, tilt_rad=0.01))

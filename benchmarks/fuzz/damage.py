@@ -123,9 +123,8 @@ def value_changed(rng, text: str) -> str:
         return text
     place = places[int(rng.integers(len(places)))]
     value = str(rng.choice(VALUES))
-    if rng.random() < 0.5 and re.fullmatch(
-        r"-?[\d.e-]+", place[0].strip()
-    ):  # what might have been meant
+    # what might have been meant
+    if rng.random() < 0.5 and re.fullmatch(r"-?[\d.e-]+", place[0].strip()):
         value = repr(float(place[0]) * float(rng.choice([0.5, 0.9, 1.1, 2, 10, -1])))
     return text[: place.start()] + value + text[place.end() :]
 

@@ -18,7 +18,7 @@ from fecolumn.report.sweep import read_sweep
 from fecolumn.schema import InputError
 from fecolumn.simulation import read_folder_case
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.store import read_study
 from fecolumn.study.table import write_tables
 from fecolumn.study.worker import streams_kept, work_off
@@ -102,8 +102,8 @@ class OwnTeam:
 
 def _run(folder: Path) -> list[dict]:
     plan = _plan(folder.parent / "study.toml")
-    rows = run_study(
-        plan, folder, entry=ENTRY, stream=io.StringIO(), team=OwnTeam(), retry_failed=True
+    rows = complete_study(
+        plan, folder, entry=ENTRY, stream=io.StringIO(), workers=OwnTeam(), retry_failed=True
     )
     write_tables(plan, rows, folder)
     return rows

@@ -14,7 +14,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from fecolumn.post.style import BLACK, GREY, PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
-from fecolumn.verification.multi_drum import DT, column_case, drums_of_column, pulse
+from fecolumn.verification.multi_drum import DT, drum_case, drum_pulse, drums_of_column
 
 # Times that are drawn [s]: the end of the first half of the pulse, that of the pulse, and the fall
 _DRAWN = (0.34, 1.02, 2.3, 3.3, 3.8, 4.12)
@@ -28,14 +28,13 @@ _STONE = LinearSegmentedColormap.from_list("stone", ["#8C8170", "#F4EFE4"])
 def _fall(a: float, tp: float) -> list[list[np.ndarray]]:
     """Drums (4, 2) [m] at each time that is drawn."""
     with tempfile.TemporaryDirectory() as folder:
-        case = column_case(Path(folder))
+        case = drum_case(Path(folder))
         engine = engine_of(case, structure_model(case), "drums.toml")
-    ground, drums, drawn = pulse(a, tp, _DRAWN[-1]), drums_of_column(), []
+    ground, drums, drawn = drum_pulse(a, tp, _DRAWN[-1]), drums_of_column(), []
     centers = engine.motion.frames["center"].copy()
     for step in range(round(_DRAWN[-1] / DT)):
-        engine.advance(
-            ground[step : step + 1]
-        )  # step by step, for past its point of no return it would end
+        # step by step, for past its point of no return it would end
+        engine.advance(ground[step : step + 1])
         if len(drawn) < len(_DRAWN) and step + 1 == round(_DRAWN[len(drawn)] / DT):
             places = zip(
                 drums,

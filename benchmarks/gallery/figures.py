@@ -35,7 +35,9 @@ class Work:
 
 
 def rocking(work: Work, target: Path) -> str:
-    """The stout column at its largest tilt, coloured by its stress, as `fecolumn render` draws it."""
+    """The stout column at its largest tilt, coloured by its stress, as `fecolumn render` draws
+    it.
+    """
     from fecolumn.case import case_from_tables
     from fecolumn.dynamics.history import read_history
     from fecolumn.render.draw import Wish, render
@@ -66,11 +68,13 @@ def cdf(work: Work, target: Path) -> str:
     """
     from fecolumn.results.study import StudyResult
     from fecolumn.study.plan import read_plan
-    from fecolumn.study.run import run_study
+    from fecolumn.study.run import complete_study
 
     folder = work.study or work.folder / "quick"
     if not work.study:
-        run_study(read_plan(ROOT / "benchmarks" / "quick_study.toml"), folder, workers=work.jobs)
+        complete_study(
+            read_plan(ROOT / "benchmarks" / "quick_study.toml"), folder, workers=work.jobs
+        )
     result = StudyResult(folder)
     result.plot.cdf().save(target)
     levels = ", ".join(f"{len(values)} of {key}" for key, values in result.axes.items())
@@ -106,10 +110,10 @@ def two_sides(_: Work, target: Path) -> str:
     """
     from matplotlib.figure import Figure
 
-    from fecolumn.verification.joints import draw
+    from fecolumn.verification.joints import draw_rates
 
     figure = Figure(figsize=(7.2, 2.8))
-    draw("rigid", figure)
+    draw_rates("rigid", figure)
     figure.savefig(target, dpi=150)
     return "from verification.joints"
 

@@ -33,7 +33,9 @@ TILTS = {
 
 
 def draw(rows, path) -> None:
-    """Loss of rocking over Housner's against the time step: by engine, and by the tilt of release."""
+    """Loss of rocking over Housner's against the time step: by engine, and by the tilt of
+    release.
+    """
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, 2.6)
         left, right = figure.subplots(1, 2)

@@ -55,10 +55,10 @@ class FullRocker:
         """As of `ReducedRocker`."""
         trial, tilts, self.system.hht = self.trial, np.empty(count), HHT(dt, self.alpha)
         for k in range(count):
-            tilts[k] = tilt_angle(trial.step().rotation)
+            tilts[k] = tilt_angle(trial.step().rotation[0])
         self.tilt, self.lean = (
             float(tilts[-1]),
-            float((trial.state.x - self.system.column.X)[:, 0].mean()),
+            float((trial.state.x - self.system.body.X)[:, 0].mean()),
         )
         self.mechanical = trial.mechanical()
         return tilts

@@ -176,7 +176,7 @@ def run(job_file: Path, folder: Path, limit: float) -> Outcome:
     rows = []
     for (time, moved), cpu, count in zip(printed, spent, iterations):
 
-        def mean(nodes):
+        def mean(nodes, moved=moved):
             return np.mean([job["start"][node] + moved[node] for node in nodes], axis=0)
 
         axis = mean(job["top"]) - mean(job["foot"])

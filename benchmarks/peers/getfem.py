@@ -45,7 +45,9 @@ GREEN = "(Grad_u+Grad_u'+Grad_u'*Grad_u)"  # twice Green and Lagrange's strain
 
 
 def spmat(matrix):
-    """GetFEM's sparse matrix of a SciPy one, each entry for the three components of a vector field."""
+    """GetFEM's sparse matrix of a SciPy one, each entry for the three components of a vector
+    field.
+    """
     coo, result = (
         kron(matrix, np.eye(3), "coo"),
         gf.Spmat("empty", *(3 * size for size in matrix.shape)),

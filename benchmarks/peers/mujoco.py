@@ -17,9 +17,12 @@ import numpy as np
 
 MODEL = """
 <mujoco>
-  <option timestep="{dt}" gravity="0 0 -{gravity}" cone="elliptic" solver="Newton" tolerance="1e-12" iterations="200" ls_iterations="100"
-          ls_tolerance="1e-4" impratio="{ratio}" integrator="implicitfast"/>
-  <default><geom solref="{stiff} 1" solimp="0.99 0.9999 1e-6 0.5 2" condim="3" friction="{friction} 0 0"/></default>
+  <option timestep="{dt}" gravity="0 0 -{gravity}" cone="elliptic" solver="Newton"
+          tolerance="1e-12" iterations="200" ls_iterations="100" ls_tolerance="1e-4"
+          impratio="{ratio}" integrator="implicitfast"/>
+  <default>
+    <geom solref="{stiff} 1" solimp="0.99 0.9999 1e-6 0.5 2" condim="3" friction="{friction} 0 0"/>
+  </default>
   <worldbody>
     <geom type="plane" size="5 5 1"/>
     <body name="column">

@@ -56,7 +56,7 @@ def full(given: Release, steps: int):
             trial.step()
             cpu += time.process_time() - began
         state, made, before = trial.state, trial.stepper.record.iterations, made
-        R = state.rotation
+        R = state.rotation[0]
         yield (
             state.time,
             np.arctan2(R[0, 2], R[2, 2]),

@@ -30,7 +30,9 @@ class RimPoint(sk.NewtonEuler3DR):
         self.arm = np.asarray(arm, float)
 
     def computeh(self, time, q, y):
-        """Gap y, place and normal of the contact, in place: setpc1 and setnc of this package crash."""
+        """Gap y, place and normal of the contact, in place: setpc1 and setnc of this
+        package crash.
+        """
         here = q[:3] + turned(q, self.arm)
         y[0] = here[2]
         self.pc1()[:] = here

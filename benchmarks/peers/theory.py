@@ -59,7 +59,9 @@ class Housner:
         return float(quad(slowness, 0.0, 1.0, epsabs=1e-12)[0] / p)
 
     def after_impact(self, tilt: float) -> float:
-        """Next peak of the tilt [rad] on the other side, after rest at `tilt` [rad] and one impact."""
+        """Next peak of the tilt [rad] on the other side, after rest at `tilt` [rad] and one
+        impact.
+        """
         kept = self.restitution**2 * self.energy(tilt) / self.moment
         return float(self.slenderness - np.arccos(np.cos(self.slenderness) + kept))
 

@@ -3,8 +3,10 @@
     ./containers/run python -m benchmarks.planar [column beside histories] [STRUCTURE ...] [PROGRAM
         ...] [-n N] [--dt S] [-j JOBS] [-o DIR]
 
-column     least accelerations of a pulse that overturn the multi-drum column, by the planar program at --dt: column.csv, column.png (a quarter of an hour)
-beside     overturned, distance of the peaks' distributions and outcomes that differ, planar program and others: beside.csv, beside.png
+column     least accelerations of a pulse that overturn the multi-drum column, by the planar
+    program at --dt: column.csv, column.png (a quarter of an hour)
+beside     overturned, distance of the peaks' distributions and outcomes that differ, planar program
+    and others: beside.csv, beside.png
 histories  how many single histories agree until the third impact, planar program and package at
     1e-4 s: histories.csv
 

@@ -354,7 +354,9 @@ def kick(
 
 @njit(cache=True)
 def push(free, J, pairs, found, p, lightness, ease, velocity):
-    """Put the velocities after the impulses p (2 n,) into `velocity`; free: (nb, 3) without them."""
+    """Put the velocities after the impulses p (2 n,) into `velocity`; free: (nb, 3) without
+    them.
+    """
     velocity[:] = free
     for i in range(len(J)):
         for a in range(2):

@@ -149,7 +149,9 @@ class Structure:
         return np.stack([x + c * local[0] - s * local[1], z + s * local[0] + c * local[1]], axis=-1)
 
     def turned(self, place: np.ndarray, body: int, about, angle: float) -> np.ndarray:
-        """Places (nb, 3) with one body turned by `angle` [rad] about a point (2,) [m] of the plane."""
+        """Places (nb, 3) with one body turned by `angle` [rad] about a point (2,) [m] of
+        the plane.
+        """
         out, arm = place.copy(), place[body, :2] - about
         c, s = np.cos(angle), np.sin(angle)
         out[body] = (

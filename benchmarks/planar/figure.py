@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.planar.advance import History
-from fecolumn.post.cdf_figure import Panel, cdf_figure
+from fecolumn.post.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.post.style import BLACK, GREY, PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.statistics.ecdf import ecdf
 
@@ -22,7 +22,9 @@ def distributions(found: dict, path: Path) -> list[Path]:
             (program, ecdf([one.peak for one in responses], [one.fallen for one in responses]))
             for program, responses in programs.items()
         ]
-        panels.append(Panel(f"{name}, {len(next(iter(programs.values())))} motions", tuple(lines)))
+        panels.append(
+            CdfPanel(f"{name}, {len(next(iter(programs.values())))} motions", tuple(lines))
+        )
     return cdf_figure(panels, path)
 
 

@@ -1,7 +1,8 @@
 """The friction problem of one step: impulses p and velocities u = W p + q of n contacts, components
 across (n) and along (t).
 
-    0 <= u_n, 0 <= p_n, u_n p_n = 0;     |p_t| <= mu p_n, and p_t = -mu p_n sign(u_t) where u_t is not 0       (Signorini, Coulomb)
+    0 <= u_n, 0 <= p_n, u_n p_n = 0                                                (Signorini)
+    |p_t| <= mu p_n, and p_t = -mu p_n sign(u_t) where u_t is not 0                (Coulomb)
 
 Solved exactly by the states open, stick, slip of the contacts: with these given the problem is
 linear (a Newton method on the equations of Alart and Curnier 1991). Where states cycle, sweeps of
@@ -82,12 +83,12 @@ def with_states(W, q, mu, state, p):
     for k in range(size):
         row = unknown[k]
         b[k] = -q[row]
-        for l in range(size):
-            column = unknown[l]
+        for m in range(size):
+            column = unknown[m]
             j = column // 2
-            A[k, l] = W[row, column]
+            A[k, m] = W[row, column]
             if column % 2 == 0 and state[j] != STICK:
-                A[k, l] += side(state[j]) * mu[j] * W[row, column + 1]
+                A[k, m] += side(state[j]) * mu[j] * W[row, column + 1]
         A[k, k] += _SPREAD * W[row, row]
     b = np.linalg.solve(A, b)
     for k in range(size):

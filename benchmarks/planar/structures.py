@@ -1,4 +1,6 @@
-"""Structures of the comparisons, standing on a ground whose top is z = 0; widths and heights in m."""
+"""Structures of the comparisons, standing on a ground whose top is z = 0; widths and heights in
+m.
+"""
 
 from __future__ import annotations
 
@@ -89,7 +91,9 @@ def frame(
 def beside(
     first, second, gap: float, side_friction: float = FRICTION, friction: float = FRICTION
 ) -> Structure:
-    """Two blocks (width, height) on the ground with a gap [m] between them, the first on the left."""
+    """Two blocks (width, height) on the ground with a gap [m] between them, the first on the
+    left.
+    """
     bodies = (
         GROUND,
         Body("left", quadrilateral(first[0], *first, (-first[0] / 2, 0.0))),

@@ -111,7 +111,9 @@ def _pull(alpha, p, side, tilt, a):
 
 @njit(cache=True)
 def _shaken(alpha, p, kept, ground, dt, parts):
-    """Runge and Kutta's steps; an impact is found on the cubic of its step to its end, one a step."""
+    """Runge and Kutta's steps; an impact is found on the cubic of its step to its end, one a
+    step.
+    """
     found, side, tilt, rate, h = np.zeros(len(ground)), -1, 0.0, 0.0, dt / parts
     for k in range(len(ground) - 1):
         for part in range(parts):

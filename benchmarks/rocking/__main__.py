@@ -77,7 +77,8 @@ def main() -> None:
     rock_all(grounds, step, [0], 1.0, blocks(1, True))
     print(f"{args.n} analyses of {SECONDS:g} s, motions sampled at {step:g} s")
     print(
-        f"{'blocks':<8}{'CPU ms/analysis':>17}{'h of one core for a million':>30}{'overturned':>12}{'impacts':>9}"
+        f"{'blocks':<8}{'CPU ms/analysis':>17}{'h of one core for a million':>30}"
+        f"{'overturned':>12}{'impacts':>9}"
     )
     for name, held in (("free", False), ("held", True)):
         rows = blocks(args.n, held)
@@ -86,7 +87,8 @@ def main() -> None:
         found = rock_all(grounds, step, which, scales, rows)
         spent = time.process_time() - began
         print(
-            f"{name:<8}{1e3 * spent / args.n:>17.3f}{1e6 * spent / args.n / 3600:>30.2f}{np.isinf(found[:, PEAK]).mean():>12.1%}{found[:, IMPACTS].mean():>9.1f}"
+            f"{name:<8}{1e3 * spent / args.n:>17.3f}{1e6 * spent / args.n / 3600:>30.2f}"
+            f"{np.isinf(found[:, PEAK]).mean():>12.1%}{found[:, IMPACTS].mean():>9.1f}"
         )
 
 

@@ -8,5 +8,6 @@ cases        the analyses, in blocks, each a study of its own
 analysis     an analysis and what its process held afterwards
 drive        the process that drives the blocks
 watch        starts the driver, kills it and its workers, looks at its memory
-report       what came of it: failures, histograms, growth, and the worst cases with files to run them again
+report       what came of it: failures, histograms, growth, and the worst cases with files to
+    run them again
 """

@@ -1,10 +1,14 @@
 """Very many analyses of drawn cases, with kills: none may be lost, nothing may grow, and what fails
 is told.
 
-    python -m benchmarks.soak -n 2000 -j 1 -o results/soak --kill 5     # a worker or the driver is killed every five minutes or so
-    python -m benchmarks.soak -n 100000 -j 2 -o results/soak            # goes on with the same analyses, and more
-    python -m benchmarks.soak -o results/soak --report                  # what has come of it so far
-    python -m benchmarks.soak -o results/soak --only 1234               # one of them alone, into results/soak/only-1234
+    # a worker or the driver is killed about every five minutes
+    python -m benchmarks.soak -n 2000 -j 1 -o results/soak --kill 5
+    # goes on with the same analyses, and more
+    python -m benchmarks.soak -n 100000 -j 2 -o results/soak
+    # what has come of it so far
+    python -m benchmarks.soak -o results/soak --report
+    # one of them alone, into results/soak/only-1234
+    python -m benchmarks.soak -o results/soak --only 1234
 
 Analyses are short, a tenth of a second each: 10^5 take about three hours of processor time, and the
 models of the first hundreds some minutes. Models of the specimens are kept in FECOLUMN_CACHE, or

@@ -61,10 +61,11 @@ _FAMILIES = {
 }
 _LAWS = {"augmented_lagrange": 4, "penalty": 1}
 _COARSEST, _FINEST = 0.03, 2e-4  # steps [s]
+# steps of an analysis: what fails does so where contacts come and go, of which each has many
 _FEWEST, _MOST = (
     10,
     80,
-)  # steps of an analysis: what fails does so where contacts come and go, of which each has many
+)
 _MODES = (1, 3, 10, 30, 100)
 _DEEPEST = 0.02  # settlement of a pad over the width of the foot
 # width squared over settlement and height: a pad holds a thin tube upright above 4, a solid
@@ -265,7 +266,9 @@ def _simple_ratio(ratio: float) -> float:
 
 
 def case_of(number: int, folder: Path, seed: int, count: int) -> Case:
-    """The case of an analysis by its number; folder, seed and count as of the soak it belongs to."""
+    """The case of an analysis by its number; folder, seed and count as of the soak it belongs
+    to.
+    """
     return _analysis(
         number,
         _draws(number // BLOCK, seed)[number % BLOCK],

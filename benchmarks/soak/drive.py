@@ -11,7 +11,7 @@ from benchmarks.soak.analysis import ENTRY
 from benchmarks.soak.cases import block, blocks
 from benchmarks.soak.motions import write_motions
 from benchmarks.soak.specimens import specimens
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.worker import die_with_parent
 
 # How the pool says that a worker was killed under its analysis
@@ -36,7 +36,7 @@ def main() -> None:
     for number, size in blocks(total):
         plan, rows = block(number, size, sources, seed, columns), None
         while rows is None or any(map(killed, rows)):
-            rows = run_study(
+            rows = complete_study(
                 plan,
                 block_folder(folder, number),
                 workers=jobs,

@@ -24,7 +24,9 @@ _VERTICAL = 0.6  # of a second motion's first component
 
 
 def write_motions(folder: Path) -> dict[str, list[str]]:
-    """Sources by family, each as in motion.source; what has to be made is written into the folder."""
+    """Sources by family, each as in motion.source; what has to be made is written into the
+    folder.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     made = {"near-fault": _near_fault, "pulses": _pulses, "three components": _three_components}
     for name, maker in made.items():

@@ -67,7 +67,7 @@ def report(folder: Path, seed: int, specimens: int) -> int:
     reasons = collections.defaultdict(list)
     for row in failed:
         reasons[re.sub(r"-?\d[\d.]*(e[-+]?\d+)?", "#", row["reason"])].append(row)
-    for reason, of_it in sorted(reasons.items(), key=lambda found: -len(found[1])):
+    for of_it in sorted(reasons.values(), key=len, reverse=True):
         numbers = [row["axes"]["number"] for row in of_it]
         print(
             f"\n{len(of_it)} failed: {of_it[0]['reason']}\n    numbers "
@@ -118,7 +118,9 @@ def histogram(values, edges) -> str:
 
 
 def growth(counts, values) -> float:
-    """Rise per count of the lower envelope of values: the smallest of each tenth, fitted by a line."""
+    """Rise per count of the lower envelope of values: the smallest of each tenth, fitted by a
+    line.
+    """
     parts = [part for part in np.array_split(np.argsort(counts), 10) if len(part)]
     counts, values = np.asarray(counts, float), np.asarray(values, float)
     places = [counts[part].mean() for part in parts]
@@ -141,11 +143,10 @@ def _print_growth(folder: Path, done) -> None:
         notes = sorted(notes, key=lambda note: note["done"])
         warm = [note for note in notes if note["done"] > _WARM]
         memory, files = ([note[key] for note in notes] for key in ("memory_mb", "open_files"))
-        slope = (
-            f"{1e3 * growth([note['done'] for note in warm], [note['memory_mb'] for note in warm]):.2f}"
-            if len(warm) > _WARM
-            else "-"
-        )
+        slope = "-"
+        if len(warm) > _WARM:
+            done, used = ([note[key] for note in warm] for key in ("done", "memory_mb"))
+            slope = f"{1e3 * growth(done, used):.2f}"
         print(
             f"worker {pid:<8}{len(notes):>5} {memory[0]:>10.0f} {memory[-1]:.0f} "
             f"{max(memory):.0f} {slope:>26} {files[0]:>18} {files[-1]} {max(files)}"

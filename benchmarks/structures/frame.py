@@ -11,14 +11,14 @@ import numpy as np
 
 from fecolumn.case import case_from_tables
 from fecolumn.schema import merge
+from fecolumn.verification.podium_structure import let_go
 from fecolumn.verification.structures import (
-    advanced,
     energy_at,
     frame_model,
     planar_restitution,
     restoring_force,
-    rolling,
-    way,
+    rolling_start,
+    slab_path,
 )
 
 MESHES = Path(__file__).parents[2] / "meshes"
@@ -63,7 +63,7 @@ def forces() -> list[tuple]:
         for tilt in TILTS:
             moved, exact = model.pushover(tilt)
             # the release rings for some hundredths of a second
-            rows = advanced(frame_of_elements(model, rolling(model, tilt)), 0.06)
+            rows = let_go(frame_of_elements(model, rolling_start(model, tilt)), 0.06)
             found.append(
                 (
                     held,
@@ -82,7 +82,7 @@ def planar(seconds: float = 3.0):
     of each impact its time [s] and share of the energy kept.
     """
     model = frame_model()
-    rows = advanced(frame_of_elements(model, rolling(model, PLANAR[0])), seconds)
+    rows = let_go(frame_of_elements(model, rolling_start(model, PLANAR[0])), seconds)
     time, moved, tilt = (
         rows["time"],
         rows["body/slab/displacement"][:, 0],
@@ -94,7 +94,7 @@ def planar(seconds: float = 3.0):
     impacts = [
         (float(time[i]), after / before) for i, before, after in zip(passed, tops, tops[1:-1])
     ]
-    return rows, way(model, *PLANAR, time), impacts, planar_restitution(model) ** 2
+    return rows, slab_path(model, *PLANAR, time), impacts, planar_restitution(model) ** 2
 
 
 def rolled(seconds: float = 3.0):
@@ -102,5 +102,5 @@ def rolled(seconds: float = 3.0):
     model.
     """
     model = frame_model()
-    rows = advanced(frame_of_elements(model, rolling(model, *ROUND)), seconds)
-    return rows, way(model, *ROUND, rows["time"])
+    rows = let_go(frame_of_elements(model, rolling_start(model, *ROUND)), seconds)
+    return rows, slab_path(model, *ROUND, rows["time"])

@@ -83,7 +83,7 @@ def costs(comm, standing: int = 20, rocking: int = 50) -> dict:
             if name.startswith("body/") and name.endswith("/tilt")
         )
         return dict(
-            dofs=3 * analysis.system.column.n_nodes,
+            dofs=3 * analysis.system.bodies.n_nodes,
             ranks=comm.size,
             start_s=start,
             standing_s=float(np.median(spent[2:standing])),

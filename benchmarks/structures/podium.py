@@ -10,12 +10,12 @@ from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.podium import Podium
 from fecolumn.rocking.podium_impact import CAV, CRV, podium_restitution
 from fecolumn.rocking.storeys import storeys
-from fecolumn.verification.structures import (
+from fecolumn.verification.podium_structure import (
     ALPHA,
     GAMMA,
     HALF_DIAGONAL,
-    advanced,
     kept_rate,
+    let_go,
     podium_case,
     tilt_of,
 )
@@ -41,7 +41,7 @@ def impacts(floors: int = 3, concrete: bool = False, periods=PERIODS) -> list[tu
     """
     found = []
     for period in periods:
-        rows = advanced(
+        rows = let_go(
             podium_case(floors, period, 0.3 * ALPHA, _DT, **(CONCRETE if concrete else {})), 1.1
         )
         tilt = tilt_of(rows)
@@ -71,7 +71,7 @@ def model_rocking(
 
 def rocking(floors: int, concrete: bool, share: float = 0.9, seconds: float = 4.0) -> dict:
     """Rows of bodies let go at `share` of alpha, with a building of n / 10 s."""
-    return advanced(
+    return let_go(
         podium_case(floors, floors / 10, share * ALPHA, _DT, **(CONCRETE if concrete else {})),
         seconds,
     )

@@ -24,7 +24,9 @@ _STUFF = dict(poissons_ratio=0.2, modes=10)
 
 
 def frame_case(columns: int, rocks: bool, dt: float = 1e-3):
-    """A slab on so many columns of concrete, a power of two, in a square or two beside each other."""
+    """A slab on so many columns of concrete, a power of two, in a square or two beside each
+    other.
+    """
     (diameter, height), rows = COLUMN, 2 ** (int(math.log2(columns)) // 2)
     many = columns // rows
     places = [
@@ -93,7 +95,9 @@ def _case(bodies, interfaces, initial, dt):
 
 
 def grounds(case, steps: int, slenderness: float) -> np.ndarray:
-    """Accelerations (steps, 3) [m/s2] of a sine that does not make a body of that slenderness rock."""
+    """Accelerations (steps, 3) [m/s2] of a sine that does not make a body of that slenderness
+    rock.
+    """
     t = case.integration.dt_s * np.arange(1, steps + 1)
     return np.outer(
         SHAKEN * slenderness * GRAVITY * np.sin(2 * math.pi * RATE * t), [1.0, 0.0, 0.0]

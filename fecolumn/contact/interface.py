@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn.contact.record import record
 
-#: An interface: slave and master as of POINT; width of the foot [m], to which tolerances of length
+#: An interface: slave, master and ground as of POINT; width of the foot [m], to which tolerances of length
 #: are related; restitution, see `contact.restitution`; rolling: coefficient of the rim's
 #: resistance, see `contact.rolling`; on_pad: whether a pad lies between, relaxation of it [s];
 #: rim_first, rim_count: places of its rim among those of all interfaces, none where it is not
@@ -21,6 +21,7 @@ from fecolumn.contact.record import record
 INTERFACE = record(
     ("slave", "i8"),
     ("master", "i8"),
+    ("ground", "i8"),
     ("width", "f8"),
     ("restitution", "f8"),
     ("rolling", "f8"),

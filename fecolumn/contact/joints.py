@@ -62,7 +62,7 @@ def joint_on_base(
         see `contact.interface`.
     """
     return Joints(
-        node_points(arms, friction, law, pad.stiffness if pad else None),
+        node_points(arms, friction, law, pad),
         interface_of(arms, rim, restitution, rolling, pad),
         np.asarray(rim.nodes if rim else [], np.int64),
         np.zeros(0, FACET),
@@ -85,8 +85,9 @@ def joints_of(parts, joints) -> Joints:
         arms = slave.arms[touching.nodes]
         rim = Rim.find(arms) if joint.round else None
         interface = interface_of(
-            arms, rim, joint.restitution, slave=joint.slave, master=joint.master
+            arms, rim, joint.restitution, joint.rolling, joint.pad, joint.slave, joint.master
         )
+        interface["ground"] = joint.ground
         interface["width"] = np.ptp(arms @ touching.axes[:, :2], axis=0).max()
         if joint.ball is not None:
             outward = touching.axes[:, 2]
@@ -115,8 +116,15 @@ def joints_of(parts, joints) -> Joints:
             # a rim that rolls on it stands on the circle, too
             interface["bulge"] = around.radius * (1 - np.cos(around.sector / 2)) if around else 0.0
         own = node_points(
-            arms, joint.friction, joint.law, slave=joint.slave, master=joint.master, interface=k
+            arms,
+            joint.friction,
+            joint.law,
+            joint.pad,
+            slave=joint.slave,
+            master=joint.master,
+            interface=k,
         )
+        own["ground"] = joint.ground
         own["node"] = first[joint.slave] + touching.nodes
         own["carriers"] = own["node"][:, None]
         if joint.ball is not None:
@@ -126,8 +134,8 @@ def joints_of(parts, joints) -> Joints:
     for k, joint in enumerate(joints):
         if joint.pair >= 0:
             points[joint.pair], points[k] = overlaps.add(
-                _side_of(parts, joints, joint.pair, joint.corners[1], interfaces, points),
-                _side_of(parts, joints, k, joint.corners[0], interfaces, points),
+                _side_of(parts, joints, joint.pair, joint.outlines[1], interfaces, points),
+                _side_of(parts, joints, k, joint.outlines[0], interfaces, points),
             )
     firsts = np.cumsum([0] + [len(own) for own in points])
     rim = np.concatenate([own + start for own, start in zip(rims, firsts)])
@@ -141,9 +149,9 @@ def joints_of(parts, joints) -> Joints:
     )
 
 
-def _side_of(parts, joints, k: int, corners: np.ndarray, interfaces, points) -> tuple:
-    """Interface k as `OverlapBuilder.add` takes it; corners: (n, 3) [m] of its slave's face from
-    the centre of mass.
+def _side_of(parts, joints, k: int, outline: np.ndarray, interfaces, points) -> tuple:
+    """Interface k as `OverlapBuilder.add` takes it; outline: (n, 2, 3) [m] ends of the sides of its
+    slave's face from the centre of mass.
     """
     body = parts[joints[k].slave].model
     surface = body.surfaces[joints[k].slave_surface]
@@ -153,7 +161,7 @@ def _side_of(parts, joints, k: int, corners: np.ndarray, interfaces, points) -> 
         away = np.linalg.norm(places - places.mean(axis=0), axis=1)
         rim = places[away > away.max() * (1 - 1e-6)]
         circle = rim.mean(axis=0), float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).mean())
-    return k, points[k], places, surface.plane(corners)[:, :2], circle
+    return k, points[k], places, surface.plane(outline)[..., :2], circle
 
 
 def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:

@@ -28,20 +28,21 @@ class OverlapBuilder:
         ----------
         forward, reverse
             number of the interface, points (n,) of POINT, places (n, 2) [m] of the slave's nodes on
-            their face, corners (m, 2) [m] of its outline counter-clockwise, circle: centre (2,) and
-            radius or None.
+            their face, ends (m, 2, 2) [m] of the sides of its outline counter-clockwise, circle:
+            centre (2,) and radius or None.
         """
-        (k, own, places, corners, circle), (r, other, other_places, other_corners, other_circle) = (
+        (k, own, places, ends, circle), (r, other, other_places, other_ends, other_circle) = (
             forward,
             reverse,
         )
         joint = np.zeros(1, OVERLAP)
-        joint["forward"], joint["reverse"], joint["size"] = k, r, np.ptp(corners, axis=0).max()
+        joint["forward"], joint["reverse"], joint["size"] = k, r, np.ptp(ends, axis=(0, 1)).max()
         sides = []
         for which, (points, at, outline, of) in enumerate(
-            ((own, places, corners, circle), (other, other_places, other_corners, other_circle))
+            ((own, places, ends, circle), (other, other_places, other_ends, other_circle))
         ):
             joint["first"][0, which] = len(self.sides)
+            joint["convex"][0, which] = of is not None or _is_convex(outline)
             if of is None:
                 sides.append(self._add_sides(outline, at, points["node"], float(joint["size"][0])))
                 joint["count"][0, which] = len(outline)
@@ -50,7 +51,9 @@ class OverlapBuilder:
                 sides.append(np.full(len(at), -1))
         joint["slot"] = sum(map(len, self.slots))
         free = _most_corners(
-            len(corners) if circle is None else 0, len(other_corners) if other_circle is None else 0
+            len(ends) if circle is None else 0,
+            len(other_ends) if other_circle is None else 0,
+            joint["convex"].all(),
         )
         twin = circle is None and other_circle is None
         slots = np.zeros(len(own) + free, SLOT)
@@ -58,7 +61,7 @@ class OverlapBuilder:
         slots["side"][: len(own)], slots["place"][: len(own)] = sides[OWN], places
         if circle is None:
             starts = np.array(
-                [side["start"] for side in self.sides[joint["first"][0, OWN] :][: len(corners)]]
+                [side["start"] for side in self.sides[joint["first"][0, OWN] :][: len(ends)]]
             )
             apart = np.linalg.norm(places[:, None] - starts, axis=2)
             slots["corner"][: len(own)] = apart.min(axis=1) < _ON_SIDE * joint["size"][0]
@@ -104,12 +107,12 @@ class OverlapBuilder:
             )
         )
 
-    def _add_sides(self, corners, places, nodes, size: float) -> np.ndarray:
-        """Add the sides of a polygon; the number (n,) of a side on which each of the nodes lies, -1
+    def _add_sides(self, ends, places, nodes, size: float) -> np.ndarray:
+        """Add the sides (m, 2, 2) of a polygon; the number (n,) of a side on which each of the nodes lies, -1
         of those on none.
         """
-        found, inner = np.full(len(places), -1), _inset(corners, SAME_OUTLINE * size)
-        for q, (start, end) in enumerate(zip(corners, np.roll(corners, -1, axis=0))):
+        found, inner = np.full(len(places), -1), _inset(ends, SAME_OUTLINE * size)
+        for q, (start, end) in enumerate(ends):
             side, length = np.zeros((), SIDE), np.linalg.norm(end - start)
             along = (end - start) / length
             normal = np.array([along[1], -along[0]])
@@ -122,13 +125,14 @@ class OverlapBuilder:
             on = on[np.argsort(at[on])]
             found[on] = np.where(found[on] < 0, len(self.sides), found[on])
             far = int(np.argmin(out))
-            side["start"], side["along"], side["normal"], side["length"] = (
+            side["start"], side["end"], side["along"], side["normal"], side["length"] = (
                 start,
+                end,
                 along,
                 normal,
                 length,
             )
-            side["inner"] = inner[q], inner[(q + 1) % len(inner)]
+            side["inner"] = inner[q]
             side["first"], side["count"] = sum(map(len, self.nodes)), len(on)
             side["far"], side["far_place"] = nodes[far], (at[far], -out[far])
             rows = np.zeros(len(on), SIDE_NODE)
@@ -138,12 +142,12 @@ class OverlapBuilder:
         return found
 
 
-def _most_corners(own: int, other: int) -> int:
+def _most_corners(own: int, other: int, convex: bool) -> int:
     """Corners of the region of two outlines of so many sides, 0 of a circle, that are no corners of
-    the first, at most.
+    the first, at most: of each side of the first the two ends of what is within the second.
     """
     if own and other:
-        return own + other
+        return (1 if convex else 2) * own + other
     return 2 * max(own, other, 1)
 
 
@@ -156,12 +160,30 @@ def _more(points: np.ndarray, count: int) -> np.ndarray:
     return more
 
 
-def _inset(corners: np.ndarray, way: float) -> np.ndarray:
-    """Corners (n, 2) of a convex polygon whose sides are moved inwards by `way`."""
-    along = np.roll(corners, -1, axis=0) - corners
+def _is_convex(ends: np.ndarray) -> bool:
+    """Whether the sides (n, 2, 2) of an outline turn to the left alone, once around."""
+    along = ends[:, 1] - ends[:, 0]
+    after = along[_next(ends)]
+    turn = np.arctan2(
+        along[:, 0] * after[:, 1] - along[:, 1] * after[:, 0], np.einsum("na,na->n", along, after)
+    )
+    return bool((turn > 0).all() and turn.sum() < 3 * np.pi)
+
+
+def _next(ends: np.ndarray) -> np.ndarray:
+    """Place (n,) of the side that begins where each of the sides (n, 2, 2) ends."""
+    return np.abs(ends[:, 1, None] - ends[None, :, 0]).max(axis=2).argmin(axis=1)
+
+
+def _inset(ends: np.ndarray, way: float) -> np.ndarray:
+    """Ends (n, 2, 2) of the sides of an outline that are moved inwards by `way`."""
+    after = _next(ends)
+    along = ends[:, 1] - ends[:, 0]
     along /= np.linalg.norm(along, axis=1)[:, None]
-    before = np.roll(along, 1, axis=0)
     # of two unit vectors along the sides that meet, both away from the corner
-    bisector = along - before
-    turn = before[:, 0] * along[:, 1] - before[:, 1] * along[:, 0]
-    return corners + way * bisector / turn[:, None]
+    bisector = along[after] - along
+    turn = along[:, 0] * along[after, 1] - along[:, 1] * along[after, 0]
+    last = ends[:, 1] + way * bisector / turn[:, None]
+    first = np.empty_like(last)
+    first[after] = last
+    return np.stack([first, last], axis=1)

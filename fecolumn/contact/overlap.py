@@ -20,12 +20,13 @@ from fecolumn.contact.tolerances import OUTLINE_BAND, SAME_OUTLINE
 OWN, OTHER = range(2)
 
 #: A straight side of an outline, counter-clockwise seen along the outward normal of the face.
-#: start: (2,) its first corner [m]; along, normal: (2,) unit vectors, the normal out of the
+#: start, end: (2,) its corners [m]; along, normal: (2,) unit vectors, the normal out of the
 #: outline; length [m]. inner: (2, 2) both corners of the outline that is smaller by SAME_OUTLINE,
 #: so that two equal faces in one place have one outline, not two. first, count: its nodes among
 #: those of `Overlaps.nodes`. far: node farthest from it, `far_place` (2,) along it and inwards [m].
 SIDE = record(
     ("start", "f8", 2),
+    ("end", "f8", 2),
     ("along", "f8", 2),
     ("normal", "f8", 2),
     ("length", "f8"),
@@ -41,9 +42,10 @@ SIDE_NODE = record(("node", "i8"), ("at", "f8"))
 
 #: A joint of two sides. forward: interface whose slave has the face OWN; reverse: the interface
 #: with the roles exchanged. first, count: (2,) sides of OWN and OTHER, none of a circle; center:
-#: (2, 2), radius: (2,) [m] of the circles, 0 of a polygon. slot, slots: first of its slots and
-#: their number. size: larger side of OWN [m]. within: whether the outline of OWN lies within that
-#: of OTHER at the start of the step; plain: whether the points are laid as for such a one.
+#: (2, 2), radius: (2,) [m] of the circles, 0 of a polygon. convex: (2,) 1 of a convex outline.
+#: slot, slots: first of its slots and their number. size: larger side of OWN [m]. within: whether
+#: the outline of OWN lies within that of OTHER at the start of the step; plain: whether the points
+#: are laid as for such a one.
 OVERLAP = record(
     ("forward", "i8"),
     ("reverse", "i8"),
@@ -51,6 +53,7 @@ OVERLAP = record(
     ("count", "i8", 2),
     ("center", "f8", (2, 2)),
     ("radius", "f8", 2),
+    ("convex", "i8", 2),
     ("slot", "i8"),
     ("slots", "i8"),
     ("size", "f8"),
@@ -115,6 +118,9 @@ def beyond(overlap, sides, which, x, y):
         return np.hypot(
             x - overlap.center[which, 0], y - overlap.center[which, 1]
         ) - overlap.radius[which], -1
+    if not overlap.convex[which]:
+        first = overlap.first[which]
+        return _beyond_any(sides[first : first + overlap.count[which]], first, False, x, y)
     most, side = -np.inf, -1
     for q in range(overlap.first[which], overlap.first[which] + overlap.count[which]):
         out = sides[q].normal[0] * (x - sides[q].start[0]) + sides[q].normal[1] * (
@@ -123,6 +129,34 @@ def beyond(overlap, sides, which, x, y):
         if out > most:
             most, side = out, q
     return most, side
+
+
+@njit
+def _beyond_any(sides, first, inner, x, y):
+    """As `beyond`, of the sides (n,) of any polygon, which are counted from `first`; inner: of the
+    outline that is smaller by SAME_OUTLINE. The side is the nearest one.
+
+    Beyond a corner, which is as near as both its sides, the larger distance from their lines counts
+    as it does for a convex outline, and as the smaller outline has it.
+    """
+    least, farther, nearest, inside = np.inf, 0.0, -1, False
+    for q in range(len(sides)):
+        side = sides[q]
+        if inner:
+            x0, y0, x1, y1 = side.inner[0, 0], side.inner[0, 1], side.inner[1, 0], side.inner[1, 1]
+        else:
+            x0, y0, x1, y1 = side.start[0], side.start[1], side.end[0], side.end[1]
+        at = (x - x0) * side.along[0] + (y - y0) * side.along[1]
+        out = (x - x0) * side.normal[0] + (y - y0) * side.normal[1]
+        length = (x1 - x0) * side.along[0] + (y1 - y0) * side.along[1]
+        away = np.hypot(max(-at, at - length, 0.0), out)
+        if nearest >= 0 and abs(away - least) <= 1e-6 * least:
+            farther = max(farther, out)
+        elif away < least:
+            least, farther, nearest = away, out, q
+        if (y0 > y) != (y1 > y) and x < x0 + (y - y0) / (y1 - y0) * (x1 - x0):
+            inside = not inside
+    return -least if inside else farther, first + nearest
 
 
 @njit
@@ -136,10 +170,17 @@ def lies_within(overlap, sides, slope, shift):
             beyond(overlap, sides, OTHER, x, y)[0] + overlap.radius[OWN]
             <= SAME_OUTLINE * overlap.size
         )
+    first, last = overlap.first[OTHER], overlap.first[OTHER] + overlap.count[OTHER]
     for q in range(overlap.first[OWN], overlap.first[OWN] + overlap.count[OWN]):
         x, y = _mapped(slope, shift, sides[q].inner[0, 0], sides[q].inner[0, 1])
         if beyond(overlap, sides, OTHER, x, y)[0] > 0.0:
             return False
+        if not overlap.convex[OTHER]:
+            # corners within an outline with notches do not tell that the side between them is
+            u, v = _mapped(slope, shift, sides[q].inner[1, 0], sides[q].inner[1, 1])
+            for e in range(first, last):
+                if 0.0 <= _crossing(sides[e], x, y, u, v, 0.0) <= 1.0:
+                    return False
     return True
 
 
@@ -196,6 +237,9 @@ def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on)
                         sides[q].start[1] + at * sides[q].along[1],
                     )
                     count = _add(back, back_shift, px, py, -1, q, own, other, on, count)
+            if np.hypot(sides[q].start[0] - x, sides[q].start[1] - y) < inner_radius:
+                px, py = sides[q].start[0], sides[q].start[1]
+                count = _add(back, back_shift, px, py, -1, q, own, other, on, count)
         return count
     for q in range(first[OWN], last[OWN]):
         x0, y0 = _mapped(slope, shift, sides[q].inner[0, 0], sides[q].inner[0, 1])
@@ -206,8 +250,10 @@ def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on)
             )
             begins, ends = (-1, -1) if low < high else (-2, -2)
             begins, ends = (-2 if low <= 0.0 else begins), (-2 if high >= 1.0 else ends)
-        else:
+        elif overlap.convex[OTHER]:
             low, high, begins, ends = _clip(sides, first[OTHER], last[OTHER], x0, y0, x1, y1)
+        else:
+            low, high, begins, ends = _clip_any(overlap, sides, x0, y0, x1, y1)
         if not low < high or low >= 1.0 or high <= 0.0:
             continue
         for end in range(2):
@@ -221,7 +267,10 @@ def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on)
     for q in range(first[OTHER], last[OTHER]):
         x, y = _mapped(back, back_shift, sides[q].start[0], sides[q].start[1])
         inside, most, nearest = True, -np.inf, -1
-        for e in range(first[OWN], last[OWN]):
+        if not overlap.convex[OWN]:
+            most, nearest = _beyond_any(sides[first[OWN] : last[OWN]], first[OWN], True, x, y)
+            inside = most < 0.0
+        for e in range(first[OWN], last[OWN] if overlap.convex[OWN] else first[OWN]):
             out = sides[e].normal[0] * (x - sides[e].inner[0, 0]) + sides[e].normal[1] * (
                 y - sides[e].inner[0, 1]
             )
@@ -276,6 +325,41 @@ def _clip(sides, first, last, x0, y0, x1, y1):
             low, begins = d0 / (d0 - d1), q
         if d1 > 0.0 and d0 / (d0 - d1) < high:
             high, ends = d0 / (d0 - d1), q
+    return low, high, begins, ends
+
+
+@njit
+def _crossing(side, x0, y0, x1, y1, slack):
+    """Share of the way from one place to another at which it crosses a side, which is longer by
+    `slack` [m] at both ends; nan where it does not.
+    """
+    d0 = side.normal[0] * (x0 - side.start[0]) + side.normal[1] * (y0 - side.start[1])
+    d1 = side.normal[0] * (x1 - side.start[0]) + side.normal[1] * (y1 - side.start[1])
+    if (d0 > 0.0) == (d1 > 0.0):
+        return np.nan
+    share = d0 / (d0 - d1)
+    along = side.along[0] * (x0 + share * (x1 - x0) - side.start[0]) + side.along[1] * (
+        y0 + share * (y1 - y0) - side.start[1]
+    )
+    return share if -slack <= along <= side.length + slack else np.nan
+
+
+@njit
+def _clip_any(overlap, sides, x0, y0, x1, y1):
+    """As `_clip`, by the outline OTHER of any kind: from the first place on the way that is within
+    it to the last one. What lies between two such places can be no corner of the region's hull.
+    """
+    begins, ends, low, high = -2, -2, 1.0, 0.0
+    for q in range(overlap.first[OTHER], overlap.first[OTHER] + overlap.count[OTHER]):
+        share = _crossing(sides[q], x0, y0, x1, y1, SAME_OUTLINE * overlap.size)
+        if share < low or share <= low and begins < 0:
+            low, begins = share, q
+        if share > high or share >= high and ends < 0:
+            high, ends = share, q
+    if beyond(overlap, sides, OTHER, x0, y0)[0] <= 0.0:
+        low, begins = 0.0, -2
+    if beyond(overlap, sides, OTHER, x1, y1)[0] <= 0.0:
+        high, ends = 1.0, -2
     return low, high, begins, ends
 
 

@@ -12,7 +12,7 @@ from fecolumn.contact.tolerances import OPEN
 #: What a point carries from step to step: force of the master on the slave [N]; anchor: horizontal
 #: position at which it sticks [m]; relative: its position on the slave relative to the master's
 #: surface, the third the gap [m], `located`: whether that was found, else the point is somewhere
-#: above; indentation of a pad below it [m]; beyond: whether it was elsewhere than over the master's
+#: above; indentation of a pad below it, and by how much that has settled [m]; beyond: whether it was elsewhere than over the master's
 #: surface when it was last looked at. Of a joint with two sides: present: whether it took part;
 #: arm: (3,) [m] where it was on the slave, of a point of a rim how far it was moved off the rim.
 CONTACT = record(
@@ -20,15 +20,18 @@ CONTACT = record(
     ("anchor", "f8", 2),
     ("relative", "f8", 3),
     ("indentation", "f8", 3),
+    ("settled", "f8"),
     ("located", "?"),
     ("beyond", "?"),
     ("present", "?"),
     ("arm", "f8", 3),
 )
 
-#: A point in a step. slave, master: bodies, -1 for the base; interface: to which it belongs. node:
+#: A point in a step. slave, master: bodies, -1 for a ground; interface: to which it belongs; ground:
+#: on which it stands where its master is one. node:
 #: row of the slave's node in whose place it is; friction: coefficient; law: compliance of the
-#: contact law [m/N], springs: stiffness of a pad [N/m], each in x, y, z. carriers, weights: the
+#: contact law [m/N], springs: stiffness of a pad [N/m], each in x, y, z; bears: force at which the
+#: pad yields [N], 0 where it never does. carriers, weights: the
 #: slave's nodes that carry it, `count` of them; arm: from the slave's centre of mass in its frame
 #: [m]; lift: height given to it [m], rolls: whether it belongs to a contact that rolls on in this
 #: step, see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's
@@ -40,10 +43,12 @@ POINT = record(
     ("slave", "i8"),
     ("master", "i8"),
     ("interface", "i8"),
+    ("ground", "i8"),
     ("node", "i8"),
     ("friction", "f8"),
     ("law", "f8", 3),
     ("springs", "f8", 3),
+    ("bears", "f8"),
     ("count", "i8"),
     ("carriers", "i8", 4),
     ("weights", "f8", 4),
@@ -72,14 +77,14 @@ def node_points(
     arms: np.ndarray,
     friction: float,
     law: np.ndarray | None = None,
-    springs: np.ndarray | None = None,
+    pad=None,
     slave: int = 0,
     master: int = BASE,
     first: int = 0,
     interface: int = 0,
 ) -> np.ndarray:
-    """Points (n,) of POINT on the slave's nodes with arms (n, 3) [m], in rows from `first` on; law,
-    springs: (n, 3).
+    """Points (n,) of POINT on the slave's nodes with arms (n, 3) [m], in rows from `first` on; law: (n, 3),
+    pad: Pad below them.
     """
     points = np.zeros(len(arms), POINT)
     points["slave"], points["master"], points["interface"], points["friction"], points["arm"] = (
@@ -93,8 +98,10 @@ def node_points(
     points["count"], points["weights"][:, 0], points["carriers"] = 1, 1.0, points["node"][:, None]
     if law is not None:
         points["law"] = law
-    if springs is not None:
-        points["springs"] = springs
+    if pad is not None:
+        points["springs"] = pad.stiffness
+        if pad.bears is not None:
+            points["bears"] = pad.bears
     return points
 
 

@@ -11,14 +11,21 @@ from fecolumn.contact.record import record
 
 #: The frame of an interface, of its master's surface: frame: (3, 3) its axes in the table frame,
 #: two tangents and the normal; origin: (3,) in the table frame [m]; turned: (2, 3, 3) of slave and
-#: master to this frame; foot: (3,) middle of the slave's foot in it [m]. That of the base is the
-#: table frame.
+#: master to this frame; foot: (3,) middle of the slave's foot in it [m]. That of a ground is the
+#: table frame, moved along with it.
 POSE = record(
     ("frame", "f8", (3, 3)), ("origin", "f8", 3), ("turned", "f8", (2, 3, 3)), ("foot", "f8", 3)
 )
 
 #: Of a body's frame no more than its centre of mass [m].
 PLACE = record(("center", "f8", 3))
+
+#: A ground in the table frame, which moves with the first one: place: (3,) of its frame, which has
+#: its height above z = 0, moved: how far it has moved, both [m]; velocity [m/s]; acceleration: of
+#: the ground motion [m/s2].
+GROUND = record(
+    ("place", "f8", 3), ("moved", "f8", 3), ("velocity", "f8", 3), ("acceleration", "f8", 3)
+)
 
 #: Sides of an interface.
 SLAVE, MASTER = range(2)
@@ -35,10 +42,17 @@ def poses_on_base(rotations: np.ndarray) -> np.ndarray:
     return poses
 
 
+def grounds_at(levels) -> np.ndarray:
+    """(G,) of GROUND at heights (G,) [m], at rest."""
+    grounds = np.zeros(len(levels), GROUND)
+    grounds["place"][:, 2] = levels
+    return grounds
+
+
 @njit
-def find_poses(interfaces, frames, rotation, poses):
+def find_poses(interfaces, grounds, frames, rotation, poses):
     """Find poses (ni,) of POSE where the bodies have `frames` (nb,), of PLACE or with more fields,
-    and are turned by `rotation` (nb, 3, 3).
+    and are turned by `rotation` (nb, 3, 3); grounds: (G,) of GROUND.
     """
     place = np.empty(3)
     for k in range(len(interfaces)):
@@ -58,8 +72,9 @@ def find_poses(interfaces, frames, rotation, poses):
             )
         if b == BASE:
             put_matrix(R, turned[SLAVE])
+            ground = grounds[interface.ground]
             for a in range(3):
-                pose.origin[a], pose.foot[a] = 0.0, place[a]
+                pose.origin[a], pose.foot[a] = ground.place[a], place[a] - ground.place[a]
                 for c in range(3):
                     frame[a, c] = turned[MASTER, a, c] = 1.0 if a == c else 0.0
             continue
@@ -87,10 +102,14 @@ def frames_at(centers: np.ndarray) -> np.ndarray:
     return frames
 
 
-def poses_of(interfaces: np.ndarray, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-    """(ni,) of POSE of bodies with centres of mass (nb, 3) turned by (nb, 3, 3)."""
+def poses_of(
+    interfaces: np.ndarray, centers: np.ndarray, rotations: np.ndarray, grounds: np.ndarray
+) -> np.ndarray:
+    """(ni,) of POSE of bodies with centres of mass (nb, 3) turned by (nb, 3, 3); grounds: (G,) of
+    GROUND.
+    """
     poses = np.zeros(len(interfaces), POSE)
-    interpreted(find_poses)(interfaces, frames_at(centers), rotations, poses)
+    interpreted(find_poses)(interfaces, grounds, frames_at(centers), rotations, poses)
     return poses
 
 

@@ -20,7 +20,7 @@ from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.factor import multiply
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.newton import stiffness_alone
-from fecolumn.contact.pad import indent
+from fecolumn.contact.pad import any_pad, indent, indented
 from fecolumn.contact.points import OVER
 from fecolumn.contact.projection import ON, UNKNOWN, project
 from fecolumn.contact.stick import find_stick, operator_of, solve_sticking
@@ -257,7 +257,7 @@ def find_residual(
             slack = (
                 after[i].relative[a]
                 + springs.own[i, a] * after[i].force[a]
-                + springs.kept * before[i].indentation[a]
+                + indented(points, springs, before, i, a)
             )
             problem.slack[i, a] = slack - before[i].anchor[a] if a < 2 else slack
         if problem.active[i]:
@@ -396,9 +396,9 @@ def stored_energy(problem, points, interfaces, springs, before, after):
     is found.
     """
     energy = 0.0
-    on_pad = interfaces[0].on_pad
+    on_pad = any_pad(interfaces)
     if on_pad:
-        indent(springs, before, after)
+        indent(points, springs, before, after)
     for i in near_points(problem):
         for a in range(3):
             energy += after[i].force[a] * (

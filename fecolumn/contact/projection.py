@@ -11,31 +11,47 @@ from fecolumn.contact.bodies import GOES_ON, node_matrix
 from fecolumn.contact.gathered import Gathered, none_gathered
 from fecolumn.contact.points import BASE, BEYOND, OVER, POINT, SUNK, UNPREPARED
 from fecolumn.contact.pose import into_frame
+from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import CLOSE, EDGE
 
 # Answers of `project`
 ON, OFF, UNKNOWN = range(3)
 
 
+#: Grid of the top of one ground: first_x, count_x, first_y, count_y: its lines among those of all;
+#: first: place of its numbers; square: side of the squares [m] by which an unbounded one follows
+#: the feet, 0 for a plate that stays.
+TOP = record(
+    ("first_x", "i8"),
+    ("count_x", "i8"),
+    ("first_y", "i8"),
+    ("count_y", "i8"),
+    ("first", "i8"),
+    ("square", "f8"),
+)
+
+
 class Base(NamedTuple):
-    """Top of the base for compiled code: grid lines x, y [m]; number: (n_x, n_y) of its nodes;
-    slot: (n_top,) of a node in `compliance`, -1 where it is not known yet; compliance: (3 k, 3 k)
-    [m/N]. square: side of the squares [m] by which an unbounded base follows the foot, 0 for a
-    plate that stays. gathered: of it.
+    """Tops of the grounds for compiled code: tops: (G,) of TOP; grid lines x, y of all [m]; number:
+    (n,) of their nodes, row by row; slot: (n_top,) of a node in `compliance`, -1 where it is not
+    known yet; compliance: (3 k, 3 k) [m/N]. gathered: of it.
     """
 
+    tops: np.ndarray
     x: np.ndarray
     y: np.ndarray
     number: np.ndarray
     slot: np.ndarray
     compliance: np.ndarray
-    square: float
     gathered: Gathered
 
 
 def base_of(x, y, number, slot, compliance, square: float = 0.0) -> Base:
-    """A Base of which nothing is gathered."""
-    return Base(x, y, number, slot, compliance, square, none_gathered(len(compliance) // 3))
+    """A Base of one ground, of which nothing is gathered."""
+    top = np.zeros(1, TOP)
+    top["count_x"], top["count_y"], top["square"] = len(x), len(y), square
+    gathered = none_gathered(len(compliance) // 3)
+    return Base(top, x, y, np.ascontiguousarray(number).ravel(), slot, compliance, gathered)
 
 
 def base_for_steps(base) -> Base:
@@ -52,42 +68,86 @@ def base_for_steps(base) -> Base:
     )
 
 
+def grounds_for_steps(bases) -> Base:
+    """The Base of several grounds; nodes and slots of one come after those of the others."""
+    each = [base_for_steps(base) for base in bases]
+    if len(each) == 1:
+        return each[0]
+    slots = [len(one.compliance) // 3 for one in each]
+    before = np.cumsum([0, *slots])
+    compliance = np.zeros((3 * before[-1], 3 * before[-1]))
+    for one, first, last in zip(each, 3 * before, 3 * before[1:]):
+        compliance[first:last, first:last] = one.compliance
+    tops = np.concatenate([one.tops for one in each])
+    for name, arrays in (
+        ("first_x", [one.x for one in each]),
+        ("first_y", [one.y for one in each]),
+        ("first", [one.number for one in each]),
+    ):
+        tops[name] = np.cumsum([0, *map(len, arrays[:-1])])
+    nodes = np.cumsum([0, *(len(one.slot) for one in each)])
+    return Base(
+        tops,
+        np.concatenate([one.x for one in each]),
+        np.concatenate([one.y for one in each]),
+        np.concatenate([one.number + first for one, first in zip(each, nodes)]),
+        np.concatenate(
+            [np.where(one.slot < 0, -1, one.slot + first) for one, first in zip(each, before)]
+        ),
+        compliance,
+        none_gathered(int(before[-1])),
+    )
+
+
 @njit
 def project(base, positions, listed, points):
     """Find the base's nodes under those of the listed points (k,) at positions (n, 3) that stand on
     it: ON, OFF its top, or UNKNOWN compliance.
 
     Bilinear interpolation on the facet vertically below: the top's slope under load is about 1e-5
-    rad and changes gap and cone by 1e-5 of themselves. An unbounded base is moved along with the
+    rad and changes gap and cone by 1e-5 of themselves. An unbounded ground is moved along with the
     middle of the points on it by whole squares. A point that is beyond the edge by rounding, or by
     the first slip of a foot as wide as its plate, stands on the edge.
     """
-    answer, dx, dy, count = ON, 0.0, 0.0, 0
-    if base.square > 0:
-        for i in range(len(positions)):
-            if points[i].master == BASE:
-                dx, dy, count = dx + positions[i, 0], dy + positions[i, 1], count + 1
-        dx, dy = dx / max(count, 1), dy / max(count, 1)
-        dx, dy = base.square * np.rint(dx / base.square), base.square * np.rint(dy / base.square)
+    answer, moved = ON, np.zeros((len(base.tops), 2))
+    for g in range(len(base.tops)):
+        if base.tops[g].square > 0:
+            _follow(base.tops[g].square, g, positions, points, moved[g])
     for i in listed:
         if points[i].master != BASE:
             continue
-        x, far_x = _within(base.x, positions[i, 0] - dx)
-        y, far_y = _within(base.y, positions[i, 1] - dy)
+        g = points[i].ground
+        top = base.tops[g]
+        lines_x = base.x[top.first_x : top.first_x + top.count_x]
+        lines_y = base.y[top.first_y : top.first_y + top.count_y]
+        x, far_x = _within(lines_x, positions[i, 0] - moved[g, 0])
+        y, far_y = _within(lines_y, positions[i, 1] - moved[g, 1])
         if far_x or far_y:
             return OFF
-        a, b = _cell(base.x, x), _cell(base.y, y)
+        a, b = _cell(lines_x, x), _cell(lines_y, y)
         s, t = (
-            (x - base.x[a]) / (base.x[a + 1] - base.x[a]),
-            (y - base.y[b]) / (base.y[b + 1] - base.y[b]),
+            (x - lines_x[a]) / (lines_x[a + 1] - lines_x[a]),
+            (y - lines_y[b]) / (lines_y[b + 1] - lines_y[b]),
         )
         for q in range(4):
-            slot = base.slot[base.number[a + q % 2, b + q // 2]]
+            node = base.number[top.first + (a + q % 2) * top.count_y + b + q // 2]
+            slot = base.slot[node]
             points[i].below[q] = slot
             points[i].shares[q] = (s if q % 2 else 1 - s) * (t if q // 2 else 1 - t)
             if slot < 0:
                 answer = UNKNOWN
     return answer
+
+
+@njit
+def _follow(square, ground, positions, points, moved):
+    """Moved (2,): way [m] in whole squares to the middle of the points on a ground."""
+    dx, dy, count = 0.0, 0.0, 0
+    for i in range(len(positions)):
+        if points[i].master == BASE and points[i].ground == ground:
+            dx, dy, count = dx + positions[i, 0], dy + positions[i, 1], count + 1
+    dx, dy = dx / max(count, 1), dy / max(count, 1)
+    moved[0], moved[1] = square * np.rint(dx / square), square * np.rint(dy / square)
 
 
 @njit

@@ -308,6 +308,16 @@ def stay(roll, rim, rim_state, tilt, arms, points):
 
 
 @njit
+def least_rim_width(interfaces):
+    """Width [m] of the narrowest foot with a round rim; infinite where there is none."""
+    width = np.inf
+    for k in range(len(interfaces)):
+        if interfaces[k].rim_count > 0:
+            width = min(width, interfaces[k].width)
+    return width
+
+
+@njit
 def _around(number, n):
     """Number, -n to 3 n - 1, modulo n: a division takes longer than all else here."""
     if number < 0:

@@ -29,15 +29,22 @@ class UnboundedBase:
         (n, 3) the foot's nodes [m].
     frequency
         lowest of the layer [Hz].
+    feet
+        how many stand on it.
     """
 
     body, dofs, made_s, made_cpu_s = None, 0, 0.0, 0.0
 
-    def __init__(self, size: float, response: np.ndarray, reference: np.ndarray, frequency: float):
+    def __init__(
+        self, size: float, response: np.ndarray, reference: np.ndarray, frequency: float, feet=1
+    ):
         self.response, self.frequency = response, frequency
-        self.grid = MovingTop(size, reference)
+        self.grid = MovingTop(size, reference, (len(response) - 1) // 4)
         self.slot = np.full(len(self.grid.points), -1, np.int64)
         self.known = np.zeros(0, np.int64)
+        if feet > 1:
+            self.need(self.grid.around(reference, ROWS))
+            return
         distance = np.linalg.norm(reference[:, :2] - reference[:, :2].mean(axis=0), axis=1)
         away, reach = np.linalg.norm(self.grid.points[:, :2], axis=1), ROWS * size
         self.need(
@@ -62,15 +69,14 @@ class UnboundedBase:
 class MovingTop(BaseTop):
     """Equal squares under the foot, moved along with it by whole squares."""
 
-    def __init__(self, size: float, reference: np.ndarray):
-        count = window(size, reference)
+    def __init__(self, size: float, reference: np.ndarray, count: int):
         lines = size * np.arange(-count, count + 1)
         x, y = np.meshgrid(lines, lines, indexing="ij")
         super().__init__(np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1))
         self.square = size
 
     def around(self, positions: np.ndarray, rows: int) -> np.ndarray:
-        """Nodes (k,) of the window around all points of the foot at `positions` (n, 3) [m]."""
+        """Nodes (k,) of the window around all points of the feet at `positions` (n, 3) [m]."""
         moved = np.zeros(3)
         moved[:2] = self.square * np.round(positions[:, :2].mean(axis=0) / self.square)
         return super().around(positions - moved, rows)
@@ -79,12 +85,17 @@ class MovingTop(BaseTop):
         return False
 
 
-def window(size: float, reference: np.ndarray) -> int:
-    """Squares to each side of the foot's middle that hold the foot (n, 3) however it is turned."""
+def window(size: float, reference: np.ndarray, travel: float = 0.0) -> int:
+    """Squares to each side of the middle of the feet's points (n, 3) that hold the feet however
+    they are turned, and move apart by `travel` [m].
+    """
     return (
         int(
             np.ceil(
-                np.linalg.norm(reference[:, :2] - reference[:, :2].mean(axis=0), axis=1).max()
+                (
+                    np.linalg.norm(reference[:, :2] - reference[:, :2].mean(axis=0), axis=1).max()
+                    + travel
+                )
                 / size
             )
         )
@@ -93,17 +104,23 @@ def window(size: float, reference: np.ndarray) -> int:
 
 
 def unbounded_base(
-    size: float, depths: np.ndarray, material, reference: np.ndarray
+    size: float,
+    depths: np.ndarray,
+    material,
+    reference: np.ndarray,
+    feet: int = 1,
+    travel: float = 0.0,
 ) -> UnboundedBase:
-    """The base of bricks `size` x `size` in plan with levels `depths` (n,) [m], falling from 0.
+    """The base of bricks `size` x `size` in plan with levels `depths` (n,) [m], falling from 0;
+    travel: by which several feet may move apart [m].
 
     Raises
     ------
     ValueError
         too thick for its bricks; see `layer_response`.
     """
-    response = layer_response(size, depths, material, 2 * window(size, reference))
-    return UnboundedBase(size, response, reference, shear_frequency(material, -depths[-1]))
+    response = layer_response(size, depths, material, 2 * window(size, reference, travel))
+    return UnboundedBase(size, response, reference, shear_frequency(material, -depths[-1]), feet)
 
 
 def rigid_base(reference: np.ndarray) -> UnboundedBase:

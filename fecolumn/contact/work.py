@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import njit
-from fecolumn.contact.pad import dashpot_work
+from fecolumn.contact.pad import any_pad, dashpot_work
 from fecolumn.contact.tolerances import STUCK
 
 
@@ -36,12 +36,12 @@ def move_anchors(points, interfaces, springs, listed, before, after):
         x = (
             after[i].relative[0]
             + springs.own[i, 0] * after[i].force[0]
-            + springs.kept * before[i].indentation[0]
+            + springs.kept[i] * before[i].indentation[0]
         )
         y = (
             after[i].relative[1]
             + springs.own[i, 1] * after[i].force[1]
-            + springs.kept * before[i].indentation[1]
+            + springs.kept[i] * before[i].indentation[1]
         )
         stuck = (
             after[i].force[2] > 0
@@ -55,15 +55,15 @@ def move_anchors(points, interfaces, springs, listed, before, after):
 @njit
 def losses(points, interfaces, springs, listed, before, after, contact):
     """Energy [J] that friction and landings of the listed points (k,) add in a step, both below 0,
-    and that the dashpots of a pad take; contact: that all of contact adds.
+    and that dashpots and yielding of pads take; contact: that all of contact adds.
     """
-    friction, landed, on_pad = 0.0, 0.0, interfaces[0].on_pad
+    friction, landed = 0.0, 0.0
     for i in listed:
         if after[i].force[2] > 0:
             friction += after[i].force[0] * (after[i].anchor[0] - before[i].anchor[0]) + after[
                 i
             ].force[1] * (after[i].anchor[1] - before[i].anchor[1])
-            if before[i].force[2] <= 0 and not on_pad:
+            if before[i].force[2] <= 0 and not interfaces[points[i].interface].on_pad:
                 # a point of a rim that rolls may be pushed out: no landing
                 landed += min(
                     after[i].force[2] * (after[i].relative[2] - before[i].relative[2]), 0.0
@@ -71,4 +71,5 @@ def losses(points, interfaces, springs, listed, before, after, contact):
     # the gap of a point that goes along a rim or an outline is not the way of a body alone:
     # landings take no more than contact does beside friction
     landed = max(landed, min(contact - friction, 0.0))
-    return friction, landed, dashpot_work(points, springs, before, after) if on_pad else 0.0
+    taken = dashpot_work(points, springs, before, after) if any_pad(interfaces) else 0.0
+    return friction, landed, taken

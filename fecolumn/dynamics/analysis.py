@@ -29,7 +29,7 @@ class FullAnalysis(Analysis):
         began = time.perf_counter()
         self.system.interface.prepare(self.say)
         self.began += time.perf_counter() - began  # what is compiled is so for all analyses
-        self.warn_of_base(self.system.base.frequency, self.system.interface.pad, file)
+        self.warn_of_base(self.system.base.frequency, self.system.laws.get("pad"), file)
         self.ledger = Ledger(self.system)
         self.stepper = Stepper(
             self.system,
@@ -73,17 +73,10 @@ class FullAnalysis(Analysis):
         start = self.case.initial
         return gravity.begin(self.system, start) if start.tilt_rad or start.moves else standing
 
-    def drawn(self):
-        """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
-        from fecolumn.post.fields import SpecimenFields
-
-        plate = self.system.base if len(self.specimen.base.cells) else None
-        return SpecimenFields(self.system.column, plate, self.system.footprint, self.specimen)
-
     def foot(self) -> tuple[np.ndarray, np.ndarray]:
         """Places (n, 3) [m] of what stands on the base, and velocities (n, 3) [m/s]."""
         return tuple(
-            self.system.column.gather(self.system.foot_nodes, values)
+            self.system.body.gather(self.system.footprint.nodes, values)
             for values in (self.state.x, self.state.v)
         )
 
@@ -134,26 +127,19 @@ class FullAnalysis(Analysis):
         from fecolumn.dynamics.static_rest import StaticRest
 
         system, state = self.system, self.state
-        interface, R, rows = system.interface, state.rotation, system.column.rows
+        interface, R, rows = system.interface, state.rotation, system.bodies.rows
         self.rest = self.rest or StaticRest(system)
         at_nodes, local = (
             interface.at_nodes(state.forces, R),
             system.kinematics.local_displacement(state.x),
         )
         rest = self.rest.displacement(at_nodes, R)
-        sunk = (
-            interface.positions(state.x, R, interface.poses(state.x, R))
-            if system.base.body
-            else None
+        drawn = self.fields.fields
+        positions = (
+            interface.positions(state.x, R, interface.poses(state.x, R)) if drawn.grounds else None
         )
-        self.fields.write(
-            state.time,
-            state.x + out_of_frames(rest, R, rows),
-            local + rest,
-            sunk,
-            state.forces,
-            at_nodes,
-        )
+        moved = state.x + out_of_frames(rest, R, rows)
+        self.fields.add(state.time, drawn.values(moved, local + rest, positions, state.forces))
 
     def run(self, stop) -> dict:
         from fecolumn.dynamics.cuts import StepFailed
@@ -197,9 +183,9 @@ class FullAnalysis(Analysis):
                 ) from None
         finally:
             progress.end()
-        dofs = 3 * self.system.column.n_nodes + self.system.base.dofs
+        dofs = 3 * self.system.bodies.n_nodes + self.system.base.dofs
         return self.finish(
-            off or self.ending(fallen, self.state.rotation),
+            off or self.ending(fallen, self.state.rotation[self.observer.body]),
             dofs,
             self.stepper.record,
             self.system.factorizations,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case import GRAVITY, Case
+from fecolumn.case import GRAVITY
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.footprint import Footprint, footprint
 from fecolumn.contact.law import interface_compliance
@@ -15,13 +15,13 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System, one_column
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
-from fecolumn.fem.damping import ModalDamping
 from fecolumn.mesh.base_plate import levels
 from fecolumn.mesh.bricks import boundary_faces, outline_edges
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.mesh.surface import face_basis, face_points, nodal_areas
 from fecolumn.mesh.tie import project_to_quads
 from fecolumn.schema import InputError
+from fecolumn.short_form import ShortForm
 from fecolumn.sizes import foot_sides
 
 
@@ -39,12 +39,12 @@ def known_to_all(comm, make):
     return result
 
 
-def share_specimen_mesh(case: Case, comm) -> SpecimenMesh:
+def share_specimen_mesh(case: ShortForm, comm) -> SpecimenMesh:
     """The specimen's mesh, made on rank 0 and known on every rank."""
     return known_to_all(comm, lambda: specimen_mesh(case))
 
 
-def column_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
+def column_body(case: ShortForm, specimen: SpecimenMesh, comm) -> Body:
     """Column and cap as one body with their ties."""
 
     def ties(body):
@@ -81,7 +81,7 @@ def _tie_links(body: Body, mesh, tie):
         yield int(slave), (nodes[kept], row[kept] / row[kept].sum())
 
 
-def base_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
+def base_body(case: ShortForm, specimen: SpecimenMesh, comm) -> Body:
     """Base plate, held at its bottom."""
 
     def held(body):
@@ -91,7 +91,7 @@ def base_body(case: Case, specimen: SpecimenMesh, comm) -> Body:
     return Body(comm, specimen.base, case.base, 1, held)
 
 
-def base_of(case: Case, reference: np.ndarray) -> UnboundedBase | None:
+def base_of(case: ShortForm, reference: np.ndarray) -> UnboundedBase | None:
     """The base below a foot at (n, 3) [m] where it has no edges; None for a plate.
 
     A pad's own part is rigid: its springs are the Pad.
@@ -113,7 +113,7 @@ def base_of(case: Case, reference: np.ndarray) -> UnboundedBase | None:
     return None
 
 
-def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> Footprint:
+def foot_of(case: ShortForm, specimen: SpecimenMesh, column: Body) -> Footprint:
     """Contact points of the foot, in an order that does not depend on the partition."""
     mesh = specimen.body
     part = mesh.foot_part
@@ -133,25 +133,18 @@ def foot_of(case: Case, specimen: SpecimenMesh, column: Body) -> Footprint:
     return footprint(foot, column.all_X[foot], areas, on_outline, case.contact.interior_points)
 
 
-def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> System:
+def build_system(case: ShortForm, comm, specimen: SpecimenMesh | None = None) -> System:
     """Bodies, contact and loads of a case."""
     specimen = specimen or share_specimen_mesh(case, comm)
     column = column_body(case, specimen, comm)
     if case.integration.kinematics == "total_lagrangian":
-        from fecolumn.fem.total_lagrangian import TotalLagrangian
-
-        kinematics = TotalLagrangian(column)
+        from fecolumn.fem.total_lagrangian import TotalLagrangian as kinematics
     else:
-        kinematics = Corotated(column)
+        kinematics = Corotated
     foot = foot_of(case, specimen, column)
     base = base_of(case, column.all_X[foot.nodes]) or BasePlate(base_body(case, specimen, comm))
     law = interface_compliance(
         case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, foot.areas
-    )
-    damping = (
-        ModalDamping(column, case.integration.n_modes, ratio)
-        if (ratio := case.material.damping_ratio)
-        else None
     )
     pad = pad_of(case, foot.areas, column.total_mass)
     return one_column(
@@ -165,7 +158,7 @@ def build_system(case: Case, comm, specimen: SpecimenMesh | None = None) -> Syst
         HHT(case.integration.dt_s, case.integration.alpha_hht),
         filtered=case.contact.impact == "plastic",
         rim=None if pad else Rim.find(column.all_X[foot.nodes]),
-        damping=damping,
+        damping=(case.integration.n_modes, case.material.damping_ratio),
         restitution=case.contact.restitution,
         rolling=case.contact.rolling_resistance,
         pad=pad,

@@ -48,20 +48,20 @@ def gather_all(body, values: np.ndarray) -> np.ndarray | None:
 
 def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
     """Write state and `extra` arrays atomically on rank 0; called on every rank."""
-    column = system.column
-    orders = {part: node_order(part) for part in set(column.parts)}
+    bodies = system.bodies
+    orders = {part: node_order(part) for part in set(bodies.parts)}
     known = [name for name in _FIELDS + _SHARED if getattr(state, name) is not None]
     arrays = {name: getattr(state, name) for name in _SHARED if name in known}
     for name in filter(known.__contains__, _FIELDS):
         values = [
             gather_all(part, getattr(state, name)[rows])
-            for part, rows in zip(column.parts, column.rows)
+            for part, rows in zip(bodies.parts, bodies.rows)
         ]
-        if column.comm.rank == 0:
+        if bodies.comm.rank == 0:
             arrays[name] = np.concatenate(
-                [one[orders[part]] for part, one in zip(column.parts, values)]
+                [one[orders[part]] for part, one in zip(bodies.parts, values)]
             )
-    if column.comm.rank == 0:
+    if bodies.comm.rank == 0:
         content = io.BytesIO()
         np.savez(content, **arrays, **{f"extra.{name}": value for name, value in extra.items()})
         write_bytes(path, content.getvalue())
@@ -95,7 +95,7 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
 
 def read_state(arrays: dict[str, np.ndarray], system) -> tuple[State, dict]:
     """State on this rank and the `extra` arrays of a checkpoint of the full-order engine."""
-    parts = system.column.parts
+    parts = system.bodies.parts
     orders = {part: node_order(part) for part in set(parts)}
     values = {
         name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name]

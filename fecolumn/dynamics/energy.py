@@ -43,12 +43,12 @@ class Ledger:
         """Kinetic, strain and gravity energy now; gravity is relative to the reference
         configuration.
         """
-        system, column = self.system, self.system.column
+        system, bodies = self.system, self.system.bodies
         weight = system.load(np.zeros(3))
         return dict(
-            kinetic=0.5 * column.dot(state.v, column.momentum(state.v)),
+            kinetic=0.5 * bodies.dot(state.v, bodies.momentum(state.v)),
             strain=state.strain + state.static,
-            gravity=-column.dot(weight, state.x - column.placed),
+            gravity=-bodies.dot(weight, state.x - bodies.placed),
         )
 
     def open(self, state) -> None:

@@ -70,13 +70,9 @@ def standing(system, tolerance: float = 1e-9) -> State:
     NoEquilibrium
         no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
-    column, interface, links = system.column, system.interface, system.links
-    state = system.unstrained(column.placed)
-    # a single column is drawn as it stands
-    firmness, height, turned = (
-        *_firmness_and_height(system),
-        np.eye(3) if state.rotation.ndim == 2 else state.rotation,
-    )
+    bodies, interface, links = system.bodies, system.interface, system.links
+    state = system.unstrained(bodies.placed)
+    firmness, turned = _firmness(system), bodies.rotations
     factors, load, pulls, straight = (firmness, 1.0), system.load(np.zeros(3)), None, 0.0
 
     def proximal_step():
@@ -90,7 +86,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
             before=before,
             dt=np.inf,
             rotation=turned,
-            centers=column.centers(state.x) if links else None,
+            centers=bodies.centers(state.x) if links else None,
             ties=state.ties,
             turns=interface.foot.filtered,
         )
@@ -100,7 +96,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
                 f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual "
                 f"{outcome.residual:.2e} of the weight)"
             )
-        moved = column.max(np.abs(outcome.x - state.x).max(initial=0.0))
+        moved = bodies.max(np.abs(outcome.x - state.x).max(initial=0.0))
         outcome.contact["anchor"] = before["anchor"]
         state = replace(
             state,
@@ -126,11 +122,11 @@ def standing(system, tolerance: float = 1e-9) -> State:
         if links:
             pulls, state.ties = (
                 links.pulls(stage, state.x, state.rotation),
-                links.ties(column.centers(state.x), state.rotation),
+                links.ties(bodies.centers(state.x), state.rotation),
             )
         return moved
 
-    iterate_to_rest(proximal_step, height)
+    iterate_to_rest(proximal_step, bodies.extent)
     system.forget(*factors)
     push = (
         interface.acceleration(state.forces, state.rotation) + straight
@@ -143,19 +139,16 @@ def standing(system, tolerance: float = 1e-9) -> State:
     return replace(state, a=-push, contact_a=push)
 
 
-def _firmness_and_height(system) -> tuple[float, float]:
-    """Inertia factor [1/s2] of the proximal steps of a system, and its height [m]."""
-    column, interface = system.column, system.interface
-    if column.unturned.ndim == 2:
-        depth = column.center[2] - interface.reference[:, 2].mean()
-        return pseudo_inertia(system.weight, depth, rigid_fields(column)[2][3:, 3:]), 2 * depth
-    depths = column.of_each(lambda part, _: np.ptp(part.all_X[:, 2]) / 2)
-    inertias = column.of_each(lambda part, _: rigid_fields(part)[2][3:, 3:])
+def _firmness(system) -> float:
+    """Inertia factor [1/s2] of the proximal steps of a system."""
+    bodies = system.bodies
+    depths = bodies.of_each(lambda part, _: part.center[2] - part.all_X[:, 2].min())
+    inertias = bodies.of_each(lambda part, _: rigid_fields(part)[2][3:, 3:])
     firmness = max(
         pseudo_inertia(system.weight, depth, inertia) for depth, inertia in zip(depths, inertias)
     )
     # links answer the motion of a step at once: the motion must not answer them as strongly
-    return max(firmness, LINKS_FIRM * system.links.stiffest if system.links else 0.0), column.extent
+    return max(firmness, LINKS_FIRM * system.links.stiffest if system.links else 0.0)
 
 
 def leaning(
@@ -217,17 +210,20 @@ def begin(system, initial) -> State:
         else standing(system)
     )
     if initial.moves:
-        state.v = moving(
-            system.interface.reference, system.interface.rim is not None, initial, state.x
-        )
+        state.v = moving(system.interface.reference, _is_round(system), initial, state.x)
     return state
+
+
+def _is_round(system) -> bool:
+    """Whether a column stands on a round rim."""
+    return bool(system.interface.interfaces[0]["rim_count"])
 
 
 def tilted(system, tilt: float, direction: float) -> State:
     """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest
     point on the base.
     """
-    column, interface = system.column, system.interface
-    turn, pivot, lift = leaning(interface.reference, interface.rim is not None, tilt, direction)
-    state = system.unstrained((column.X - pivot) @ turn.T + pivot + [0.0, 0.0, lift])
+    bodies, interface = system.bodies, system.interface
+    turn, pivot, lift = leaning(interface.reference, _is_round(system), tilt, direction)
+    state = system.unstrained((bodies.X - pivot) @ turn.T + pivot + [0.0, 0.0, lift])
     return replace(state, a=np.tile(system.gravity, (len(state.x), 1)))

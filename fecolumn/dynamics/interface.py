@@ -16,7 +16,7 @@ from fecolumn.contact.joints import Joints, left_faces
 from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import springs_of
 from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
-from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, poses_on_base
+from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
     FAR_BASE,
@@ -35,6 +35,7 @@ from fecolumn.contact.rolling import plan_roll, roll_points, stay
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.dynamics.cuts import StepFailed, Stop
+from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.stay import Stay
 from fecolumn.fem.rotation import into_frames, out_of_frames
 
@@ -59,67 +60,49 @@ class Interface:
 
     Parameters
     ----------
-    column
-        Body or Composite.
+    composite
+        Composite of the bodies.
     foot
-        of `fem.composite.foot_of`: what the time integration shows of its surface nodes.
+        CompositeFoot: what the time integration shows of their surface nodes.
     base
         BasePlate, or what answers as it does.
     joints
         points, interfaces, rims and facets.
-    laws
-        of the single column of `reduced.model.structure_of`; none of a structure of bodies.
     """
 
-    def __init__(self, column, foot, base, joints: Joints, laws: dict | None = None):
-        self.column, self.foot, self.base, self.joints, self.laws = (
-            column,
-            foot,
-            base,
-            joints,
-            laws or {},
-        )
-        self.rim, self.pad = self.laws.get("rim"), self.laws.get("pad")
-        #: (P,) of POINT; interfaces (ni,) of INTERFACE, the first of them the record of a single
-        #: column.
+    def __init__(self, composite, foot, base, joints: Joints):
+        self.composite, self.foot, self.base, self.joints = composite, foot, base, joints
+        #: (P,) of POINT; interfaces (ni,) of INTERFACE.
         self.points, self.interfaces = joints.points.copy(), joints.interfaces.copy()
-        self.size, self.record = len(self.points), self.interfaces[0]
-        self.width, self.moving = (
-            float(self.record["width"]),
-            bool((self.points["master"] != BASE).any()),
-        )
-        several = isinstance(foot.static, list)
-        nodes, static, mobility = (
-            getattr(foot, name, None) if several else [getattr(foot, name, None)]
-            for name in ("nodes", "static", "mobility")
-        )
+        #: Number of points; whether any stands on a body.
+        self.size, self.moving = len(self.points), bool((self.points["master"] != BASE).any())
         #: Reference positions (N, 3) of the surface nodes, each body as it is drawn [m].
-        self.reference = np.concatenate([part.all_X[own] for part, own in zip(column.parts, nodes)])
-        mobility = mobility if foot.filtered else [np.zeros_like(one) for one in static]
-        centers = np.repeat(
-            [part.center for part in column.parts], [len(own) for own in nodes], axis=0
+        self.reference = np.concatenate(
+            [part.all_X[own] for part, own in zip(composite.parts, foot.nodes)]
         )
-        #: Arms of the surface nodes: from the centres of mass, of a single column from where it is
-        #: drawn.
-        self.arms = self.reference - centers if self.moving else self.reference
-        rows = np.cumsum([0] + [len(own) for own in nodes])
+        mobility = foot.mobility if foot.filtered else [np.zeros_like(one) for one in foot.static]
+        centers = np.repeat(
+            [part.center for part in composite.parts], [len(own) for own in foot.nodes], axis=0
+        )
+        #: Arms (N, 3) of the surface nodes from the centres of mass [m].
+        self.arms = self.reference - centers
+        #: Rows of each body's surface nodes.
+        self.rows = foot.rows
         parts = [
-            one_body(self.arms[first:last], node_matrix(one), node_matrix(own))
-            for first, last, one, own in zip(rows, rows[1:], static, mobility)
+            one_body(self.arms[rows], node_matrix(one), node_matrix(own))
+            for rows, one, own in zip(self.rows, foot.static, mobility)
         ]
         #: As `contact.bodies` has them: their rigid motion is part of the nodal mobility.
         self.bodies = Bodies(*joined(parts)[:4], joints.facets)
-        #: Rows of each body's surface nodes.
-        self.rows = [slice(first, last) for first, last in zip(rows, rows[1:])]
         self.surface, self.counts = base_for_steps(base), np.zeros(N_COUNTS, np.int64)
         self._problem, self.overlaps = room(self.points), joints.overlaps
-        #: Of many bodies; a single foot's problem is small.
+        #: Of bodies on one another; the problem of feet on the base is small.
         self.stay = Stay(self.interfaces, self.size if self.moving else 0)
         #: Nodes and shares of the masters below the points at the start of the step.
         self._below, self._shares = self.points["below"].copy(), self.points["shares"].copy()
         #: Arms (N, 3) of the surface nodes from the centres of mass, in the frames of their bodies,
         #: where they were found last.
-        self._arms_now = self.reference - centers
+        self._arms_now = self.arms.copy()
         # Positions, and velocities, and the rotation that were filtered last, and what came of it
         self._filtered = self._filtered_velocity = None, None, None
 
@@ -134,11 +117,7 @@ class Interface:
             np.zeros((self.size, 3)),
             np.zeros(self.size, bool),
         )
-        static, springs, poses = (
-            self.bodies.static,
-            springs_of(self.points, self.record, 1.0),
-            poses_on_base(np.eye(3)[None]),
-        )
+        static, springs, poses = self.bodies.static, self.springs(1.0), np.zeros(1, POSE)
         compile_for(
             solve_linear,
             (
@@ -177,20 +156,31 @@ class Interface:
                 values,
                 mask,
                 mask,
-                True,
+                1.0,
                 1.0,
                 1.0,
                 self.counts,
             ),
         )
+        compile_for(
+            find_poses,
+            (self.interfaces, STILL, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses),
+        )
         if self.moving:
-            compile_for(
-                find_poses, (self.interfaces, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses)
-            )
             compile_for(
                 place_on_masters,
                 (self.bodies, self.interfaces, self.points, poses, values, True, values),
             )
+
+    @property
+    def width(self) -> float:
+        """Least width [m] of the feet with a round rim, of all where none has one."""
+        rolls = self.interfaces["rim_count"] > 0
+        return float(self.interfaces["width"][rolls if rolls.any() else slice(None)].min())
+
+    def springs(self, dt: float):
+        """What the points give alone in a step dt [s]: of `contact.pad.springs_of`."""
+        return springs_of(self.points, self.interfaces, dt)
 
     def at_points(self, values: np.ndarray) -> np.ndarray:
         """Values (P, ...) at the points from those at the nodes (N, ...) of their slaves."""
@@ -248,10 +238,8 @@ class Interface:
 
     def poses(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """(ni,) of POSE of bodies at positions x (n_owned, 3) turned by `rotation`."""
-        if not self.moving:
-            return poses_on_base(rotation.reshape(-1, 3, 3)[self.interfaces["slave"]])
         poses = np.zeros(len(self.interfaces), POSE)
-        find_poses(self.interfaces, frames_at(self.column.centers(x)), rotation, poses)
+        find_poses(self.interfaces, STILL, frames_at(self.composite.centers(x)), rotation, poses)
         return poses
 
     def node_positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
@@ -269,7 +257,9 @@ class Interface:
             self._filtered = (
                 x,
                 rotation,
-                self.foot.position(into_frames(x, rotation, self.column.rows) - self.column.X),
+                self.foot.position(
+                    into_frames(x, rotation, self.composite.rows) - self.composite.X
+                ),
             )
         return self._filtered[2]
 
@@ -296,7 +286,7 @@ class Interface:
         """
         moved = self._displacement(x, rotation)
         centers = self._into_frames(
-            np.repeat(self.column.centers(x), self.bodies.body["count"], axis=0), rotation
+            np.repeat(self.composite.centers(x), self.bodies.body["count"], axis=0), rotation
         )
         positions, self._arms_now = (
             self.at_points(self._out_of_frames(self.reference + moved, rotation)),
@@ -321,11 +311,13 @@ class Interface:
         """Moments (nb, 3) [N m] of forces (P, 3) at the points' `levers` about the centres of mass
         of bodies turned by `rotation`, in their frames.
         """
-        turned, loaded = rotation.reshape(-1, 3, 3), np.flatnonzero(forces.any(axis=1))
+        loaded = np.flatnonzero(forces.any(axis=1))
         moments, pushes = (
-            np.zeros((len(turned), 3)),
+            np.zeros((len(rotation), 3)),
             np.einsum(
-                "pab,pb->pa", self._frames(turned)[self.points["interface"][loaded]], forces[loaded]
+                "pab,pb->pa",
+                self._frames(rotation)[self.points["interface"][loaded]],
+                forces[loaded],
             ),
         )
         for side, name, sign in ((SLAVE, "slave", 1.0), (MASTER, "master", -1.0)):
@@ -336,7 +328,7 @@ class Interface:
                 bodies,
                 sign
                 * np.cross(
-                    levers[loaded[of], side], np.einsum("pa,pab->pb", pushes[of], turned[bodies])
+                    levers[loaded[of], side], np.einsum("pa,pab->pb", pushes[of], rotation[bodies])
                 ),
             )
         return moments
@@ -354,7 +346,7 @@ class Interface:
                 v,
                 rotation,
                 self._out_of_frames(
-                    self.foot.position(into_frames(v, rotation, self.column.rows)), rotation
+                    self.foot.position(into_frames(v, rotation, self.composite.rows)), rotation
                 ),
             )
         return self._relative(
@@ -402,10 +394,10 @@ class Interface:
         """
         if self.foot.filtered:
             acceleration = out_of_frames(
-                self.foot.acceleration(surface_forces), rotation, self.column.rows
+                self.foot.acceleration(surface_forces), rotation, self.composite.rows
             )
-            return self.column.momentum(acceleration), acceleration
-        return out_of_frames(self.foot.load(surface_forces), rotation, self.column.rows), None
+            return self.composite.momentum(acceleration), acceleration
+        return out_of_frames(self.foot.load(surface_forces), rotation, self.composite.rows), None
 
     def acceleration(
         self, forces: np.ndarray, rotation: np.ndarray, within: bool = True
@@ -416,7 +408,7 @@ class Interface:
         return out_of_frames(
             self.foot.acceleration(self.surface_forces(forces, rotation, within)),
             rotation,
-            self.column.rows,
+            self.composite.rows,
         )
 
     def displacement(
@@ -428,14 +420,13 @@ class Interface:
         frame: np.ndarray,
     ) -> np.ndarray:
         """Displacement (n_owned, 3) [m] of `scale` times `surface_forces` on bodies turned by
-        `rotation`; response: of `fem.composite.response_of`, found with the bodies turned by
-        `frame`.
+        `rotation`; response: CompositeResponse, found with the bodies turned by `frame`.
         """
         along = rotation @ frame.swapaxes(-1, -2)
         return out_of_frames(
             scale * response.displacement(self._out_of_frames(surface_forces, frame)),
             along,
-            self.column.rows,
+            self.composite.rows,
         )
 
     def shifts(
@@ -458,15 +449,12 @@ class Interface:
         )
 
     def nodal(self, compliance, scale: float, frame: np.ndarray) -> Nodal:
-        """Compliance of a stage from that of its response (n, n, 3, 3), of several bodies a list,
-        found with them turned by `frame`.
+        """Compliance of a stage from those of its response, (n, n, 3, 3) of each body, found with
+        the bodies turned by `frame`.
         """
-        if frame.ndim == 2:
-            elastic = _turned(compliance, scale, frame)
-        else:
-            elastic = np.zeros_like(self.bodies.static)
-            for one, R, rows in zip(compliance, frame, self.rows):
-                elastic[3 * rows.start : 3 * rows.stop, : 3 * len(one)] = _turned(one, scale, R)
+        elastic = np.zeros_like(self.bodies.static)
+        for one, R, rows in zip(compliance, frame, self.rows):
+            elastic[3 * rows.start : 3 * rows.stop, : 3 * len(one)] = _turned(one, scale, R)
         return Nodal(elastic, elastic + self.bodies.static)
 
     def begin_step(
@@ -478,7 +466,7 @@ class Interface:
         Parameters
         ----------
         halfway
-            (3, 3) rotation in the middle of the step, (nb, 3, 3) of several bodies.
+            (nb, 3, 3) rotations in the middle of the step.
         rolls
             False: the points stay in any case.
         """
@@ -493,29 +481,22 @@ class Interface:
         self._lay_points(state, now, before, rims)
         if self.moving:
             self.stay.note(now, rims)
-        if self.moving or rolled:
-            self.points["beyond"] = OVER
-            positions = self.start_positions(state.x, state.rotation, now)
-            taking = ~self.points["idle"]
-            if (self.points["beyond"][taking] == UNPREPARED).any():
-                raise StepFailed(
-                    Stop.OFF_PATCH,
-                    f"{Stop.OFF_PATCH.value}: {left_faces(self.joints.names, self.points)}",
-                )
-            self._find_sunk(before, positions, now, state.rims, rims)
-            before["beyond"] = self.points["beyond"] != OVER
-            # one that was found by nothing but its place, or beyond an outline
-            elsewhere = ~before["located"] | (self.points["master"] != BASE) & (
-                before["relative"][:, 2]
-                > CLOSE * self.interfaces["width"][self.points["interface"]]
+        self.points["beyond"] = OVER
+        positions = self.start_positions(state.x, state.rotation, now)
+        taking = ~self.points["idle"]
+        if (self.points["beyond"][taking] == UNPREPARED).any():
+            raise StepFailed(
+                Stop.OFF_PATCH,
+                f"{Stop.OFF_PATCH.value}: {left_faces(self.joints.names, self.points)}",
             )
-            before["relative"][elsewhere] = positions[elsewhere]
-            before["anchor"][elsewhere], before["located"] = (
-                before["relative"][elsewhere, :2],
-                taking,
-            )
-        else:
-            self.positions(state.x, state.rotation, now)
+        self._find_sunk(before, positions, now, state.rims, rims)
+        before["beyond"] = self.points["beyond"] != OVER
+        # one that was found by nothing but its place, or beyond an outline
+        elsewhere = ~before["located"] | (self.points["master"] != BASE) & (
+            before["relative"][:, 2] > CLOSE * self.interfaces["width"][self.points["interface"]]
+        )
+        before["relative"][elsewhere] = positions[elsewhere]
+        before["anchor"][elsewhere], before["located"] = before["relative"][elsewhere, :2], taking
         return before, rims, rolled
 
     def lay(self, state) -> tuple[np.ndarray, np.ndarray]:
@@ -532,7 +513,7 @@ class Interface:
     def _mark_unused(self, x, poses, rims) -> None:
         if len(self.overlaps.joints):
             mark_unused(
-                self.overlaps, self.interfaces, frames_at(self.column.centers(x)), poses, rims
+                self.overlaps, self.interfaces, frames_at(self.composite.centers(x)), poses, rims
             )
 
     def _lay_points(self, state, poses, before, rims) -> None:
@@ -542,7 +523,7 @@ class Interface:
             self.interfaces,
             self.joints.rim,
             self.arms,
-            frames_at(self.column.centers(state.x)),
+            frames_at(self.composite.centers(state.x)),
             poses,
             state.contact,
             rims,
@@ -607,29 +588,25 @@ class Interface:
         """
         return -poses["turned"][self.interfaces["rim_count"] > 0, SLAVE, 2, :2]
 
-    def take_rim_as_polygon(self) -> None:
-        """Let the foot roll from node to node."""
-        self.rim = self.laws["rim"] = None
-        self.interfaces["rim_count"] = 0
-
     def static_compliance(self, listed: np.ndarray) -> np.ndarray:
-        """Compliance (3 k, 3 k) [m/N] of some points that follows their forces at once, in the
-        reference configuration.
+        """Compliance (3 k, 3 k) [m/N] of some points on the base that follows their forces at once,
+        where the bodies are drawn.
         """
         everyone, own, W = (
             np.arange(self.size),
             np.zeros((self.size, 3)),
             np.empty((3 * len(listed), 3 * len(listed))),
         )
-        self._extend_base(self.reference)
-        interpreted(project)(self.surface, self.reference, everyone, self.points)
+        places = self.reference[self.points["node"]]
+        self._extend_base(places)
+        interpreted(project)(self.surface, places, everyone, self.points)
         interpreted(assemble)(
             self.bodies,
             self.surface,
             self.points,
-            self.reference,
+            self.points["arm"],
             listed,
-            poses_on_base(np.eye(3)[None]),
+            self.poses(self.composite.placed, self.composite.unturned),
             0.0,
             self.bodies.static,
             1.0,
@@ -646,7 +623,7 @@ class Interface:
 
         times: 0 only looks how well they do, in or near the places where they were found last.
         """
-        springs = springs_of(self.points, self.record, dt)
+        springs = self.springs(dt)
         if times:
             self.stay.begin(self._problem, nodal)
         while True:
@@ -686,7 +663,7 @@ class Interface:
             self._problem,
             self.points,
             self.interfaces,
-            springs_of(self.points, self.record, dt),
+            self.springs(dt),
             before,
             after,
         )

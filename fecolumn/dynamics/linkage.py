@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import frames_at
+from fecolumn.contact.pose import frames_at, grounds_at
 from fecolumn.dynamics.links import TIE, end_links, pull_links
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import out_of_frames
+
+# The ground of the full order, in whose frame everything moves
+STILL = grounds_at([0.0])
 
 
 class Linkage:
@@ -18,9 +21,9 @@ class Linkage:
     centres of mass, turned by the mean rotations.
     """
 
-    def __init__(self, column, links: np.ndarray):
-        self._column, self.links = column, links
-        made = column.of_each(lambda part, _: rigid_fields(part))
+    def __init__(self, bodies, links: np.ndarray):
+        self._bodies, self.links = bodies, links
+        made = bodies.of_each(lambda part, _: rigid_fields(part))
         self._fields, self._momenta, masses = zip(*made)
         self._inverse = [np.linalg.inv(one) for one in masses]
         #: Bound of the square of the fastest frequency of the bodies on their links [1/s2].
@@ -42,8 +45,8 @@ class Linkage:
         """Strain energy [J] of the links at rest in a State, whose ties become those of the links
         at rest.
         """
-        before, frames = state.ties.copy(), frames_at(self._column.centers(state.x))
-        kept, _ = end_links(self.links, frames, state.rotation, before, state.ties, np.inf)
+        before, frames = state.ties.copy(), frames_at(self._bodies.centers(state.x))
+        kept, _ = end_links(self.links, STILL, frames, state.rotation, before, state.ties, np.inf)
         state.ties["work"] = 0.0  # what they lose on the way there is not of the motion
         return kept
 
@@ -68,9 +71,11 @@ class Linkage:
         pull_links(
             self.links,
             stage.ties,
+            STILL,
             frames_at(stage.centers),
             stage.rotation,
-            frames_at(self._column.centers(x)),
+            STILL,
+            frames_at(self._bodies.centers(x)),
             rotation,
             float(stage.dt),
             pulls,
@@ -102,7 +107,7 @@ class Linkage:
                 for field, rigid in zip(fields, self._rigid(pulls, halfway))
             ]
         )
-        return out_of_frames(rows, halfway, self._column.rows)
+        return out_of_frames(rows, halfway, self._bodies.rows)
 
 
 def ends_of(link) -> tuple:

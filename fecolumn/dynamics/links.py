@@ -11,14 +11,16 @@ from fecolumn._compiled import njit
 from fecolumn.contact.points import BASE
 from fecolumn.contact.record import record
 
-#: A link from body a to body b, -1 for the ground: arm_a, arm_b: (3,) of its ends from the centres
-#: of mass in the bodies' frames, in the table frame on the ground [m]; length: unstressed [m];
+#: A link from body a to body b, -1 for a ground; ground: which one then; arm_a, arm_b: (3,) of its
+#: ends from the centres of mass in the bodies' frames, of a ground where it is in the table frame
+#: at the start [m]; length: unstressed [m];
 #: play: way at either side of it without force [m]; stiffness [N/m]; damping [N s/m]; pulls,
 #: pushes: whether it can; yields: force at which it flows [N]; breaks: elongation beyond its play
 #: [m] at which it fails; infinite where it does not.
 LINK = record(
     ("a", "i8"),
     ("b", "i8"),
+    ("ground", "i8"),
     ("arm_a", "f8", 3),
     ("arm_b", "f8", 3),
     ("length", "f8"),
@@ -65,6 +67,7 @@ def links_of(model, hht) -> np.ndarray:
             link.damping,
         )
         row["pulls"], row["pushes"], row["yields"] = link.pulls, link.pushes, link.yield_n
+        row["ground"] = link.ground
         row["breaks"] = link.breaking_n / link.stiffness if link.stiffness else np.inf
     bodies = [
         (part.model.mass, part.model.inertia, part.center, part.rotation) for part in model.parts
@@ -124,22 +127,23 @@ def fastest(links: np.ndarray, stiffness: np.ndarray, bodies: list[tuple]) -> tu
 
 
 @njit
-def _end_of(b, arm, frames, rotation, target):
-    """Target (3,): where an end of a link is."""
+def _end_of(b, arm, ground, frames, rotation, target):
+    """Target (3,): where an end of a link is; ground: that which holds it, where one does."""
     for a in range(3):
         if b == BASE:
-            target[a] = arm[a]
+            target[a] = arm[a] + ground.moved[a]
         else:
             R = rotation[b]
             target[a] = frames[b].center[a] + R[a, 0] * arm[0] + R[a, 1] * arm[1] + R[a, 2] * arm[2]
 
 
 @njit
-def span(link, frames, rotation, target):
+def span(link, grounds, frames, rotation, target):
     """Target (3,): way from end a to end b [m]; its length."""
     other = np.empty(3)
-    _end_of(link.a, link.arm_a, frames, rotation, other)
-    _end_of(link.b, link.arm_b, frames, rotation, target)
+    ground = grounds[link.ground]
+    _end_of(link.a, link.arm_a, ground, frames, rotation, other)
+    _end_of(link.b, link.arm_b, ground, frames, rotation, target)
     square = 0.0
     for a in range(3):
         target[a] -= other[a]
@@ -214,15 +218,26 @@ def pull(link, tie, begin, way, length, dt, target):
 
 
 @njit
-def pull_links(links, ties, frames, rotation, later_frames, later_rotation, dt, pulls):
+def pull_links(
+    links,
+    ties,
+    grounds,
+    frames,
+    rotation,
+    later_grounds,
+    later_frames,
+    later_rotation,
+    dt,
+    pulls,
+):
     """Pulls (nl, 3): forces [N] of links with `ties` (nl,) on their ends a, in a step that brings
-    the bodies from the first frames and rotations to the later ones; the largest change over the
-    largest force.
+    grounds and bodies from the first places and rotations to the later ones; the largest change
+    over the largest force.
     """
     begin, way, force, change, largest = np.empty(3), np.empty(3), np.empty(3), 0.0, 0.0
     for n in range(len(links)):
-        span(links[n], frames, rotation, begin)
-        length = span(links[n], later_frames, later_rotation, way)
+        span(links[n], grounds, frames, rotation, begin)
+        length = span(links[n], later_grounds, later_frames, later_rotation, way)
         pull(links[n], ties[n], begin, way, length, dt, force)
         for a in range(3):
             change, largest = max(change, abs(force[a] - pulls[n, a])), max(largest, abs(force[a]))
@@ -241,7 +256,7 @@ def strain_of_links(links, ties):
 
 
 @njit
-def end_links(links, frames, rotation, before, after, dt):
+def end_links(links, grounds, frames, rotation, before, after, dt):
     """Carry ties (nl,) on to the end of a step: strain energy at its end, energy that their
     dashpots, yielding and breaking have taken in it [J].
     """
@@ -249,7 +264,7 @@ def end_links(links, frames, rotation, before, after, dt):
     way = np.empty(3)
     for n in range(len(links)):
         link, tie, new = links[n], before[n], after[n]
-        length = span(link, frames, rotation, way)
+        length = span(link, grounds, frames, rotation, way)
         new.flowed, new.broken, new.length, new.work, new.force = (
             tie.flowed,
             tie.broken,

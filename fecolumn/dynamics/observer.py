@@ -35,14 +35,14 @@ class Observer:
     """
 
     def __init__(self, system, specimen, cap: float):
-        self.system, column = system, system.column
+        self.system, self.body, column = system, 0, system.body
         self._top, self._weights = top_of(column, specimen)
-        foot = column.all_X[system.foot_nodes] - column.center
+        foot = column.all_X[system.footprint.nodes] - column.center
         self.stance = stance(
             foot,
             rigid_fields(column)[2][3:, 3:],
             system.weight,
-            system.interface.laws["friction"],
+            system.laws["friction"],
             cap,
         )
         #: (3,) [m] of the top's centre from the centre of mass.
@@ -51,16 +51,16 @@ class Observer:
     def measure(self, state) -> dict:
         """Measures of a state by the names of the history file, in SI units."""
         system = self.system
-        column = system.column
+        column, foot, R = system.body, system.footprint, state.rotation[0]
         top = self._weights @ (column.gather(self._top, state.x) - column.all_X[self._top])
-        area = system.areas / system.areas.sum()
-        foot = area @ (column.gather(system.foot_nodes, state.x) - column.all_X[system.foot_nodes])
+        share = foot.areas / foot.areas.sum()
+        slid = share @ (column.gather(foot.nodes, state.x) - column.all_X[foot.nodes])
         return dict(
             time=state.time,
             u_top=top,
-            tilt=tilt_angle(state.rotation),
-            twist=twist_angle(state.rotation),
-            slide=foot[:2],
+            tilt=tilt_angle(R),
+            twist=twist_angle(R),
+            slide=slid[:2],
             contact_force=state.forces.sum(axis=0),
             active_nodes=int((state.forces[:, 2] > 0).sum()),
             penetration=max(0.0, -float(state.relative[:, 2].min())),
@@ -74,7 +74,7 @@ class Observer:
             return STANDS
         return fallen(
             self.stance,
-            state.rotation.copy(),
+            state.rotation[0].copy(),
             self._spin(state),
             measures["contact_force"],
             top,
@@ -85,8 +85,8 @@ class Observer:
         """Angular velocity (3,) [rad/s] in the column's frame, of the rigid body with the angular
         momentum of the column.
         """
-        column = self.system.column
+        column = self.system.body
         momentum = column.momentum(state.v)
         center = column.sum(column.node_mass @ state.x) / column.total_mass
         angular = column.sum(np.cross(state.x - center, momentum).sum(axis=0))
-        return np.linalg.solve(self.stance.inertia, state.rotation.T @ angular)
+        return np.linalg.solve(self.stance.inertia, state.rotation[0].T @ angular)

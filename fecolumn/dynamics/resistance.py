@@ -1,47 +1,62 @@
-"""Rolling resistance of the rim of a body in full order: a moment on its rigid motion, which
-strains nothing.
+"""Rolling resistance of rims in full order: moments on the rigid motion of bodies, which strain
+nothing.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import MASTER, SLAVE
 from fecolumn.contact.rolling import rolling_moment
 from fecolumn.fem.free_body import rigid_fields
+from fecolumn.fem.rotation import into_frames, out_of_frames
 
 
 class Resistance:
-    """Moment of `contact.rolling.rolling_moment` as accelerations of all nodes.
-
-    Parameters
-    ----------
-    body
-        Body.
-    rim
-        Rim of its foot.
-    coefficient
-        energy lost per length rolled over the contact force [-].
+    """Moments of `contact.rolling.rolling_moment` as accelerations of all nodes: on the bodies that
+    roll, and the opposite on those on which they roll.
     """
 
-    def __init__(self, body, rim, coefficient: float):
-        self._body, self._rim, self._coefficient = body, rim, coefficient
-        fields, momentum, masses = rigid_fields(body)
-        self._turns, self._momenta, self._inverse = (
-            fields[:, 3:],
-            momentum[:, 3:],
-            np.linalg.inv(masses[3:, 3:]),
-        )
+    def __init__(self, system):
+        self._bodies, self._interface = system.bodies, system.interface
+        made = system.bodies.of_each(lambda part, _: rigid_fields(part))
+        self._turns, self._momenta = ([one[:, 3:] for one in each] for each in list(zip(*made))[:2])
+        self._inverse = [np.linalg.inv(masses[3:, 3:]) for _, _, masses in made]
 
     def acceleration(self, state, dt: float) -> np.ndarray:
         """Acceleration (n_owned, 3) [m/s2] in a step of `dt` [s] from a state."""
-        spin = self._inverse @ self._body.sum(self._momenta.T @ (state.v @ state.rotation).ravel())
-        moment = rolling_moment(
-            state.rotation,
-            spin,
-            float(state.forces[:, 2].sum()),
-            self._rim.radius,
-            self._coefficient,
-            self._inverse,
-            dt,
+        bodies, interface, R = self._bodies, self._interface, state.rotation
+        own = into_frames(state.v, R, bodies.rows)
+        momenta = bodies.sum(
+            np.stack([of.T @ own[rows].ravel() for of, rows in zip(self._momenta, bodies.rows)])
         )
-        return (self._turns @ (self._inverse @ moment)).reshape(-1, 3) @ state.rotation.T
+        spins = np.einsum("bij,bj->bi", self._inverse, momenta)
+        moments, loads = np.zeros((len(R), 3)), np.zeros(len(interface.interfaces))
+        np.add.at(loads, interface.points["interface"], state.forces[:, 2])
+        for one, pose, load in zip(
+            interface.interfaces, interface.poses(state.x, R), loads.tolist()
+        ):
+            if not one["rolling"] > 0:
+                continue
+            b, m, turned = int(one["slave"]), int(one["master"]), pose["turned"]
+            spin, inverse = spins[b], self._inverse[b]
+            # of the master into the slave's frame
+            turn = turned[SLAVE].T @ turned[MASTER]
+            if m != BASE:
+                spin, inverse = spin - turn @ spins[m], inverse + turn @ self._inverse[m] @ turn.T
+            moment = rolling_moment(
+                np.ascontiguousarray(turned[SLAVE]),
+                spin,
+                load,
+                float(one["radius"]),
+                float(one["rolling"]),
+                inverse,
+                dt,
+            )
+            moments[b] += moment
+            if m != BASE:
+                moments[m] -= turn.T @ moment
+        rates = [inverse @ moment for inverse, moment in zip(self._inverse, moments)]
+        fields = [(turns @ rate).reshape(-1, 3) for turns, rate in zip(self._turns, rates)]
+        return out_of_frames(np.concatenate(fields), R, bodies.rows)

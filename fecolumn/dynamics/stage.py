@@ -23,13 +23,14 @@ class Stage:
     the work of the mean internal force is the change of the strain energy, however far a body
     turns.
 
-    target: (n_owned, 3) where the column would go without internal forces at the end, but for
+    target: (n_owned, 3) where the bodies would go without internal forces at the end, but for
     `memory` [m]. load: (n_owned, 3) effective forces known beforehand, but for `held` [N]. start:
-    (n_owned, 3) first guess of the positions [m]. scale: effective force per contact force. before:
+    (n_owned, 3) first guess of the positions [m]. scale: effective force per contact force, beside:
+    per force of links. before:
     (n,) of CONTACT, what the points bring to the stage; the forces are the first guess. dt: length
-    of the step [s], inf at rest. rotation: (3, 3) of the column at the start, (nb, 3, 3) of several
-    bodies. Contact forces act on the column in the rotation halfway, so that their
-        work over a turn of the column by t is that of the foot's path up to t^3.
+    of the step [s], inf at rest. rotation: (nb, 3, 3) of the bodies at the start. Contact forces act
+    on a body in the rotation halfway, so that their work over a turn of it by t is that of the
+    foot's path up to t^3.
     velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target, but for
     `memory` [m/s]; None where nothing is damped. centers: (nb, 3) of mass at the start [m], ties:
     (nl,) of TIE there; None of a structure without links. memory: (n_owned, 3) acceleration that
@@ -57,20 +58,21 @@ class Stage:
     shares: tuple[float, float] = (0.0, 0.0)
     held: np.ndarray | None = None
     turns: bool = False
+    beside: float = 1.0
     place: np.ndarray | None = None
     internal: np.ndarray | None = None
     levers: np.ndarray | None = None
     surface_a: np.ndarray | None = None
     surface_forces: np.ndarray | None = None
 
-    def middle(self, column, halfway: np.ndarray) -> Middle:
+    def middle(self, bodies, halfway: np.ndarray) -> Middle:
         """What the stage asks for, with all that its start brings, in the frame `halfway`."""
         if self.memory is None:
             return Middle(self.target, self.load, self.velocity, None)
         memory, held, (way, rate) = self.memory, self.held, self.shares
         if self.turns:
             turn = halfway @ self.rotation.swapaxes(-1, -2)
-            memory, held = carried(column, memory, turn), out_of_frames(held, turn, column.rows)
+            memory, held = carried(bodies, memory, turn), out_of_frames(held, turn, bodies.rows)
         return Middle(
             self.target + way * memory,
             self.load + held,
@@ -98,34 +100,34 @@ class Stage:
         """
         if not self.turns:
             return 0.0, 0.0
-        column, interface = system.column, system.interface
+        bodies, interface = system.bodies, system.interface
         ends = (
             [(x, internal, rotation)]
             if self.memory is None
             else [(self.place, self.internal, self.rotation), (x, internal, rotation)]
         )
         arms, inner = (
-            sum(into_frames(values, R, column.rows) for values, R in each) / len(ends)
+            sum(into_frames(values, R, bodies.rows) for values, R in each) / len(ends)
             for each in zip(
-                *(((arms_of(column, place), R), (force, R)) for place, force, R in ends)
+                *(((arms_of(bodies, place), R), (force, R)) for place, force, R in ends)
             )
         )
         levers = (
             interface.levers() if self.memory is None else (self.levers + interface.levers()) / 2
         )
-        pushed = into_frames(push, halfway, column.rows)
+        pushed = into_frames(push, halfway, bodies.rows)
         products, *moments = (
-            column.sum(np.stack(each))
+            bodies.sum(np.stack(each))
             for each in zip(
                 *(
                     (
-                        column.mass_arms[rows].T @ arms[rows],
+                        bodies.mass_arms[rows].T @ arms[rows],
                         *(
                             np.cross(arms[rows], acting[rows]).sum(axis=0)
                             for acting in (inner, pushed)
                         ),
                     )
-                    for rows in column.rows
+                    for rows in bodies.rows
                 )
             )
         )
@@ -134,12 +136,12 @@ class Stage:
             out_of_frames(
                 np.concatenate(
                     [
-                        np.cross(turn_of(product, moment), column.arms[rows])
-                        for product, moment, rows in zip(products, each, column.rows)
+                        np.cross(turn_of(product, moment), bodies.arms[rows])
+                        for product, moment, rows in zip(products, each, bodies.rows)
                     ]
                 ),
                 halfway,
-                column.rows,
+                bodies.rows,
             )
             for each in mended
         )
@@ -156,13 +158,10 @@ class Middle(NamedTuple):
     memory: np.ndarray | None
 
 
-def arms_of(column, x: np.ndarray) -> np.ndarray:
+def arms_of(bodies, x: np.ndarray) -> np.ndarray:
     """Arms (n_owned, 3) [m] of positions x (n_owned, 3) from the centres of mass."""
-    centers = column.centers(x)
-    return x - (
-        centers
-        if len(centers) == 1
-        else np.repeat(centers, [rows.stop - rows.start for rows in column.rows], axis=0)
+    return x - np.repeat(
+        bodies.centers(x), [rows.stop - rows.start for rows in bodies.rows], axis=0
     )
 
 
@@ -176,20 +175,20 @@ def turn_of(product: np.ndarray, moment: np.ndarray) -> np.ndarray:
     return np.linalg.solve(np.trace(product) * np.eye(3) - product, moment)
 
 
-def carried(column, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
+def carried(bodies, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
     """Accelerations (n_owned, 3) that internal forces and gravity have brought to bodies, after
-    these turn by `turn` (3, 3) or (nb, 3, 3).
+    these turn by `turn` (nb, 3, 3).
 
     Internal forces turn with a body. They have no resultant: the mean is that of gravity and the
     ground, and stays.
     """
-    own = arms_of(column, accelerations)
-    return accelerations - own + out_of_frames(own, turn, column.rows)
+    own = arms_of(bodies, accelerations)
+    return accelerations - own + out_of_frames(own, turn, bodies.rows)
 
 
 @dataclass(slots=True)
 class Outcome:
-    """Positions, internal forces and strain energy of the column, what its points carry now (n,) of
+    """Positions, internal forces and strain energy of the bodies, what its points carry now (n,) of
     CONTACT, the energy `static` [J] of base, foot's static rest, penalty springs and pad, and the
     record; surface_forces: (N, 3) of the contact forces, as of `Interface.surface_forces`, push:
     (n_owned, 3) their nodal forces [N] and surface_a: (n_owned, 3) their acceleration [m/s2], as of
@@ -214,11 +213,11 @@ class Outcome:
 
 
 def equilibrate(system, operators, stage: Stage, tolerance: float, max_iterations: int) -> Outcome:
-    """Newton iteration with the factored operators turned into the column's present rotation.
+    """Newton iteration with the factored operators turned into the bodies' present rotations.
 
     The strains are small, so that the turned operator is an almost exact tangent: one or two
-    iterations reach the tolerance. A total Lagrangian column whose residual falls too slowly gets
-    its tangent afresh. Within an iteration the column answers contact forces linearly, and the
+    iterations reach the tolerance. Total Lagrangian bodies whose residual falls too slowly get
+    their tangents afresh. Within an iteration the bodies answer contact forces linearly, and the
     contact problem is solved on the points alone; at its end the laws hold for the exact positions.
 
     Parameters
@@ -227,7 +226,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         largest unbalanced nodal force allowed, relative to the larger of weight and contact forces;
         never below the rounding of the internal forces.
     """
-    interface, column, links, scale = system.interface, system.column, system.links, stage.scale
+    interface, bodies, links, scale = system.interface, system.bodies, system.links, stage.scale
     x, contact, static = np.array(stage.start), stage.before.copy(), 0.0
     surface_forces = push = surface_a = mends = None
     first = previous = size = np.inf
@@ -261,20 +260,20 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     for iteration in range(max_iterations + 1):
         rotation, internal, strain = system.kinematics.internal(x)
         halfway = polar_rotation(rotation + stage.rotation)
-        middle, inner = stage.middle(column, halfway), internal
+        middle, inner = stage.middle(bodies, halfway), internal
         acts_halfway = stage.turns and middle.memory is not None
         if middle.velocity is not None:
             inner = internal + system.damping.force(
                 middle.velocity + operators.rate_factor * (x - middle.target), rotation
             )
         if acts_halfway:
-            inner = out_of_frames(inner, halfway @ rotation.swapaxes(-1, -2), column.rows)
+            inner = out_of_frames(inner, halfway @ rotation.swapaxes(-1, -2), bodies.rows)
         acceleration = operators.mass_factor * (middle.target - x)
         if iteration == 0 and stage.surface_a is not None:
             # nothing large is read for a guess
             surface_forces, total = (
                 stage.surface_forces,
-                scale * column.momentum(out_of_frames(stage.surface_a, halfway, column.rows)),
+                scale * bodies.momentum(out_of_frames(stage.surface_a, halfway, bodies.rows)),
             )
         else:
             poses = interface.poses(x, rotation)
@@ -286,12 +285,12 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             mends = stage.untwisting(system, x, internal, rotation, halfway, contact["force"], push)
             acceleration, total = acceleration + scale * sum(mends), scale * push
         total = (
-            total + column.momentum(acceleration) + middle.load - operators.stiffness_factor * inner
+            total + bodies.momentum(acceleration) + middle.load - operators.stiffness_factor * inner
         )
         if links:
-            total += scale * links.load(links.pulls(stage, x, rotation), halfway)
+            total += stage.beside * links.load(links.pulls(stage, x, rotation), halfway)
         reference = max(system.weight, scale * np.abs(contact["force"]).max(initial=0.0))
-        size = column.max(np.abs(total).max(initial=0.0)) / reference
+        size = bodies.max(np.abs(total).max(initial=0.0)) / reference
         nodal, violation = _nodal(interface, operators, scale), np.inf
         if iteration:
             stop, violation = interface.solve(
@@ -329,7 +328,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
         x = system.kinematics.moved(
             x,
             out_of_frames(
-                operators.factor.solve(into_frames(total, acts, column.rows)), turn, column.rows
+                operators.factor.solve(into_frames(total, acts, bodies.rows)), turn, bodies.rows
             ),
         )
         poses = interface.poses(x, rotation)

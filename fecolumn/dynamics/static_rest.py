@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.fem.foot import FilteredFoot
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.rotation import into_frames
 
@@ -17,13 +16,13 @@ class StaticRest:
     """
 
     def __init__(self, system):
-        self._column, self._foot, self._first = (
-            system.column,
+        self._bodies, self._foot, self._first = (
+            system.bodies,
             system.interface.foot,
             system.interface.rows,
         )
         self._free = (
-            {part: FreeBody(part) for part in dict.fromkeys(system.column.parts)}
+            {part: FreeBody(part) for part in dict.fromkeys(system.bodies.parts)}
             if self._foot.filtered
             else {}
         )
@@ -32,17 +31,16 @@ class StaticRest:
         """(n_owned, 3) [m] in the frames of the bodies, turned by `rotation`, of forces (N, 3) [N]
         on the surface nodes in the table frame.
         """
-        column, forces = self._column, into_frames(at_nodes, rotation, self._first)
+        bodies, forces = self._bodies, into_frames(at_nodes, rotation, self._first)
         if not self._free:
-            return np.zeros((column.n_owned, 3))
-        resolved, nodes = (
-            self._foot.load(forces),
-            [self._foot.nodes] if isinstance(self._foot, FilteredFoot) else self._foot.nodes,
-        )
+            return np.zeros((bodies.n_owned, 3))
+        resolved = self._foot.load(forces)
         found = [
             self._free[part]
             .response((part.spread(own, forces[first]) - resolved[rows]).reshape(-1, 1))
             .reshape(-1, 3)
-            for part, own, first, rows in zip(column.parts, nodes, self._first, column.rows)
+            for part, own, first, rows in zip(
+                bodies.parts, self._foot.nodes, self._first, bodies.rows
+            )
         ]
         return np.concatenate(found)

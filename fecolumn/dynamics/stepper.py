@@ -11,18 +11,20 @@ from fecolumn.contact.impact import (
     LANDS,
     NOTHING,
     find_impact,
+    landing_moment,
     mark_landing,
     mark_turning,
+    touched,
     what_happens,
 )
-from fecolumn.contact.pad import springs_of
 from fecolumn.contact.pose import frames_at
 from fecolumn.contact.problem import OK
-from fecolumn.contact.rolling import part_of_step
+from fecolumn.contact.rolling import least_rim_width, part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import book_impulses, losses, move_anchors
 from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
 from fecolumn.dynamics.stage import Stage, carried, equilibrate
@@ -46,7 +48,7 @@ class Stepper:
     rebound that the trapezoidal rule invents; in the rigid limit it is Housner's impact.
 
     impact = "none" is the literal HHT scheme: contact forces are part of the accelerations, without
-    filter or impact law.
+    filter or impact law; those of links and rolling resistance act as above.
 
     Parameters
     ----------
@@ -152,9 +154,9 @@ class Stepper:
         self.record.cuts += 1
 
     def _hht_step(self, start, ground, hht, rolls=True) -> State:
-        system, column, interface, booked = (
+        system, bodies, interface, booked = (
             self.system,
-            self.system.column,
+            self.system.bodies,
             self.system.interface,
             dict(self.ledger.work),
         )
@@ -166,7 +168,7 @@ class Stepper:
         damping, resistance, links = system.damping, system.resistance, system.links
         damped = damping.force(start.v, start.rotation) if damping else 0.0
         turned = resistance.acceleration(start, dt) if resistance else 0.0
-        resisted = column.momentum(turned) if resistance else 0.0
+        resisted = bodies.momentum(turned) if resistance else 0.0
         stage = Stage(
             target=start.x + dt * start.v,
             load=(1 + al) * F1 - al * F0 + resisted / (2 * be),
@@ -174,11 +176,12 @@ class Stepper:
                 start.x, dt * start.v + dt**2 / 2 * (start.a + start.contact_a)
             ),
             scale=1 / (2 * be) if self.plastic else 1.0,
+            beside=1 / (2 * be),
             before=before,
             dt=dt,
             rotation=start.rotation,
             velocity=start.v if damping else None,
-            centers=column.centers(start.x) if links else None,
+            centers=bodies.centers(start.x) if links else None,
             ties=start.ties,
             memory=start.a,
             shares=(dt**2 * (0.5 - be), dt * (1 - ga)),
@@ -202,7 +205,7 @@ class Stepper:
             )
             raise StepFailed(outcome.stop, f"{outcome.stop.value}: {detail}")
 
-        R, springs = outcome.halfway, springs_of(interface.points, interface.record, dt)
+        R, springs = outcome.halfway, interface.springs(dt)
         move_anchors(
             interface.points, interface.interfaces, springs, interface.near, before, outcome.contact
         )
@@ -221,25 +224,27 @@ class Stepper:
             rims=rims,
             ties=start.ties.copy(),
         )
-        push, (straight, led) = outcome.push, outcome.mends
+        push, (straight, led), w, untwists = outcome.push, outcome.mends, turned, 0.0
+        # what does work beside the accelerations that HHT remembers, and what does as part of them
+        beside, within = resisted, 0.0
         if self.plastic:
-            w, untwists = outcome.surface_a + turned + straight + led, column.momentum(straight)
-            push = push + column.momentum(led)
+            moved = outcome.surface_a + straight + led
+            w, untwists = w + moved, bodies.momentum(straight)
+            beside = beside + push + bodies.momentum(led)
             after.surface_a, after.surface_forces = (
-                into_frames(outcome.surface_a + straight + led, R, column.rows),
+                into_frames(moved, R, bodies.rows),
                 outcome.surface_forces,
             )
-            if links:
-                pulls = links.pulls(stage, after.x, after.rotation)
-                push, w = push + links.load(pulls, R), w + links.acceleration(pulls, R)
-            worked = push + resisted
         else:
-            w = np.zeros_like(start.x)
-            worked, untwists = (1 - ga) * interface.load(before["force"], R) + ga * push, 0.0
-        middle = stage.middle(column, R)
+            within = (1 - ga) * interface.load(before["force"], R) + ga * push
+        if links:
+            pulls = links.pulls(stage, after.x, after.rotation)
+            beside, w = beside + links.load(pulls, R), w + links.acceleration(pulls, R)
+        middle = stage.middle(bodies, R)
         first, last = middle.memory, hht.mass_factor * (after.x - middle.target) - w / (2 * be)
         onward = after.rotation @ R.swapaxes(-1, -2)
-        after.contact_a, after.a = w, carried(column, last, onward) if self.plastic else last
+        after.contact_a = w + np.zeros_like(start.x)
+        after.a = carried(bodies, last, onward) if self.plastic else last
         after.v = start.v + dt * ((1 - ga) * first + ga * last + w)
         ends, drags = [start.internal, after.internal], []
         if damping:
@@ -255,16 +260,18 @@ class Stepper:
             (first, last),
             F0 + F1 - inner,
             untwists,
-            worked,
+            beside,
+            within,
             drag,
             resisted,
             springs,
         )
-        if self.plastic and rolled and contact_work > CREATED * system.weight * interface.width:
+        width = interpreted(least_rim_width)(interface.interfaces)
+        if self.plastic and rolled and contact_work > CREATED * system.weight * width:
             # several points of the rim carry while it rolls fast: they stay for this step
             self.ledger.work.update(booked)
             return self._hht_step(start, ground, hht, rolls=False)
-        if self.plastic and interface.pad is None:
+        if self.plastic:
             try:
                 self._collide(start, before, after, hht, springs, contact_work, booked)
             except StepFailed:
@@ -278,13 +285,25 @@ class Stepper:
         """
         if self.plastic:
             forces = [
-                out_of_frames(force, R @ state.rotation.swapaxes(-1, -2), self.system.column.rows)
+                out_of_frames(force, R @ state.rotation.swapaxes(-1, -2), self.system.bodies.rows)
                 for force, state in zip(forces, (start, after))
             ]
         return sum(forces)
 
     def _book(
-        self, start, before, after, hht, ends, load_sum, untwists, worked, damped, resisted, springs
+        self,
+        start,
+        before,
+        after,
+        hht,
+        ends,
+        load_sum,
+        untwists,
+        beside,
+        within,
+        damped,
+        resisted,
+        springs,
     ) -> float:
         """Energy of an HHT step; returns the work of contact [J].
 
@@ -294,30 +313,33 @@ class Stepper:
 
         ends: a0 and a1 (n_owned, 3) as they act in the step [m/s2]. load_sum: sum of loads less
         internal forces at both ends,
-            untwists: what takes the moment of these away, damped: sum of damping forces,
-            resisted: rolling resistance, part of `worked`, each (n_owned, 3) [N] or 0.
+            untwists: what takes the moment of these away, beside: contact and all else that does
+            not belong to a0 and a1, within: contact that does, damped: sum of damping forces,
+            resisted: rolling resistance, part of `beside`, each (n_owned, 3) [N] or 0.
         """
-        column, interface, step = self.system.column, self.system.interface, after.x - start.x
-        mean = column.momentum((1 - hht.gamma) * ends[0] + hht.gamma * ends[1])
-        total = mean + worked + untwists if self.plastic else mean
-        smooth = mean if self.plastic else mean - worked
-        algorithmic = column.dot(step, smooth - load_sum / 2)
-        algorithmic -= hht.dt**2 * hht.alpha**2 / 4 * column.dot(ends[1] - ends[0], total)
-        shaken = column.sum(column.unit_loads.reshape(3, -1) @ step.ravel())
-        damping = -column.dot(step, damped) / 2 if self.system.damping else 0.0
-        rolling = column.dot(step, resisted) if self.system.resistance else 0.0
+        bodies, interface, step = self.system.bodies, self.system.interface, after.x - start.x
+        mean = bodies.momentum((1 - hht.gamma) * ends[0] + hht.gamma * ends[1])
+        worked = within + beside
+        algorithmic = bodies.dot(step, mean - within - load_sum / 2)
+        algorithmic -= (
+            hht.dt**2 * hht.alpha**2 / 4 * bodies.dot(ends[1] - ends[0], mean + beside + untwists)
+        )
+        shaken = bodies.sum(bodies.unit_loads.reshape(3, -1) @ step.ravel())
+        damping = -bodies.dot(step, damped) / 2 if self.system.damping else 0.0
+        rolling = bodies.dot(step, resisted) if self.system.resistance else 0.0
         taken = 0.0
         if self.system.links:
             tied, taken = end_links(
                 self.system.links.links,
-                frames_at(column.centers(after.x)),
+                STILL,
+                frames_at(bodies.centers(after.x)),
                 after.rotation,
                 start.ties,
                 after.ties,
                 hht.dt,
             )
             after.static += tied
-        contact = column.dot(step, worked) - rolling + after.static - start.static + taken
+        contact = bodies.dot(step, worked) - rolling + after.static - start.static + taken
         friction, landed, dashpots = losses(
             interface.points,
             interface.interfaces,
@@ -348,20 +370,20 @@ class Stepper:
         StepFailed
             no impulses were found that obey the laws of impact and friction.
         """
-        system, interface, column, R = (
+        system, interface, bodies, R = (
             self.system,
             self.system.interface,
-            self.system.column,
+            self.system.bodies,
             after.rotation,
         )
         landing, turning = np.zeros(interface.size, bool), np.zeros(interface.size, bool)
+        # the springs of a pad bring a landing foot to rest in their own time: there is no impact
+        on_pad = interface.interfaces["on_pad"][interface.points["interface"][interface.near]]
+        listed = interface.near[~on_pad]
         lands = mark_landing(
-            interface.interfaces, interface.points, interface.near, before, after.contact, landing
+            interface.interfaces, interface.points, listed, before, after.contact, landing
         )
-        if (
-            not mark_turning(interface.points, interface.near, before, after.contact, turning)
-            and not lands
-        ):
+        if not mark_turning(interface.points, listed, before, after.contact, turning) and not lands:
             return
         # each in the frame of its own time: turned by another one a rotation looks like a strain,
         # which the foot's filter takes away
@@ -375,7 +397,7 @@ class Stepper:
         happens = what_happens(
             interface.interfaces,
             interface.points,
-            interface.near,
+            listed,
             before,
             after.contact,
             hht.dt,
@@ -386,13 +408,18 @@ class Stepper:
         )
         if happens == NOTHING:
             return
+        union, moment = interpreted(touched)(listed, before, after.contact), np.nan
+        if happens == LANDS:
+            moment = interpreted(landing_moment)(
+                union, before, after.contact, early, landing, hht.dt
+            )
         answer, pushed, impulses = find_impact(
             interface.bodies,
             interface.surface,
             interface.points,
             interface.interfaces,
             springs,
-            interface.near,
+            union,
             interface.points["arm"].copy(),
             poses,
             before,
@@ -401,7 +428,7 @@ class Stepper:
             late,
             landing,
             turning,
-            happens == LANDS,
+            moment,
             hht.dt,
             contact_work,
             interface.counts,
@@ -412,7 +439,7 @@ class Stepper:
         if not pushed:
             return
         jump = interface.acceleration(impulses, R, False)
-        gained = column.dot(after.v + jump / 2, column.momentum(jump))
+        gained = bodies.dot(after.v + jump / 2, bodies.momentum(jump))
         names = (
             ("impact", "contact", "friction")
             if happens == LANDS

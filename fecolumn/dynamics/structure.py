@@ -25,6 +25,7 @@ def structure_system(
     filtered: bool = True,
     nodes: list | None = None,
     damped: list | None = None,
+    kinematics=Corotated,
 ) -> System:
     """System of a structure with all degrees of freedom of its bodies.
 
@@ -40,6 +41,8 @@ def structure_system(
     damped
         of each, lowest elastic modes that are damped; those of its model unless given, or DAMPED
         where it has none.
+    kinematics
+        of each body: Corotated, or TotalLagrangian.
 
     Raises
     ------
@@ -47,9 +50,11 @@ def structure_system(
         a link is too stiff for the step; names it and the longest step.
     """
     parts = model.parts
-    column = Composite(bodies, [part.center for part in parts], [part.rotation for part in parts])
+    composite = Composite(
+        bodies, [part.center for part in parts], [part.rotation for part in parts]
+    )
     if nodes is None:
-        nodes = column.of_each(
+        nodes = composite.of_each(
             lambda body, _: body.find_nodes(
                 next(part.model for part, own in zip(parts, bodies) if own is body).reference
             )
@@ -59,13 +64,13 @@ def structure_system(
     ]
     damped = damped or [len(part.model.frequencies) or DAMPED for part in parts]
     damping = (
-        CompositeDamping(column, damped, ratios)
+        CompositeDamping(composite, damped, ratios)
         if np.any([np.any(ratio) for ratio in ratios])
         else None
     )
     return System(
-        column,
-        CompositeKinematics(column, Corotated),
+        composite,
+        CompositeKinematics(composite, kinematics),
         model.base,
         nodes,
         joints_of(parts, model.joints),
@@ -83,12 +88,12 @@ def released(system: System, parts, standing: State | None) -> State:
     standing: gravity equilibrium that they come from; None: they are unstrained where the parts
     say, and fall freely.
     """
-    column, state = system.column, standing
+    bodies, state = system.bodies, standing
     if state is None:
         state = system.unstrained(
-            column.places([part.center for part in parts], [part.rotation for part in parts])
+            bodies.places([part.center for part in parts], [part.rotation for part in parts])
         )
         state = replace(state, a=np.tile(system.gravity, (len(state.x), 1)))
-    for part, rows, center in zip(parts, column.rows, column.centers(state.x)):
+    for part, rows, center in zip(parts, bodies.rows, bodies.centers(state.x)):
         state.v[rows] = part.velocity + np.cross(part.spin, state.x[rows] - center)
     return state

@@ -15,28 +15,24 @@ from fecolumn.dynamics.linkage import Linkage
 from fecolumn.dynamics.links import TIE
 from fecolumn.dynamics.resistance import Resistance
 from fecolumn.fem.composite import (
+    Composite,
+    CompositeDamping,
     CompositeFactor,
+    CompositeFoot,
+    CompositeKinematics,
     CompositeResponse,
-    factor_of,
-    foot_of,
-    response_of,
 )
-from fecolumn.fem.damping import DampedFactor
-from fecolumn.fem.effective import Factor
-from fecolumn.fem.foot import Response
 
 
 @dataclass(slots=True)
 class State:
     """Everything the next step needs, in the table frame.
 
-    x, v: (n_owned, 3) positions [m] and velocities [m/s] of the column, or of several bodies one
-    below the other. a: (n_owned, 3) acceleration that HHT remembers [m/s2]; with the plastic impact
-    law it is that of all forces but the
-        contact's. contact_a: (n_owned, 3) that of the contact forces.
-    internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (3, 3) mean
-    rotation,
-        (nb, 3, 3) of several bodies.
+    x, v: (n_owned, 3) positions [m] and velocities [m/s] of the bodies, one below the other. a:
+    (n_owned, 3) acceleration that HHT remembers [m/s2]: of all forces but those of links and, with
+    the plastic impact law, of contact. contact_a: (n_owned, 3) that of these forces.
+    internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (nb, 3, 3) mean
+    rotations.
     contact: (P,) of CONTACT, what the points carry. static: strain energy of base, static rest of
     the bodies, penalty springs, pad and links [J]. ground: (3,) acceleration of the base [m/s2].
     rims: (ni,) of RIM. ties: (nl,) of TIE. surface_a: (n_owned, 3) acceleration of the contact
@@ -91,14 +87,14 @@ class State:
 @dataclass(slots=True)
 class Operators:
     """Factored effective matrix of one stage and what contact forces do in it; `rotation` is the
-    frame of the matrix, `nodal` the compliance of the foot's nodes once it has been asked for.
+    frame of the matrix, `nodal` the compliance of the surface nodes once it has been asked for.
     """
 
     mass_factor: float
     stiffness_factor: float
     rate_factor: float
-    factor: Factor | DampedFactor | CompositeFactor
-    response: Response | CompositeResponse
+    factor: CompositeFactor
+    response: CompositeResponse
     rotation: np.ndarray
     nodal: Nodal | None = None
 
@@ -109,14 +105,12 @@ class System:
 
     Parameters
     ----------
-    column
-        Body, or Composite of several.
-    kinematics
-        Corotated or TotalLagrangian of the column, CompositeKinematics of several bodies.
+    bodies
+        all of them, in their places; a column is the only one.
     base
         BasePlate, or what answers as it does.
     nodes
-        (n,) surface nodes of the column that may touch; of several bodies a list of each one's.
+        of each body, (n,) surface nodes that may touch.
     joints
         where they touch what.
     gravity
@@ -124,46 +118,49 @@ class System:
     hht
         time integration whose step decides the filter of the contact.
     filtered
-        contact by FilteredFoot, as the plastic impact law needs it, or PlainFoot.
-    damping
-        ModalDamping of the column, CompositeDamping, or None.
+        contact with a filter, as the plastic impact law needs it.
     links
-        (nl,) of LINK between several bodies.
-    laws
-        of the Interface of a single column; its `rolling` is the coefficient of the rim's
-        Resistance [-].
+        (nl,) of LINK.
     """
 
     def __init__(
         self,
-        column,
-        kinematics,
+        bodies: Composite,
+        kinematics: CompositeKinematics,
         base,
-        nodes,
+        nodes: list,
         joints: Joints,
         gravity,
         hht: HHT,
         filtered=True,
-        damping=None,
+        damping: CompositeDamping | None = None,
         links=None,
-        laws=None,
     ):
-        self.column, self.kinematics, self.base, self.damping = column, kinematics, base, damping
-        #: Footprint of a single column, its nodes and areas.
-        self.footprint = self.foot_nodes = self.areas = None
+        self.bodies, self.kinematics, self.base, self.damping = bodies, kinematics, base, damping
+        #: Of a column: its Footprint, and its laws as `joint_on_base` takes them.
+        self.footprint, self.laws = None, {}
         self.gravity, self.hht = np.asarray(gravity, float), hht
-        self.weight = column.total_mass * np.linalg.norm(self.gravity)
+        self.weight = bodies.total_mass * np.linalg.norm(self.gravity)
         self.factorizations = 1  # the base's
         self._operators: dict[tuple, Operators] = {}
-        factor = self._factor(hht.mass_factor, hht.stiffness_factor)
-        foot = foot_of(column, nodes, factor, hht.mass_factor, hht.stiffness_factor, filtered)
-        self.interface = Interface(column, foot, base, joints, laws)
-        self.links = Linkage(column, links) if links is not None and len(links) else None
-        self._add(
-            hht.mass_factor, hht.stiffness_factor, hht.rate_factor, factor, self.column.unturned
+        factors = hht.mass_factor, hht.stiffness_factor
+        factor = self._factor(*factors)
+        foot = CompositeFoot(bodies, nodes, factor, *factors, filtered)
+        self.interface = Interface(bodies, foot, base, joints)
+        self.links = Linkage(bodies, links) if links is not None and len(links) else None
+        self._add(*factors, hht.rate_factor, factor, bodies.unturned)
+        self.resistance = (
+            Resistance(self) if (self.interface.interfaces["rolling"] > 0).any() else None
         )
-        rim, self.rolling = self.interface.rim, (laws or {}).get("rolling", 0.0)
-        self.resistance = Resistance(column, rim, self.rolling) if rim and self.rolling else None
+
+    @property
+    def body(self):
+        """The Body of a column, the first of many."""
+        return self.bodies.parts[0]
+
+    def take_rim_as_polygon(self) -> None:
+        """Let the foot of a column roll from node to node."""
+        self.laws["rim"], self.interface.interfaces["rim_count"] = None, 0
 
     def unstrained(self, x: np.ndarray) -> State:
         """The bodies at rest at positions x (n_owned, 3) to which rigid motions have carried them;
@@ -172,18 +169,14 @@ class System:
         interface = self.interface
         rotation, internal, strain = self.kinematics.internal(x)
         contact = np.zeros(interface.size, CONTACT)
-        places = (
-            interface.start_positions(x, rotation, interface.poses(x, rotation))
-            if interface.moving
-            else interface.node_positions(x, rotation)[interface.points["node"]]
-        )
+        places = interface.start_positions(x, rotation, interface.poses(x, rotation))
         contact["relative"], contact["located"] = (
             places,
             may_touch(interface.points, interface.interfaces, places),
         )
         contact["anchor"] = contact["relative"][:, :2]
         zero = np.zeros_like(x)
-        ties = self.links.ties(self.column.centers(x), rotation) if self.links else np.zeros(0, TIE)
+        ties = self.links.ties(self.bodies.centers(x), rotation) if self.links else np.zeros(0, TIE)
         state = State(
             time=0.0,
             x=x.copy(),
@@ -202,9 +195,10 @@ class System:
         state.static = self.links.stored(state) if self.links else 0.0
         return state
 
-    def _factor(self, mass_factor, stiffness_factor, tangent=None) -> Factor | CompositeFactor:
-        self.factorizations += len(set(self.column.parts))
-        return factor_of(self.column, mass_factor, stiffness_factor, tangent)
+    def _factor(self, mass_factor, stiffness_factor, tangents=None) -> CompositeFactor:
+        made = CompositeFactor.of(self.bodies, mass_factor, stiffness_factor, tangents)
+        self.factorizations += len(set(made.each))
+        return made
 
     def _add(self, mass_factor, stiffness_factor, rate_factor, factor, rotation) -> Operators:
         if self.damping and rate_factor:
@@ -214,7 +208,7 @@ class System:
             stiffness_factor,
             rate_factor,
             factor,
-            response_of(self.interface.foot, factor),
+            CompositeResponse(self.interface.foot, factor),
             rotation,
         )
         self._operators[mass_factor, stiffness_factor, rate_factor] = operators
@@ -228,7 +222,7 @@ class System:
         """
         factors = mass_factor, stiffness_factor, rate_factor
         return self._operators.get(factors) or self._add(
-            *factors, self._factor(mass_factor, stiffness_factor), self.column.unturned
+            *factors, self._factor(mass_factor, stiffness_factor), self.bodies.unturned
         )
 
     def of_step(self, hht: HHT | None = None) -> Operators:
@@ -237,14 +231,17 @@ class System:
         return self.operators(hht.mass_factor, hht.stiffness_factor, hht.rate_factor)
 
     def refresh(self, old: Operators, x: np.ndarray) -> Operators:
-        """Operators with the column's tangent at positions x; only where the kinematics has one."""
-        tangent = self.kinematics.tangent(x)
+        """Operators with the tangents of the bodies at positions x; only where the kinematics has
+        them.
+        """
+        tangents = self.kinematics.tangents(x)
         factors = old.mass_factor, old.stiffness_factor, old.rate_factor
         self.forget(*factors)
         fresh = self._add(
-            *factors, self._factor(*factors[:2], tangent), self.kinematics.rotation(x)
+            *factors, self._factor(*factors[:2], tangents), self.kinematics.rotation(x)
         )
-        tangent.destroy()
+        for tangent in tangents:
+            tangent.destroy()
         return fresh
 
     def forget(self, mass_factor: float, stiffness_factor: float, rate_factor: float = 0.0) -> None:
@@ -255,18 +252,18 @@ class System:
         """Nodal force [N] that rounding leaves: internal and inertial forces are matrix times
         (position - position).
         """
-        column = self.column
-        scale = column.stiffness_scale + mass_factor * column.mass_scale
-        return 4 * np.finfo(float).eps * scale * column.extent
+        bodies = self.bodies
+        scale = bodies.stiffness_scale + mass_factor * bodies.mass_scale
+        return 4 * np.finfo(float).eps * scale * bodies.extent
 
     def load(self, ground: np.ndarray) -> np.ndarray:
-        """Gravity and base-motion forces (n_owned, 3) on the column for a ground acceleration (3,)."""
-        loads = self.column.unit_loads
+        """Gravity and base-motion forces (n_owned, 3) on the bodies for a ground acceleration (3,)."""
+        loads = self.bodies.unit_loads
         return ((self.gravity - ground) @ loads.reshape(3, -1)).reshape(loads.shape[1:])
 
 
 def one_column(
-    column,
+    body,
     kinematics,
     base,
     foot,
@@ -276,34 +273,41 @@ def one_column(
     hht: HHT,
     filtered=True,
     rim=None,
-    damping=None,
+    damping: tuple = (0, 0.0),
     restitution: float = 0.0,
     rolling: float = 0.0,
     pad=None,
 ) -> System:
-    """System of a single column on the base.
+    """System of a single column on the base, where it is drawn.
 
     Parameters
     ----------
+    body
+        Body of the column.
+    kinematics
+        Corotated or TotalLagrangian.
     foot
         Footprint, the column nodes that may touch.
+    damping
+        number of elastic modes that are damped, the lowest, and ratio of each.
     friction, law, rim, restitution, rolling, pad
         as of `contact.joints.joint_on_base`; the others of System.
     """
+    bodies = Composite([body], [body.center], np.eye(3)[None])
     laws = dict(
         friction=friction, law=law, rim=rim, restitution=restitution, rolling=rolling, pad=pad
     )
+    count, ratio = damping
     system = System(
-        column,
-        kinematics,
+        bodies,
+        CompositeKinematics(bodies, kinematics),
         base,
-        foot.nodes,
-        joint_on_base(column.all_X[foot.nodes], **laws),
+        [foot.nodes],
+        joint_on_base(body.all_X[foot.nodes] - body.center, **laws),
         gravity,
         hht,
         filtered,
-        damping,
-        laws=laws,
+        CompositeDamping(bodies, [count], [ratio]) if ratio else None,
     )
-    system.footprint, system.foot_nodes, system.areas = foot, foot.nodes, foot.areas
+    system.footprint, system.laws = foot, laws
     return system

@@ -1,0 +1,1 @@
+"""Finite elements: bodies, their matrices and modes, factors, strain and damping."""

@@ -92,24 +92,6 @@ class Body:
         #: m].
         self.arms = self.X - self.center
         self.mass_arms = self.momentum(self.arms)
-        #: As of `fem.composite.Composite`: one body, all rows its own, where it is drawn.
-        self.rows, self.placed, self.extent, self.unturned = (
-            [slice(0, self.n_owned)],
-            self.X,
-            np.ptp(self.all_X, axis=0).max(),
-            np.eye(3),
-        )
-
-    @property
-    def parts(self) -> list:
-        """As of `fem.composite.Composite`."""
-        return [self]
-
-    def centers(self, values: np.ndarray) -> np.ndarray:
-        """As of `fem.composite.Composite`: mean (1, 3) over the mass of an owned array (n_owned,
-        3).
-        """
-        return self.sum(self.node_mass @ values)[None] / self.total_mass
 
     def _node_parts(self) -> np.ndarray:
         """Part of each owned node."""

@@ -1,5 +1,5 @@
-"""Several bodies that answer as one: whatever is asked of a body is asked of each, rows of one
-below those of the other.
+"""Bodies that answer as one: whatever is asked of a body is asked of each, rows of one below those
+of the other.
 
 Copies of a body are the same `fem.body.Body` object. What is made of it, a factor, the filter of
 its surface, is made once for all of them.
@@ -39,6 +39,8 @@ class Composite:
             for name in ("X", "arms", "mass_arms")
         )
         self.unturned = np.tile(np.eye(3), (len(parts), 1, 1))
+        #: As they are placed (nb, 3, 3).
+        self.rotations = np.array(rotations, float)
         #: Unstrained positions (n_owned, 3) in the table frame [m].
         self.placed = self.places(centers, rotations)
         places = np.concatenate(
@@ -60,12 +62,16 @@ class Composite:
 
     def places(self, centers, rotations) -> np.ndarray:
         """Positions (n_owned, 3) [m] of the unstrained bodies with centres of mass (nb, 3), turned
-        by (nb, 3, 3).
+        by (nb, 3, 3); of one that is where it is drawn without any rounding.
         """
+        drawn = [
+            np.array_equal(center, part.center) and np.array_equal(R, np.eye(3))
+            for part, center, R in zip(self.parts, centers, rotations)
+        ]
         return np.concatenate(
             [
-                center + (part.X - part.center) @ R.T
-                for part, center, R in zip(self.parts, centers, rotations)
+                part.X if is_drawn else center + (part.X - part.center) @ R.T
+                for part, center, R, is_drawn in zip(self.parts, centers, rotations, drawn)
             ]
         )
 
@@ -115,7 +121,7 @@ def of_copies(each: list, rows: list, values: np.ndarray, name: str) -> np.ndarr
     """What the methods `name` of `each` give of rows of values (n, 3), one below the other; copies
     are asked at once, so that what is large is read once.
     """
-    found = {}
+    found: dict = {}
     for one, mine in copies_of(each):
         given = (
             values[rows[mine[0]]]
@@ -131,18 +137,14 @@ class CompositeKinematics:
 
     Parameters
     ----------
-    column
-        Composite.
     make
-        function of a Body that returns its kinematics.
+        function of a Body that returns its kinematics, Corotated or TotalLagrangian.
     """
 
-    #: The stiffness of the reference serves, turned with each body.
-    has_tangent = False
-
-    def __init__(self, column: Composite, make):
-        self._rows, self.each = column.rows, column.of_each(lambda part, _: make(part))
-        self.name = self.each[0].name
+    def __init__(self, bodies: Composite, make):
+        self._rows, self.each = bodies.rows, bodies.of_each(lambda part, _: make(part))
+        #: As of each.
+        self.name, self.has_tangent = self.each[0].name, self.each[0].has_tangent
 
     def _rowwise(self, name: str, *arrays) -> np.ndarray:
         return np.concatenate(
@@ -160,33 +162,61 @@ class CompositeKinematics:
         """Rotations (nb, 3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions
         x.
         """
-        found = {}
+        found: dict = {}
         for one, mine in copies_of(self.each):
             found |= zip(mine, one.internal_of_copies([x[self._rows[place]] for place in mine]))
         rotations, forces, strains = zip(*(found[place] for place in range(len(self.each))))
         return np.stack(rotations), np.concatenate(forces), sum(strains)
 
+    def tangents(self, x: np.ndarray) -> list:
+        """Tangent stiffness of each body at positions x (n_owned, 3), in the table frame."""
+        return [one.tangent(x[rows]) for one, rows in zip(self.each, self._rows)]
+
     def moved(self, x, step):
+        """Positions (n_owned, 3) [m] after an increment of an iteration."""
         return self._rowwise("moved", x, step)
 
     def predicted(self, x, step):
+        """First guess of positions (n_owned, 3) [m] after a time step's increment."""
         return self._rowwise("predicted", x, step)
 
     def local_displacement(self, x):
+        """Displacement (n_owned, 3) [m] of each node in the frame of its own body."""
         return self._rowwise("local_displacement", x)
 
 
 class CompositeFactor:
-    """Factors of each body's effective matrix, one of each different body."""
+    """Factors of each body's effective matrix, the same object for copies."""
 
-    def __init__(self, column: Composite, each: list):
-        self.column, self.each = column, each
+    def __init__(self, bodies: Composite, each: list):
+        self.bodies, self.each = bodies, each
+
+    @classmethod
+    def of(cls, bodies: Composite, mass_factor: float, stiffness_factor: float, tangents=None):
+        """Factors of mass_factor M + stiffness_factor K, with the reference stiffness of each body
+        or with its own one of `tangents`.
+        """
+        if tangents is None:
+            return cls(
+                bodies,
+                bodies.of_each(
+                    lambda part, _: effective_factor(part, mass_factor, stiffness_factor)
+                ),
+            )
+        return cls(
+            bodies,
+            [
+                effective_factor(part, mass_factor, stiffness_factor, tangent)
+                for part, tangent in zip(bodies.parts, tangents)
+            ],
+        )
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
         """Displacements (n_owned, 3), rows in the frames of their bodies."""
-        return of_copies(self.each, self.column.rows, forces, "solve")
+        return of_copies(self.each, self.bodies.rows, forces, "solve")
 
     def destroy(self) -> None:
+        """Free the factors, each once."""
         for factor in dict.fromkeys(self.each):
             factor.destroy()
 
@@ -201,24 +231,48 @@ class CompositeFoot:
     ----------
     nodes
         of each body, node numbers (n,) of its surfaces; those of the first serve all copies.
+    factor
+        CompositeFactor of mass_factor M + stiffness_factor K, by which the filter is found.
+    filtered
+        FilteredFoot of each, as the plastic impact law needs it, or PlainFoot.
     """
 
-    def __init__(self, column: Composite, nodes: list, make):
-        self.column, self.nodes = column, nodes
-        known = dict(zip(reversed(column.parts), reversed(nodes)))
-        self.each = column.of_each(lambda part, _: make(part, known[part]))
+    def __init__(
+        self,
+        bodies: Composite,
+        nodes: list,
+        factor: CompositeFactor,
+        mass_factor: float,
+        stiffness_factor: float,
+        filtered: bool,
+    ):
+        self.bodies, self.nodes = bodies, nodes
+        known, factors = (
+            dict(zip(reversed(bodies.parts), reversed(each))) for each in (nodes, factor.each)
+        )
+
+        def make(part, _):
+            return (
+                FilteredFoot(part, known[part], factors[part], mass_factor, stiffness_factor)
+                if filtered
+                else PlainFoot(part, known[part])
+            )
+
+        self.each = bodies.of_each(make)
         self.rows, self.filtered = slices([len(one) for one in nodes]), self.each[0].filtered
         self.static = [one.static for one in self.each]
         self.mobility = [one.mobility for one in self.each] if self.filtered else None
 
     def position(self, displacement: np.ndarray) -> np.ndarray:
         """As of each body's, rows in the frames of their bodies."""
-        return of_copies(self.each, self.column.rows, displacement, "position")
+        return of_copies(self.each, self.bodies.rows, displacement, "position")
 
     def load(self, forces: np.ndarray) -> np.ndarray:
+        """Nodal forces (n_owned, 3) [N] of forces on the surface nodes."""
         return of_copies(self.each, self.rows, forces, "load")
 
     def acceleration(self, forces: np.ndarray) -> np.ndarray:
+        """Accelerations (n_owned, 3) [m/s2] of all nodes by forces [N] on the surface nodes."""
         return of_copies(self.each, self.rows, forces, "acceleration")
 
 
@@ -226,14 +280,15 @@ class CompositeResponse:
     """`fem.foot.Response` of each body."""
 
     def __init__(self, foot: CompositeFoot, factor: CompositeFactor):
-        made = {}
-        for one, own in zip(foot.each, factor.each):
-            if one not in made:
-                made[one] = Response(one, own)
-        self._rows, self.each = foot.rows, [made[one] for one in foot.each]
+        made, pairs = {}, list(zip(foot.each, factor.each))
+        for pair in pairs:
+            if pair not in made:
+                made[pair] = Response(*pair)
+        self._rows, self.each = foot.rows, [made[pair] for pair in pairs]
         self.compliance = [one.compliance for one in self.each]
 
     def displacement(self, forces: np.ndarray) -> np.ndarray:
+        """Displacements (n_owned, 3) [m] of all nodes by forces [N] on the surface nodes."""
         return of_copies(self.each, self._rows, forces, "displacement")
 
 
@@ -248,11 +303,11 @@ class CompositeDamping:
         of each body, a number or one of each mode; copies the same.
     """
 
-    def __init__(self, column: Composite, counts, ratios):
-        known = dict(zip(column.parts, zip(counts, ratios)))
+    def __init__(self, bodies: Composite, counts, ratios):
+        known = dict(zip(bodies.parts, zip(counts, ratios)))
         self._rows, self.each = (
-            column.rows,
-            column.of_each(lambda part, _: ModalDamping(part, *known[part])),
+            bodies.rows,
+            bodies.of_each(lambda part, _: ModalDamping(part, *known[part])),
         )
 
     def _rowwise(self, name, velocity, rotation) -> np.ndarray:
@@ -264,49 +319,17 @@ class CompositeDamping:
         )
 
     def force(self, velocity, rotation):
+        """Damping forces (n_owned, 3) [N] at velocities (n_owned, 3) [m/s]."""
         return self._rowwise("force", velocity, rotation)
 
     def acceleration(self, velocity, rotation):
+        """M^-1 of `force`, (n_owned, 3) [m/s2]."""
         return self._rowwise("acceleration", velocity, rotation)
 
     def damped(self, factor: CompositeFactor, *factors) -> CompositeFactor:
+        """Factor of the damped effective matrix of each body; see `fem.damping`."""
         made = {}
         for damping, own in zip(self.each, factor.each):
             if own not in made:
                 made[own] = damping.damped(own, *factors)
-        return CompositeFactor(factor.column, [made[own] for own in factor.each])
-
-
-def factor_of(column, mass_factor: float, stiffness_factor: float, tangent=None):
-    """`effective_factor` of a body, or of each of a Composite."""
-    if isinstance(column, Composite):
-        return CompositeFactor(
-            column,
-            column.of_each(lambda part, _: effective_factor(part, mass_factor, stiffness_factor)),
-        )
-    return effective_factor(column, mass_factor, stiffness_factor, tangent)
-
-
-def foot_of(column, nodes, factor, mass_factor: float, stiffness_factor: float, filtered: bool):
-    """Contact of the surface nodes of a body, or of those (list) of each of a Composite."""
-
-    def make(body, own, its_factor):
-        return (
-            FilteredFoot(body, own, its_factor, mass_factor, stiffness_factor)
-            if filtered
-            else PlainFoot(body, own)
-        )
-
-    if isinstance(column, Composite):
-        of_body = dict(zip(column.parts, factor.each))
-        return CompositeFoot(column, nodes, lambda part, own: make(part, own, of_body[part]))
-    return make(column, nodes, factor)
-
-
-def response_of(foot, factor):
-    """`fem.foot.Response` of a body, or of each of a Composite."""
-    return (
-        CompositeResponse(foot, factor)
-        if isinstance(foot, CompositeFoot)
-        else Response(foot, factor)
-    )
+        return CompositeFactor(factor.bodies, [made[own] for own in factor.each])

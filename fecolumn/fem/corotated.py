@@ -34,6 +34,7 @@ class Corotated:
         self.body = body
 
     def rotation(self, x: np.ndarray) -> np.ndarray:
+        """Mean rotation (3, 3) of the body at positions x (n_owned, 3) [m]."""
         return mean_rotation(self.body, x)
 
     def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
@@ -48,6 +49,8 @@ class Corotated:
         """`internal` of copies of the body at each of the positions, for which the stiffness is
         read once.
         """
+        if len(places) == 1:
+            return [self.internal(places[0])]
         rotations, deformations = zip(*map(self._deformed, places))
         forces = self.body.apply(self.body.stiffness, np.stack(deformations))
         return [
@@ -74,5 +77,7 @@ class Corotated:
         return x + step
 
     def local_displacement(self, x: np.ndarray) -> np.ndarray:
-        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are computed."""
+        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are
+        computed.
+        """
         return x @ self.rotation(x) - self.body.X

@@ -8,11 +8,10 @@ from fecolumn.fem.modes import elastic_modes
 
 
 class ModalDamping:
-    """Viscous forces f = R sum M phi 2 zeta w (M phi .
+    """Viscous forces of the elastic modes of a body, which may be turned.
 
-    R^T v) of a body turned by R, phi its elastic modes of unit modal mass.
-
-    The modes are M-orthogonal to every rigid motion, so that translation, rotation and their
+    f = R sum M phi 2 zeta w (M phi . R^T v), with the body's rotation R, its velocities v and its
+    elastic modes phi of unit modal mass. The modes are M-orthogonal to every rigid motion, so that translation, rotation and their
     impacts lose nothing. They diagonalise the effective matrix, too, so that its factor serves with
     a correction in each mode.
 
@@ -73,11 +72,14 @@ class DampedFactor:
         return self._flat.T @ (self._change[:, None] * self._factor.body.sum(self._flat @ forces))
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
+        """`Factor.solve` with damping."""
         copies = forces.reshape(-1, self._flat.shape[1])
         return self._factor.solve(forces) + self._correction(copies.T).T.reshape(forces.shape)
 
     def solve_many(self, forces: np.ndarray) -> np.ndarray:
+        """`Factor.solve_many` with damping."""
         return self._factor.solve_many(forces) + self._correction(forces)
 
     def destroy(self) -> None:
+        """Free the factor."""
         self._factor.destroy()

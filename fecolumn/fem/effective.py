@@ -72,6 +72,7 @@ class Factor:
         return result
 
     def destroy(self) -> None:
+        """Free the factor and the matrix."""
         self._release()
 
 

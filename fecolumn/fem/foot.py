@@ -17,9 +17,9 @@ class FilteredFoot:
     frequency. With theta the substep of the effective matrix, S = M + theta^2 K, a contact force r
     is therefore split,
 
-        r acts on the body as            U r,      U = M Y,  Y = 2 Y1 - Y2,  Y1 = S^-1 B^T,  Y2 = S^-1 M Y1,
-        the foot's position is           U^T d + C r,  d the displacement in the body's frame,
-        with the static remainder        C = theta^2 (B Y1 + Y1^T M Y1 - 3 Y1^T M Y2 + Y2^T M Y2),
+        r acts on the body as        U r,  U = M Y,  Y = 2 Y1 - Y2,  Y1 = S^-1 B^T,  Y2 = S^-1 M Y1,
+        the foot's position is       U^T d + C r,  d the displacement in the body's frame,
+        with the static remainder    C = theta^2 (B Y1 + Y1^T M Y1 - 3 Y1^T M Y2 + Y2^T M Y2),
 
     B picking the foot's nodes. In a mode of frequency w, with s = 1/(1 + (w theta)^2), force and
     position carry the factor F = 2 s - s^2 and C is (1 - F^2)/w^2 >= 0: nothing for rigid motion,
@@ -63,7 +63,9 @@ class FilteredFoot:
         return self.body.momentum(self.acceleration(forces))
 
     def unit_push(self) -> np.ndarray:
-        """U (3 n_owned, 3 n), as large as Y and not kept: nodal forces of unit forces on the nodes."""
+        """U (3 n_owned, 3 n), as large as Y and not kept: nodal forces of unit forces on
+        the nodes.
+        """
         return self.body.apply_many(self.body.mass, self.jump)
 
     def acceleration(self, forces: np.ndarray) -> np.ndarray:

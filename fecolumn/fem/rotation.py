@@ -43,21 +43,21 @@ def twist_angle(rotation: np.ndarray) -> float:
     return float(np.arctan2(rotation[1, 0] - rotation[0, 1], rotation[0, 0] + rotation[1, 1]))
 
 
-def into_frames(values: np.ndarray, rotation: np.ndarray, rows=None) -> np.ndarray:
-    """Vectors (n, 3) in the table frame as vectors in the frame of their body.
+def into_frames(values: np.ndarray, rotation: np.ndarray, rows: list[slice]) -> np.ndarray:
+    """Vectors (n, 3) in the table frame as vectors in the frames of their bodies.
 
     Parameters
     ----------
     rotation
-        (3, 3) body to table; or (nb, 3, 3) of several bodies, whose rows are the slices `rows`.
+        (nb, 3, 3) body to table.
+    rows
+        of each body.
     """
-    if rotation.ndim == 2:
-        return values @ rotation
     return np.concatenate([values[own] @ R for own, R in zip(rows, rotation, strict=True)])
 
 
-def out_of_frames(values: np.ndarray, rotation: np.ndarray, rows=None) -> np.ndarray:
-    """Vectors (n, 3) in the frame of their body as vectors in the table frame; arguments as of
+def out_of_frames(values: np.ndarray, rotation: np.ndarray, rows: list[slice]) -> np.ndarray:
+    """Vectors (n, 3) in the frames of their bodies as vectors in the table frame; arguments as of
     `into_frames`.
     """
     return into_frames(values, rotation.swapaxes(-1, -2), rows)

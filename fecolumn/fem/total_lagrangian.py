@@ -42,6 +42,7 @@ class TotalLagrangian:
         self.u.x.scatter_forward()
 
     def rotation(self, x: np.ndarray) -> np.ndarray:
+        """Mean rotation (3, 3) of the body at positions x (n_owned, 3) [m]."""
         return mean_rotation(self.body, x)
 
     def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
@@ -55,6 +56,10 @@ class TotalLagrangian:
         vector.destroy()
         energy = self.body.comm.allreduce(fem.assemble_scalar(self._energy), MPI.SUM)
         return self.rotation(x), force, float(energy)
+
+    def internal_of_copies(self, places: list) -> list[tuple]:
+        """`internal` of copies of the body at each of the positions."""
+        return [self.internal(x) for x in places]
 
     def tangent(self, x: np.ndarray) -> PETSc.Mat:
         """Reduced tangent stiffness at positions x, in the table frame."""
@@ -97,5 +102,7 @@ class TotalLagrangian:
         return centre + shift + arm @ turn.T, shift + arm @ skew.T
 
     def local_displacement(self, x: np.ndarray) -> np.ndarray:
-        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are computed."""
+        """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are
+        computed.
+        """
         return x @ self.rotation(x) - self.body.X

@@ -7,16 +7,16 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
-from fecolumn.case import Case
 from fecolumn.mesh.bricks import BASE, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
+from fecolumn.short_form import ShortForm
 from fecolumn.sizes import foot_sides
 
 GROWTH = 1.5  # largest ratio of neighbouring bricks
 
 
-def base_mesh(case: Case) -> BrickMesh:
+def base_mesh(case: ShortForm) -> BrickMesh:
     """Rectangular plate centred on the axis, its top at z = 0.
 
     Squares of `fine_size_m` cover the footprint and the slide allowance; outside and downwards the
@@ -34,14 +34,43 @@ def base_mesh(case: Case) -> BrickMesh:
     return swept_grid(x, y, levels(case)[::-1], BASE)
 
 
-def levels(case: Case) -> np.ndarray:
+def levels(case: ShortForm) -> np.ndarray:
     """Levels (n,) of the base's nodes from 0 at the top, falling [m]."""
-    return -_growing_line(
-        case.mesh.fine_size_m, case.base.thickness_m, case.mesh.fine_size_m, case.mesh.base_size_m
-    )
+    return depths(case.base.thickness_m, case.mesh.fine_size_m, case.mesh.base_size_m)
 
 
-def base_counts(case: Case) -> tuple[int, int, int] | None:
+def depths(thickness: float, fine: float, largest: float) -> np.ndarray:
+    """Levels (n,) of a layer's nodes from 0 at its top, falling [m]."""
+    return -_growing_line(fine, thickness, fine, largest)
+
+
+def plate_line(spans, low: float, high: float, fine: float, largest: float) -> np.ndarray:
+    """Grid line from `low` to `high` [m], with equal steps near `fine` over each of the spans
+    (start, end), which come one after another and apart, and growing ones around them.
+    """
+    spans = [[max(start, low), min(end, high)] for start, end in spans]
+    # a margin below half a fine brick would be a sliver: the fine bricks stretch over it
+    if spans[0][0] - low < fine / 2:
+        spans[0][0] = low
+    if high - spans[-1][1] < fine / 2:
+        spans[-1][1] = high
+    pieces, last = [], low
+    for start, end in spans:
+        if pieces:
+            half = (start - last) / 2
+            steps = np.cumsum(growing_steps(half, fine, largest))[:-1]
+            pieces += [last + steps, [(last + start) / 2], start - steps[::-1]]
+        elif start > low:
+            steps = np.cumsum(growing_steps(start - low, fine, largest))[:-1]
+            pieces += [[low], start - steps[::-1]]
+        pieces.append(np.linspace(start, end, divisions(end - start, fine) + 1))
+        last = end
+    if last < high:
+        pieces += [last + np.cumsum(growing_steps(high - last, fine, largest))[:-1], [high]]
+    return np.concatenate(pieces)
+
+
+def base_counts(case: ShortForm) -> tuple[int, int, int] | None:
     """Bricks of the base along x, y and z, told without making it; None of a base without edges."""
     if case.base.kind != "plate":
         return None
@@ -79,16 +108,8 @@ def _symmetric_count(fine_width, length, fine, largest) -> int:
 
 def _symmetric_line(fine_width, length, fine, largest) -> np.ndarray:
     """Grid line from -length/2 to length/2, equal steps near `fine` in the middle."""
-    # A margin below half a fine brick would be a sliver: the fine bricks stretch over it.
-    if (length - fine_width) / 2 < fine / 2:
-        fine_width = length
-    middle = np.linspace(-fine_width / 2, fine_width / 2, divisions(fine_width, fine) + 1)
-    outside = length / 2 - fine_width / 2
-    if outside == 0:
-        return middle
-    margin = fine_width / 2 + np.cumsum(growing_steps(outside, fine, largest))
-    margin[-1] = length / 2
-    return np.concatenate([-margin[::-1], middle, margin])
+    span = -fine_width / 2, fine_width / 2
+    return plate_line([span], -length / 2, length / 2, fine, largest)
 
 
 def _growing_line(first, length, fine, largest) -> np.ndarray:
@@ -123,7 +144,9 @@ def growing_steps(length: float, fine: float, largest: float) -> np.ndarray:
 
 
 def growing_count(length: float, fine: float, largest: float) -> int:
-    """Smallest number n of steps min(fine GROWTH^k, largest), k = 1..n, that reaches `length` [m]."""
+    """Smallest number n of steps min(fine GROWTH^k, largest), k = 1..n, that reaches `length`
+    [m].
+    """
     length *= 1 - 1e-12
     reached, step, n = 0.0, fine, 0
     while reached < length and step * GROWTH < largest:

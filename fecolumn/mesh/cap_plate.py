@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case import Case
 from fecolumn.mesh.bricks import CAP, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
+from fecolumn.short_form import ShortForm
 
 
-def cap_mesh(case: Case) -> BrickMesh | None:
+def cap_mesh(case: ShortForm) -> BrickMesh | None:
     """Rectangular plate of equal bricks, centred on the axis, its bottom at the column's top; None
     without a cap.
     """

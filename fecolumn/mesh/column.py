@@ -8,13 +8,14 @@ import math
 
 import numpy as np
 
-from fecolumn.case import Case
 from fecolumn.mesh.bricks import FLANGE, LOWER, UPPER, BrickMesh, merge
 from fecolumn.mesh.gmsh_section import extruded
 from fecolumn.mesh.section import Annulus, Disc, Rectangle
+from fecolumn.short_form import ShortForm
+from fecolumn.sizes import is_solid
 
 
-def column_mesh(case: Case) -> BrickMesh:
+def column_mesh(case: ShortForm) -> BrickMesh:
     """Tube, solid cylinder or block, on its flange if it has one; its foot at z = 0 and its axis on
     z.
 
@@ -48,8 +49,10 @@ def column_mesh(case: Case) -> BrickMesh:
     return merge(parts)
 
 
-def part_layers(case: Case) -> list[tuple[int, float, float, int]]:
-    """Part, bottom [m], height [m] and layers of bricks of the built parts, from the foot upwards."""
+def part_layers(case: ShortForm) -> list[tuple[int, float, float, int]]:
+    """Part, bottom [m], height [m] and layers of bricks of the built parts, from the foot
+    upwards.
+    """
     column, mesh, seat = case.column, case.mesh, case.seat_m
     lower = column.fine_height_m
     upper = column.height_m - lower
@@ -82,15 +85,7 @@ def _spread(equal_area: float, layers: int, top: float | None) -> float:
     return (-b + math.sqrt(b * b - 4 * a * c)) / (2 * a)
 
 
-def is_solid(case: Case) -> bool:
-    """Whether the round section has no hole."""
-    return (
-        case.column.shape == "solid"
-        or case.column.wall_m >= case.column.outer_diameter_m / 2 * (1 - 1e-6)
-    )
-
-
-def section(case: Case, part: int) -> Annulus | Disc | Rectangle:
+def section(case: ShortForm, part: int) -> Annulus | Disc | Rectangle:
     """Section of the flange, the lower or the upper part, its circles the true ones."""
     column, fine, coarse = case.column, case.mesh.fine_size_m, case.mesh.coarse_size_m
     if part == FLANGE:
@@ -110,7 +105,7 @@ def section(case: Case, part: int) -> Annulus | Disc | Rectangle:
             ]
         return Rectangle(column.length_m, column.width_m, *counts)
     radius = column.outer_diameter_m / 2
-    solid = is_solid(case)
+    solid = is_solid(case.column)
     around = 2 * math.pi * (radius if solid else case.mean_radius_m)
     n_upper = 4 * max(2, round(around / (4 * coarse)))
     n_around = n_upper * divisions(around / n_upper, fine) if part == LOWER else n_upper
@@ -121,5 +116,7 @@ def section(case: Case, part: int) -> Annulus | Disc | Rectangle:
 
 
 def divisions(length: float, size: float) -> int:
-    """Whole number of bricks, at least one, whose size [m] is nearest to `size` along `length` [m]."""
+    """Whole number of bricks, at least one, whose size [m] is nearest to `size` along `length`
+    [m].
+    """
     return max(1, round(length / size))

@@ -7,12 +7,12 @@ import math
 from dataclasses import dataclass
 from typing import NoReturn
 
-from fecolumn.case import Case
 from fecolumn.mesh.base_plate import base_counts
 from fecolumn.mesh.bricks import BASE, CAP, FLANGE, LOWER, PART_NAMES, UPPER
 from fecolumn.mesh.column import divisions, part_layers, section
 from fecolumn.mesh.imported import own_mesh
 from fecolumn.schema import InputError
+from fecolumn.short_form import ShortForm
 
 # Rough. MUMPS' factors of the reference specimen (13,302 degrees of freedom without base) and of a
 # marble drum (5,031) have 6 and 16 n^(4/3) numbers, and the full-order engine then took 0.64 and
@@ -117,8 +117,20 @@ def _span(seconds: float) -> str:
     )
 
 
-def estimate(case: Case) -> Estimate:
+def estimate(case: ShortForm) -> Estimate:
     """Estimate of a case whose sizes are all known."""
+    bricks, nodes, foot = body_counts(case)
+    if counts := base_counts(case):
+        bricks[BASE], nodes[BASE] = math.prod(counts), math.prod(n + 1 for n in counts)
+    return Estimate(
+        bricks, {part: 3 * n for part, n in nodes.items()}, foot, case.integration.engine
+    )
+
+
+def body_counts(case) -> tuple[dict[int, int], dict[int, int], int]:
+    """Elements and nodes of the parts of a column with flange and cap, and nodes of its foot, told
+    without making them.
+    """
     order = case.mesh.element_order
     bricks, nodes, foot = {}, {}, 0
     if case.column.mesh_file:
@@ -134,22 +146,19 @@ def estimate(case: Case) -> Estimate:
             )
             if place == 0:
                 foot = plane.n_nodes(order)
-    for part, counts, degree in ((CAP, _cap_counts(case), order), (BASE, base_counts(case), 1)):
-        if counts:
-            bricks[part], nodes[part] = math.prod(counts), math.prod(degree * n + 1 for n in counts)
-    return Estimate(
-        bricks, {part: 3 * n for part, n in nodes.items()}, foot, case.integration.engine
-    )
+    if counts := _cap_counts(case):
+        bricks[CAP], nodes[CAP] = math.prod(counts), math.prod(order * n + 1 for n in counts)
+    return bricks, nodes, foot
 
 
-def _cap_counts(case: Case):
+def _cap_counts(case: ShortForm):
     cap, size = case.cap, case.mesh.cap_size_m
     return cap and tuple(
         divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m)
     )
 
 
-def refuse_too_large(case: Case, file) -> None:
+def refuse_too_large(case: ShortForm, file) -> None:
     """Refuse a case of more degrees of freedom than `mesh.limit_dofs`, naming the size that makes
     it so and one that would fit.
     """
@@ -218,7 +227,7 @@ def refuse_sizes(
     )
 
 
-def _with(case: Case, key: str, value: float) -> Estimate:
+def _with(case: ShortForm, key: str, value: float) -> Estimate:
     name = key.partition(".")[2]
     mesh = case.mesh
     sizes = (

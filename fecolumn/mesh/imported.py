@@ -13,11 +13,11 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from fecolumn.case import Case
 from fecolumn.content import content
 from fecolumn.mesh.bricks import FACES, UPPER, BrickMesh, boundary_faces, brick_mesh
 from fecolumn.mesh.jacobian import corner_jacobians
 from fecolumn.schema import InputError
+from fecolumn.short_form import ShortForm
 
 _DIMENSION_TOLERANCE = 0.01
 _BELOW_THREE_DIMENSIONS = {
@@ -91,7 +91,7 @@ def own_mesh(path: str) -> OwnMesh:
     return _own_mesh(path, content(path))
 
 
-def imported_column(case: Case) -> BrickMesh:
+def imported_column(case: ShortForm) -> BrickMesh:
     """Column of `case.column.mesh_file`; its height and outer diameter must agree with the case
     within 1 %, where it has them.
 
@@ -223,7 +223,7 @@ def _read(path: Path, refuse):
         refuse(None, f"cannot be read as a mesh by meshio: {said or type(error).__name__}")
 
 
-def _check_dimensions(own: OwnMesh, case: Case, refuse) -> None:
+def _check_dimensions(own: OwnMesh, case: ShortForm, refuse) -> None:
     column = case.column
     diameter = np.ptp(own.mesh.points[:, :2], axis=0).mean()
     for key, value, wanted in (

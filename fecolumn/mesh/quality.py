@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case import Case
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh
-from fecolumn.mesh.column import is_solid
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
 from fecolumn.mesh.specimen import SpecimenMesh
+from fecolumn.short_form import ShortForm
+from fecolumn.sizes import is_solid
 
 # Corner signs of the VTK hexahedron.
 _SIGNS = np.array(
@@ -126,25 +126,25 @@ def _from_moments(volume, first, second, density) -> MassProperties:
     return MassProperties(volume, density * volume, centre, inertia)
 
 
-def exact_column(case: Case) -> MassProperties:
+def exact_column(case: ShortForm) -> MassProperties:
     """Closed form of the tube, solid cylinder or block, without flange and cap."""
     column, density = case.column, case.material.density_kg_m3
     if column.shape == "block":
-        return _box(column.length_m, column.width_m, column.height_m, case.seat_m, density)
+        return box(column.length_m, column.width_m, column.height_m, case.seat_m, density)
     outer = column.outer_diameter_m / 2
-    return _ring(
+    return ring(
         outer,
-        0.0 if is_solid(case) else outer - column.wall_m,
+        0.0 if is_solid(case.column) else outer - column.wall_m,
         column.height_m,
         case.seat_m,
         density,
     )
 
 
-def exact_flange(case: Case) -> MassProperties:
+def exact_flange(case: ShortForm) -> MassProperties:
     """Closed form of the flange."""
     flange = case.flange
-    return _ring(
+    return ring(
         flange.outer_diameter_m / 2,
         flange.inner_diameter_m / 2,
         flange.thickness_m,
@@ -153,10 +153,10 @@ def exact_flange(case: Case) -> MassProperties:
     )
 
 
-def exact_cap(case: Case) -> MassProperties:
+def exact_cap(case: ShortForm) -> MassProperties:
     """Closed form of the cap plate."""
     cap = case.cap
-    return _box(
+    return box(
         cap.length_m,
         cap.width_m,
         cap.thickness_m,
@@ -165,7 +165,8 @@ def exact_cap(case: Case) -> MassProperties:
     )
 
 
-def _ring(outer, inner, height, bottom, density) -> MassProperties:
+def ring(outer, inner, height, bottom, density) -> MassProperties:
+    """Of a tube, or of a solid cylinder with the inner radius 0, from a height `bottom` up [m]."""
     squares = outer**2 + inner**2
     volume = math.pi * (outer**2 - inner**2) * height
     mass = density * volume
@@ -178,13 +179,14 @@ def _ring(outer, inner, height, bottom, density) -> MassProperties:
     )
 
 
-def _box(a, b, c, bottom, density) -> MassProperties:
+def box(a, b, c, bottom, density) -> MassProperties:
+    """Of a block of sides a, b, c from a height `bottom` up [m]."""
     mass = density * a * b * c
     inertia = np.diag([b * b + c * c, a * a + c * c, a * a + b * b]) * mass / 12
     return MassProperties(a * b * c, mass, np.array([0, 0, bottom + c / 2]), inertia)
 
 
-def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
+def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[Row, ...]:
     """Jacobians, and mass properties of flange, column, cap and their assembly, against closed
     forms where the column is a built one.
 
@@ -214,7 +216,7 @@ def quality_table(case: Case, specimen: SpecimenMesh) -> tuple[Row, ...]:
     whole = functools.reduce(operator.add, found.values())
     if len(parts) > 1:
         rows += _mass_rows(
-            " with ".join(sorted(parts, key=list(("column", "flange", "cap")).index)),
+            " with ".join(sorted(parts, key=["column", "flange", "cap"].index)),
             whole,
             None if own else functools.reduce(operator.add, closed.values()),
         )

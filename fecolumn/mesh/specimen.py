@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case import Case
 from fecolumn.mesh.base_plate import base_mesh
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh, boundary_faces, merge
 from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh, section
 from fecolumn.mesh.imported import imported_column
 from fecolumn.mesh.tie import Tie, adjust, tie
+from fecolumn.short_form import ShortForm
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,13 +40,26 @@ class SpecimenMesh:
     foot_nodes: np.ndarray
 
 
-def specimen_mesh(case: Case) -> SpecimenMesh:
+def specimen_mesh(case: ShortForm) -> SpecimenMesh:
     """Meshes of a case, built or imported.
 
     Raises
     ------
     InputError
         the imported mesh does not fit the case, or parts cannot be tied.
+    """
+    body, ties = body_mesh(case)
+    foot = np.unique(boundary_faces(body, body.foot_part, 0.0, 1e-6 * case.column.height_m))
+    return SpecimenMesh(body, base_mesh(case), ties, foot)
+
+
+def body_mesh(case) -> tuple[BrickMesh, tuple[Tie, ...]]:
+    """Mesh of a column with flange and cap, slaves already on their master surfaces, and its ties.
+
+    Raises
+    ------
+    InputError
+        as of `specimen_mesh`.
     """
     column = imported_column(case) if case.column.mesh_file else column_mesh(case)
     cap = cap_mesh(case)
@@ -60,11 +73,10 @@ def specimen_mesh(case: Case) -> SpecimenMesh:
     for one, other, level, keys in _joints(case, column, height):
         ties.append(tie(body, one, other, level, flat, _reach(case), keys))
     body = adjust(body, ties)
-    foot = np.unique(boundary_faces(body, body.foot_part, 0.0, flat))
-    return SpecimenMesh(body, base_mesh(case), tuple(ties), foot)
+    return body, tuple(ties)
 
 
-def _joints(case: Case, column: BrickMesh, height: float):
+def _joints(case: ShortForm, column: BrickMesh, height: float):
     """Slave part, master part, height [m] and keys of each joint, from the foot upwards."""
     lowest = LOWER if column.has_part(LOWER) else UPPER
     if column.has_part(FLANGE):
@@ -80,8 +92,10 @@ def _joints(case: Case, column: BrickMesh, height: float):
         yield column.top_part, CAP, height, "column.height_m, cap"
 
 
-def _reach(case: Case) -> float:
-    """How far a slave may be moved [m]: the sagitta of a brick's chord and a tenth of a fine brick."""
+def _reach(case: ShortForm) -> float:
+    """How far a slave may be moved [m]: the sagitta of a brick's chord and a tenth of a fine
+    brick.
+    """
     if case.column.mesh_file or case.column.shape == "block":
         return 0.1 * case.mesh.fine_size_m
     sagitta = (

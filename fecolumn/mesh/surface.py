@@ -1,4 +1,6 @@
-"""Lagrange nodes, basis and tributary areas on the faces of bricks of any order, and of tetrahedra."""
+"""Lagrange nodes, basis and tributary areas on the faces of bricks of any order, and of
+tetrahedra.
+"""
 
 from __future__ import annotations
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.atomic import write_csv
 from fecolumn.motions.record import GroundMotion, UnusableRecord, sound
 from fecolumn.schema import InputError
 
 
-def motion_file(path, acceleration, dt_s: float) -> str:
+def motion_file(path: Path | str, acceleration: ArrayLike, dt_s: float) -> str:
     """Write an array of accelerations as a CSV file that `motion.source` takes; its path.
 
     Parameters

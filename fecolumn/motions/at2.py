@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import number, read_text, unit_named
+from fecolumn.motions.text import parse_number, read_text, unit_named
 
 _HEADER_LINES = 4
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?"
@@ -19,7 +21,7 @@ _NUMBERS_FIRST = re.compile(rf"^\s*(?P<points>\d+)[\s,]+(?P<dt>{_NUMBER})[\s,]+N
 _UNITS = re.compile(r"UNITS?\s*(?:OF|:|=)\s*(?P<unit>[^\s,;]+)", re.IGNORECASE)
 
 
-def looks_like_at2(path, text: str) -> bool:
+def looks_like_at2(path: Path | str, text: str) -> bool:
     """Whether the name ends in .AT2, or NPTS stands among the first lines."""
     return (
         Path(path).suffix.lower() == ".at2"
@@ -27,7 +29,7 @@ def looks_like_at2(path, text: str) -> bool:
     )
 
 
-def read_at2(path) -> Recording:
+def read_at2(path: Path | str) -> Recording:
     """Recording of an AT2 file, `NPTS= 4000, DT= .0100 SEC` or the older `4000 0.0100 NPTS, DT` in
     its fourth line.
 
@@ -53,7 +55,7 @@ def read_at2(path) -> Recording:
             f"line {row}: {line.strip()!r} must state number and step, as in NPTS= "
             "4000, DT= .0100 SEC"
         )
-    points, dt = found["points"], number(found["dt"])
+    points, dt = found["points"], parse_number(found["dt"])
     if not 0 < dt < np.inf:
         raise UnusableRecord(f"line {row}: DT = {dt:g} s must be finite and greater than 0")
     values = _values(lines[head + 1 :])
@@ -81,12 +83,12 @@ def _stated_units(header: list[str]) -> str:
     return unit_named(stated[-1])
 
 
-def _values(lines) -> np.ndarray:
+def _values(lines: list[tuple[int, str]]) -> NDArray[Any]:
     values = []
     for row, line in lines:
         for word in line.split():
             try:
-                values.append(number(word))
+                values.append(parse_number(word))
             except ValueError:
                 raise UnusableRecord(f"line {row}: {word[:40]!r} is not a number") from None
             if not np.isfinite(values[-1]):

@@ -7,8 +7,10 @@ Product of source (two corners), path, site and near-surface loss, in the terms 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 SHEAR_VELOCITY = 3.5  # beta, at the source [km/s]
 DENSITY = 2.8  # at the source [g/cm3]
@@ -60,13 +62,13 @@ def duration(magnitude: float, distance: float) -> float:
     return 0.5 / corner_frequencies(magnitude)[0] + 0.05 * distance
 
 
-def site_amplification(frequency) -> np.ndarray:
+def site_amplification(frequency: ArrayLike) -> NDArray[Any]:
     """Amplification of generic rock (Boore and Joyner 1997)."""
     frequency = np.maximum(np.asarray(frequency, dtype=np.float64), GENERIC_ROCK[0, 0])
     return np.interp(np.log(frequency), np.log(GENERIC_ROCK[:, 0]), GENERIC_ROCK[:, 1])
 
 
-def fourier_amplitude(frequency, magnitude: float, distance: float) -> np.ndarray:
+def fourier_amplitude(frequency: ArrayLike, magnitude: float, distance: float) -> NDArray[Any]:
     """Amplitude |A(f)| of the acceleration's Fourier transform int a exp(-2 pi i f t) dt.
 
     C (2 pi f)^2 M_0 [(1 - eps)/(1 + (f/f_a)^2) + eps/(1 + (f/f_b)^2)] exp(-pi f R'/(Q beta))
@@ -104,4 +106,5 @@ def fourier_amplitude(frequency, magnitude: float, distance: float) -> np.ndarra
     centimetres = (
         scale * (2 * math.pi * frequency) ** 2 * source / far * loss * site_amplification(frequency)
     )
-    return 0.01 * centimetres
+    result: NDArray[Any] = 0.01 * centimetres
+    return result

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 from fecolumn.motions import lick
 from fecolumn.motions.ensemble_file import ALL, file_and_number, members
@@ -13,7 +14,7 @@ from fecolumn.schema import InputError
 _SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
 
 
-def chosen_motions(source, key: str, file) -> list:
+def chosen_motions(source: Any, key: str, file: Path | str) -> list[Any]:
     """Every motion of ensemble.h5#* or lick:*, those of lick:1-40 or ensemble.h5#1-40; any other
     value as it is.
 

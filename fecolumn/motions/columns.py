@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import number, read_text, uniform_step, unit_named
+from fecolumn.motions.text import parse_number, read_text, uniform_step, unit_named
 
 _NAMES = {
     "time": ("time", "t"),
@@ -26,7 +28,7 @@ _SPACED_CELL = re.compile(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?")
 _EXAMPLE = "a header row such as: time [s], ax [g], ay [g]"
 
 
-def read_columns(path, dt_s: float) -> Recording:
+def read_columns(path: Path | str, dt_s: float) -> Recording:
     """Recording of a text file with one row a sample.
 
     A header row (also as a comment, as numpy.savetxt writes it) names the columns time, ax, ay, az
@@ -73,9 +75,11 @@ def read_columns(path, dt_s: float) -> Recording:
     )
 
 
-def _split(text: str):
+def _split(text: str) -> tuple[str, list[str], list[tuple[int, str]]]:
     """Header line or "", comment texts, and the numbered lines of numbers."""
-    comments, rows, header = [], [], ""
+    comments: list[str] = []
+    rows: list[tuple[int, str]] = []
+    header = ""
     for row, line in enumerate(text.splitlines(), 1):
         line = line.strip()
         if line.startswith("#"):
@@ -95,13 +99,13 @@ def _cells(line: str) -> list[str]:
 
 def _is_number(cell: str) -> bool:
     try:
-        number(cell)
+        parse_number(cell)
     except ValueError:
         return False
     return True
 
 
-def _table(rows) -> np.ndarray:
+def _table(rows: list[tuple[int, str]]) -> NDArray[Any]:
     width = len(_cells(rows[0][1]))
     values = np.empty((len(rows), width))
     for i, (row, line) in enumerate(rows):
@@ -110,7 +114,7 @@ def _table(rows) -> np.ndarray:
             raise UnusableRecord(f"line {row}: {len(cells)} columns where {width} are usual")
         for j, cell in enumerate(cells):
             try:
-                values[i, j] = number(cell)
+                values[i, j] = parse_number(cell)
             except ValueError:
                 raise UnusableRecord(f"line {row}: {cell[:40]!r} is not a number") from None
             if not np.isfinite(values[i, j]):
@@ -133,7 +137,7 @@ def _header_cells(line: str) -> list[tuple[str, str]]:
     ]
 
 
-def _columns(header: str, comments: list[str], width: int):
+def _columns(header: str, comments: list[str], width: int) -> tuple[list[str], list[str]]:
     """Meaning and unit of each column."""
     cells = _header_cells(header) if header else []
     if not header and comments:

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+import argparse
 import math
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from fecolumn.motions import lick, makers
+
+if TYPE_CHECKING:
+    from fecolumn.motions.ensemble import Ensemble
+    from fecolumn.motions.record import GroundMotion
+    from fecolumn.motions.seeded import Components
+    from fecolumn.motions.target import Target
 
 _LICK = "lick"
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn motions`."""
     actions = parser.add_subparsers(required=True, metavar="ACTION")
     make = actions.add_parser("make", help="make an ensemble: one HDF5 file and its summary table")
-    make = make.add_subparsers(required=True, metavar="KIND")
+    kinds = make.add_subparsers(required=True, metavar="KIND")
 
-    seeded = make.add_parser(
+    seeded = kinds.add_parser(
         "seeded", help="stochastic motions of a fitted model; the Lick ensemble by default"
     )
     seeded.add_argument(
@@ -49,7 +57,7 @@ def add_arguments(parser) -> None:
         "size (default: %(default)s)",
     )
     seeded.set_defaults(command=_make_seeded)
-    makers.add_kinds(make, _add_output, store)
+    makers.add_kinds(kinds, _add_output, store)
 
     fit = actions.add_parser(
         "fit",
@@ -148,7 +156,7 @@ def add_arguments(parser) -> None:
     convert.set_defaults(command=_convert)
 
 
-def _add_output(parser) -> None:
+def _add_output(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o",
         "--output",
@@ -158,7 +166,7 @@ def _add_output(parser) -> None:
     )
 
 
-def store(ensemble, output) -> int:
+def store(ensemble: Ensemble, output: Path | str) -> int:
     """Write an ensemble and its table, and say what it is."""
     from fecolumn.motions.ensemble_file import summary, write_ensemble, write_summary
     from fecolumn.motions.ensemble_report import report
@@ -172,7 +180,7 @@ def store(ensemble, output) -> int:
     return 0
 
 
-def _ensemble_path(output) -> Path:
+def _ensemble_path(output: Path | str) -> Path:
     from fecolumn.motions.ensemble_file import TABLE_HEAD, is_ensemble
     from fecolumn.schema import InputError
 
@@ -209,7 +217,7 @@ def _refuse_foreign(path: Path, head: str, allowed: str) -> None:
         raise InputError("fecolumn motions", "-o", str(path), allowed)
 
 
-def _make_seeded(args) -> int:
+def _make_seeded(args: argparse.Namespace) -> int:
     from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
     from fecolumn.schema import InputError
 
@@ -230,7 +238,7 @@ def _make_seeded(args) -> int:
     )
 
 
-def _fit(args) -> int:
+def _fit(args: argparse.Namespace) -> int:
     import dataclasses
 
     import fecolumn
@@ -273,7 +281,7 @@ def _fit(args) -> int:
     return 0
 
 
-def _read_target(source: str):
+def _read_target(source: str) -> tuple[Target, Components]:
     from fecolumn.motions.seeded import FOLDER, Components, check_components, check_target
     from fecolumn.motions.target import Target
     from fecolumn.schema import InputError, build, read_toml
@@ -297,7 +305,7 @@ def _read_target(source: str):
     return target, components
 
 
-def _read(source: str, args, **keys):
+def _read(source: str, args: argparse.Namespace, **keys: Any) -> GroundMotion:
     """One motion as recorded."""
     from fecolumn.case import Motion
     from fecolumn.motions.load import read_motion
@@ -311,7 +319,7 @@ def _read(source: str, args, **keys):
     return read_motion(Motion(source, units=args.units, dt_s=args.dt, **keys), "fecolumn motions")
 
 
-def _stored(path):
+def _stored(path: Path | str) -> Ensemble:
     from fecolumn.motions.ensemble_file import read_ensemble
     from fecolumn.motions.record import UnusableRecord
     from fecolumn.schema import InputError
@@ -322,7 +330,7 @@ def _stored(path):
         raise InputError(path, "", None, str(error)) from None
 
 
-def _info(args) -> int:
+def _info(args: argparse.Namespace) -> int:
     from fecolumn.motions.ensemble_file import summary
     from fecolumn.motions.ensemble_report import report
 
@@ -331,7 +339,7 @@ def _info(args) -> int:
     return 0
 
 
-def _plot(args) -> int:
+def _plot(args: argparse.Namespace) -> int:
     from fecolumn.folder import written
     from fecolumn.motions.ensemble_file import summary
     from fecolumn.post.motion_figures import motion_figures
@@ -360,7 +368,7 @@ def _plot(args) -> int:
     return 0
 
 
-def _convert(args) -> int:
+def _convert(args: argparse.Namespace) -> int:
     from fecolumn.folder import written
     from fecolumn.motions.ensemble import Ensemble
     from fecolumn.motions.ensemble_file import members

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 
 # means over recorded pulses (Rupakhety et al. 2011)
@@ -15,7 +17,9 @@ MEAN_GAMMA = 1.83
 
 @dataclass(frozen=True, slots=True)
 class DirectivityPulse:
-    """Cosine under a raised-cosine envelope, centred at t = 0: for |t| <= gamma T_p/2
+    """Velocity of a cosine under a raised-cosine envelope, centred at t = 0.
+
+    For |t| <= gamma T_p/2, and zero elsewhere,
 
         v(t) = A_p/2 [1 + cos(2 pi t/(gamma T_p))] cos(2 pi t/T_p + nu).
 
@@ -44,7 +48,7 @@ class DirectivityPulse:
     phase: float = MEAN_PHASE
     gamma: float = MEAN_GAMMA
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not 0 < self.velocity_amplitude < math.inf:
             raise ValueError(
                 f"peak velocity V_p = {self.velocity_amplitude:g} m/s must be finite "
@@ -75,14 +79,14 @@ class DirectivityPulse:
         )
         return self.velocity_amplitude / -float(best.fun)
 
-    def velocity(self, time) -> np.ndarray:
+    def velocity(self, time: ArrayLike) -> NDArray[Any]:
         """Velocity at any times [m/s]."""
         s = np.asarray(time, dtype=np.float64) / self.period
         return self.envelope_amplitude * np.where(
             np.abs(s) <= self.gamma / 2, self._velocity_shape(s), 0.0
         )
 
-    def acceleration(self, time) -> np.ndarray:
+    def acceleration(self, time: ArrayLike) -> NDArray[Any]:
         """Acceleration at any times [m/s2]."""
         s = np.asarray(time, dtype=np.float64) / self.period
         rate = -sum(
@@ -97,7 +101,7 @@ class DirectivityPulse:
             * np.where(np.abs(s) <= self.gamma / 2, rate, 0.0)
         )
 
-    def displacement(self, time) -> np.ndarray:
+    def displacement(self, time: ArrayLike) -> NDArray[Any]:
         """Displacement at any times, from rest [m]."""
         s = np.clip(
             np.asarray(time, dtype=np.float64) / self.period, -self.gamma / 2, self.gamma / 2
@@ -111,12 +115,14 @@ class DirectivityPulse:
             )
             for weight, ratio in self._tones()
         )
-        return self.envelope_amplitude * self.period / (2 * math.pi) * path
+        result: NDArray[Any] = self.envelope_amplitude * self.period / (2 * math.pi) * path
+        return result
 
-    def _velocity_shape(self, s):
-        return (
+    def _velocity_shape(self, s: NDArray[Any]) -> NDArray[Any]:
+        result: NDArray[Any] = (
             0.5 * (1 + np.cos(2 * math.pi * s / self.gamma)) * np.cos(2 * math.pi * s + self.phase)
         )
+        return result
 
     def _tones(self) -> tuple[tuple[float, float], ...]:
         """Weight and frequency [1/T_p] of the three cosines, of one phase, whose sum the velocity

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.motions.record import GroundMotion
 
@@ -33,10 +35,10 @@ class Ensemble:
 
     name: str
     motions: tuple[GroundMotion, ...]
-    parameters: dict[str, np.ndarray]
-    provenance: dict
+    parameters: dict[str, NDArray[Any]]
+    provenance: dict[str, Any]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not self.motions:
             raise ValueError("an ensemble has at least one motion")
         for name, values in self.parameters.items():

@@ -5,9 +5,12 @@ from __future__ import annotations
 import contextlib
 import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.atomic import write_csv, write_hdf5
 from fecolumn.files import Unreadable
@@ -29,13 +32,13 @@ def file_and_number(source: str) -> tuple[str, str] | None:
     return (found["file"], found["number"]) if found else None
 
 
-def write_ensemble(ensemble: Ensemble, path) -> None:
+def write_ensemble(ensemble: Ensemble, path: Path | str) -> None:
     """Write the ensemble: /motions/0001 ...
 
     (n_steps, 3) [m/s2] with dt_s, name and source, /parameters, provenance as JSON.
     """
 
-    def fill(file):
+    def fill(file: Any) -> None:
         file.attrs["format"] = FORMAT
         file.attrs["name"] = ensemble.name
         file.attrs["provenance"] = json.dumps(ensemble.provenance, sort_keys=True)
@@ -63,7 +66,7 @@ def write_ensemble(ensemble: Ensemble, path) -> None:
     write_hdf5(Path(path), fill, sealed)
 
 
-def read_ensemble(path) -> Ensemble:
+def read_ensemble(path: Path | str) -> Ensemble:
     """Ensemble of a file.
 
     Raises
@@ -88,7 +91,10 @@ def read_member(source: str) -> GroundMotion:
     UnusableRecord
         as read_ensemble; a number that the ensemble does not have.
     """
-    path, number = file_and_number(source)
+    named = file_and_number(source)
+    if named is None:
+        raise UnusableRecord("must name a motion of an ensemble, as in ensemble.h5#12")
+    path, number = named
     with _open(path) as file:
         n = len(file["motions"])
         if not re.fullmatch("[0-9]{1,6}", number) or not 1 <= int(number) <= n:
@@ -113,7 +119,7 @@ def members(source: str) -> list[str]:
         return [f"{found[0]}#{number}" for number in range(1, len(file["motions"]) + 1)]
 
 
-def summary(ensemble: Ensemble) -> dict[str, np.ndarray]:
+def summary(ensemble: Ensemble) -> dict[str, NDArray[Any]]:
     """Columns of numbers, (n,) each: number, dt_s, length_s, horizontal_components, intensity
     measures, parameters.
 
@@ -139,7 +145,7 @@ def summary(ensemble: Ensemble) -> dict[str, np.ndarray]:
     }
 
 
-def write_summary(ensemble: Ensemble, columns: dict[str, np.ndarray], path) -> None:
+def write_summary(ensemble: Ensemble, columns: dict[str, NDArray[Any]], path: Path | str) -> None:
     """Write the columns of `summary` and the motions' names as CSV, one motion a row."""
     write_csv(
         Path(path),
@@ -153,7 +159,7 @@ def write_summary(ensemble: Ensemble, columns: dict[str, np.ndarray], path) -> N
     )
 
 
-def is_ensemble(path) -> bool:
+def is_ensemble(path: Path | str) -> bool:
     """Whether a file is an ensemble of motions."""
     try:
         with _open(path):
@@ -163,7 +169,7 @@ def is_ensemble(path) -> bool:
 
 
 @contextlib.contextmanager
-def _open(path):
+def _open(path: Path | str) -> Iterator[Any]:
     """The ensemble's HDF5 file; whatever is not as it should be is found out while it is open.
 
     Raises
@@ -195,7 +201,7 @@ def _open(path):
         raise UnusableRecord(f"is damaged ({' '.join(str(error).split())})") from None
 
 
-def _motion(stored) -> GroundMotion:
+def _motion(stored: Any) -> GroundMotion:
     shape = stored.shape
     if len(shape) != 2 or shape[1] != 3 or not 2 <= shape[0] <= MOST_SAMPLES:
         raise UnusableRecord(

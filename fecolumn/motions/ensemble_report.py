@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.case import GRAVITY
 from fecolumn.motions.ensemble import Ensemble
@@ -32,7 +35,7 @@ def stored_target(ensemble: Ensemble) -> tuple[Target, float] | None:
     return time_scaled(build(Target, table, ensemble.name, "target."), factor), factor
 
 
-def report(ensemble: Ensemble, columns: dict[str, np.ndarray]) -> str:
+def report(ensemble: Ensemble, columns: dict[str, NDArray[Any]]) -> str:
     """Median, spread and agreement with the target.  columns: of ensemble_file.summary."""
     steps, lengths = np.unique(columns["dt_s"]), columns["length_s"]
     model, seed = ensemble.provenance.get("model", "not stated"), ensemble.provenance.get("seed")
@@ -81,6 +84,6 @@ def measured_along(ensemble: Ensemble, over_both: str = "RotD50") -> str:
     return over_both if not moved & {(0,), (1,)} else f"{over_both}, or the only component"
 
 
-def _range(values) -> str:
+def _range(values: ArrayLike) -> str:
     low, high = float(np.min(values)), float(np.max(values))
     return f"{low:.4g}" if np.isclose(low, high) else f"{low:.4g} to {high:.4g}"

@@ -6,11 +6,12 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import number, read_text, unit_named
+from fecolumn.motions.text import parse_number, read_text, unit_named
 
 _HEADER = re.compile(r"^(?P<key>[A-Z][A-Z0-9_/^.\[\]()-]*):\s*(?P<value>.*)$")
 
@@ -24,7 +25,7 @@ def looks_like_esm(text: str) -> bool:
     )
 
 
-def read_esm(path) -> Recording:
+def read_esm(path: Path | str) -> Recording:
     """Recording of an ESM ASC file, one component; the stream (HNE, HNN, HNZ) is named in its
     source, its axis left to the case.
 
@@ -33,7 +34,8 @@ def read_esm(path) -> Recording:
     UnusableRecord
         header incomplete, not accelerations, values missing, not numbers or not finite.
     """
-    header, values = {}, []
+    header: dict[str, tuple[int, str]] = {}
+    values: list[float] = []
     for row, line in enumerate(read_text(path).splitlines(), 1):
         line = line.strip()
         found = _HEADER.match(line) if not values else None
@@ -71,12 +73,12 @@ def read_esm(path) -> Recording:
     )
 
 
-def _stated(header: dict, key: str) -> float:
+def _stated(header: dict[str, Any], key: str) -> float:
     if key not in header:
         raise UnusableRecord(f"header incomplete: an ESM file states {key}")
     row, text = header[key]
     try:
-        value = number(text)
+        value = parse_number(text)
     except ValueError:
         value = np.nan
     if not 0 < value < np.inf:
@@ -86,7 +88,7 @@ def _stated(header: dict, key: str) -> float:
 
 def _value(word: str, row: int) -> float:
     try:
-        value = number(word)
+        value = parse_number(word)
     except ValueError:
         raise UnusableRecord(f"line {row}: {word[:40]!r} is not a number") from None
     if not np.isfinite(value):

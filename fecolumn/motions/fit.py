@@ -11,8 +11,11 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.stats import gamma
 
@@ -24,9 +27,9 @@ from fecolumn.motions.seeded import (
     Components,
     Fitted,
     SeededModel,
+    ensemble_shape,
     medians,
     seeded_acceleration,
-    shape_of,
 )
 from fecolumn.motions.stochastic import amplitude, high_pass
 from fecolumn.motions.target import SPECTRUM_RANGE_S, Target, figures, measured
@@ -42,7 +45,11 @@ _DAMPING, _CORNER_HZ = 0.135, 0.1
 
 
 def fit(
-    target: Target, components: Components, n: int = 400, iterations: int = 12, report=None
+    target: Target,
+    components: Components,
+    n: int = 400,
+    iterations: int = 12,
+    report: Callable[[str], None] | None = None,
 ) -> SeededModel:
     """Model whose ensembles have the target's figures in the median, with fixed and with drawn
     parameters.
@@ -84,17 +91,24 @@ def fit(
             if misfit < best:
                 best, kept = misfit, current
             improved = _improved(model, variability, error)
-            if (
-                iteration >= iterations // 2
-            ):  # another modulation makes other motions of the same random numbers: the spectrum settles last
+            # another modulation makes other motions of the same random numbers: once it is
+            # kept, the spectrum settles
+            if iteration >= iterations // 2:
                 improved = dataclasses.replace(
                     improved,
                     duration_s=current.duration_s,
                     modulation_shape=current.modulation_shape,
                 )
-            model = dataclasses.replace(model, **{variability: improved})
-        model = dataclasses.replace(model, **{variability: kept})
+            model = _with(model, variability, improved)
+        model = _with(model, variability, kept)
     return model
+
+
+def _with(model: SeededModel, variability: str, fitted: Fitted) -> SeededModel:
+    """The model with other parameters of one variability."""
+    if variability == "fixed":
+        return dataclasses.replace(model, fixed=fitted)
+    return dataclasses.replace(model, drawn=fitted)
 
 
 def components_of_record(motion: GroundMotion) -> tuple[GroundMotion, Components]:
@@ -132,7 +146,7 @@ def components_of_record(motion: GroundMotion) -> tuple[GroundMotion, Components
 
 
 def _crossing_rate(
-    acceleration: np.ndarray, intensity: np.ndarray, dt: float
+    acceleration: NDArray[Any], intensity: NDArray[Any], dt: float
 ) -> tuple[float, float]:
     """Rate of upward zero crossings [Hz] at 45 % of the Arias intensity, and its slope [Hz/s]."""
     first, mid, last = np.searchsorted(intensity, np.array([0.05, 0.45, 0.95]) * intensity[-1])
@@ -145,28 +159,29 @@ def _crossing_rate(
 def _shape_of(ratio: float) -> float:
     """Shape of the gamma law whose 5-75 % duration is `ratio` of its 5-95 % duration."""
 
-    def excess(shape):
+    def excess(shape: float) -> float:
         early, middle, late = gamma.ppf([0.05, 0.75, 0.95], shape)
-        return (middle - early) / (late - early) - ratio
+        result: float = (middle - early) / (late - early) - ratio
+        return result
 
     low, high = (excess(shape) for shape in _SHAPES)
     return float(brentq(excess, *_SHAPES)) if low < 0 < high else _SHAPES[0 if low >= 0 else 1]
 
 
-def _figures(model: SeededModel, variability: str, number: int) -> np.ndarray:
+def _figures(model: SeededModel, variability: str, number: int) -> NDArray[Any]:
     motion = GroundMotion(
         seeded_acceleration(model, variability, _SEED, number), model.components.dt_s, "", ""
     )
     return measured(motion, model.target.periods_s)
 
 
-def _weights(target: Target) -> np.ndarray:
+def _weights(target: Target) -> NDArray[Any]:
     periods = np.array(target.periods_s)
     required = (periods >= SPECTRUM_RANGE_S[0]) & (periods <= SPECTRUM_RANGE_S[1])
     return np.concatenate([np.where(required, 1.0, 0.2), [4.0, 4.0, 4.0, 1.0, 1.0]])
 
 
-def _improved(model: SeededModel, variability: str, error: np.ndarray) -> Fitted:
+def _improved(model: SeededModel, variability: str, error: NDArray[Any]) -> Fitted:
     """Next parameters.  error: (n_periods + 5,) target over median."""
     current = getattr(model, variability)
     weights, wanted = np.sqrt(_weights(model.target))[:-2], np.log(error[:-2])
@@ -192,12 +207,12 @@ def _improved(model: SeededModel, variability: str, error: np.ndarray) -> Fitted
     )
 
 
-def _shares(model: SeededModel, variability: str) -> tuple[np.ndarray, float]:
+def _shares(model: SeededModel, variability: str) -> tuple[NDArray[Any], float]:
     """Share (n_figures, n_frequencies) of the variance of each figure's response around each
     frequency, and the power.
     """
     frequencies = np.geomspace(_RANGE_HZ[0] / 4, 0.45 / model.components.dt_s, 4000)
-    shape = shape_of(model, variability)
+    shape = ensemble_shape(model, variability)
     powers = [
         ratio * amplitude(frequencies, one, shape, one.frequency_hz) ** 2 * frequencies
         for ratio, one in zip(

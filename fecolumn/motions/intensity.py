@@ -7,7 +7,10 @@ along x or y alone.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 
 from fecolumn.motions.processing import arias_intensity, integrate
@@ -24,12 +27,13 @@ def peak_values(motion: GroundMotion) -> tuple[float, float, float]:
     Velocity and displacement are integrated from rest, without baseline correction.
     """
     velocity, displacement = integrate(motion)
-    histories = motion.acceleration, velocity, displacement
-    if len(motion.horizontal_axes) == 1:
-        return tuple(
-            float(np.abs(history[:, motion.horizontal_axes[0]]).max()) for history in histories
-        )
-    return tuple(float(np.median(rotated_peaks(history[:, :2]))) for history in histories)
+
+    def peak(history: NDArray[Any]) -> float:
+        if len(motion.horizontal_axes) == 1:
+            return float(np.abs(history[:, motion.horizontal_axes[0]]).max())
+        return float(np.median(rotated_peaks(history[:, :2])))
+
+    return peak(motion.acceleration), peak(velocity), peak(displacement)
 
 
 def total_arias_intensity(motion: GroundMotion) -> float:

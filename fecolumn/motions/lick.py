@@ -20,12 +20,12 @@ def lick_source(source: str) -> str:
     from fecolumn.lock import alone
     from fecolumn.motions.ensemble_file import write_ensemble
     from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
-    from fecolumn.sealed import fault_of
+    from fecolumn.sealed import hdf5_fault
 
     file = cache_folder() / f"lick-{_recipe()}.h5"
-    if fault_of(file):  # none yet, or damaged
+    if hdf5_fault(file):  # none yet, or damaged
         with alone(file):  # of the processes of a study that start at once, one makes it
-            if fault_of(file):
+            if hdf5_fault(file):
                 write_ensemble(
                     seeded_ensemble(read_model(LICK), COUNT, SEED, "fixed", TIME_SCALE), file
                 )

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case import Motion
 from fecolumn.motions import lick
@@ -41,7 +44,7 @@ _SOURCES = f"a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or
 _LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as many terms
 
 
-def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
+def load_motion(motion: Motion, dt: float, file: Path | str) -> GroundMotion:
     """Ground motion of a case: read, in m/s2, rotated, scaled, compressed, trimmed, resampled,
     joined by lines, delayed, in this order.
 
@@ -102,7 +105,7 @@ def load_motion(motion: Motion, dt: float, file) -> GroundMotion:
         raise InputError(file, key, step, str(error)) from None
 
 
-def unsampled(motion: Motion, file) -> GroundMotion:
+def unsampled(motion: Motion, file: Path | str) -> GroundMotion:
     """As load_motion, at the motion's own step and without delay."""
     ground = rotate(read_motion(motion, file), motion.rotation_deg)
     if not motion.vertical:
@@ -115,12 +118,11 @@ def unsampled(motion: Motion, file) -> GroundMotion:
             f"{motion.source} has no vertical component; name its file as "
             "motion.source_z, or leave this key out",
         )
-    return strong_part(
-        scale_time(scale(ground, motion.scale), motion.time_scale), motion.strong_part
-    )
+    begin, end = motion.strong_part
+    return strong_part(scale_time(scale(ground, motion.scale), motion.time_scale), (begin, end))
 
 
-def read_motion(motion: Motion, file) -> GroundMotion:
+def read_motion(motion: Motion, file: Path | str) -> GroundMotion:
     """Ground motion as recorded, in m/s2, along the axes of the record.
 
     Components in files of their own must have one step. A component up to 1 % shorter than the
@@ -135,11 +137,12 @@ def read_motion(motion: Motion, file) -> GroundMotion:
     keys = [key for key in ("source", "source_y", "source_z") if getattr(motion, key)]
     if not keys:
         raise InputError(file, "motion.source", motion.source, f"must be {_SOURCES}")
-    columns, dt, names, sources = {}, None, [], []
+    columns: dict[str, NDArray[Any]] = {}
+    names, sources, dt = [], [], 0.0
     for key in keys:
         recording = _recording(motion, key, file)
         step = _step(motion, key, recording, file)
-        if dt is not None and not math.isclose(step, dt, rel_tol=_DT_TOLERANCE):
+        if dt and not math.isclose(step, dt, rel_tol=_DT_TOLERANCE):
             raise InputError(
                 file,
                 f"motion.{key}",
@@ -172,7 +175,7 @@ def read_motion(motion: Motion, file) -> GroundMotion:
         raise InputError(file, "motion.source", motion.source, str(error)) from None
 
 
-def _recording(motion: Motion, key: str, file) -> Recording:
+def _recording(motion: Motion, key: str, file: Path | str) -> Recording:
     source = getattr(motion, key)
     try:
         if source.startswith(lick.PREFIX):
@@ -198,7 +201,7 @@ def _recording(motion: Motion, key: str, file) -> Recording:
     return recording
 
 
-def _step(motion: Motion, key: str, recording: Recording, file) -> float:
+def _step(motion: Motion, key: str, recording: Recording, file: Path | str) -> float:
     if recording.dt is None and motion.dt_s == 0:
         raise InputError(
             file,
@@ -220,7 +223,7 @@ def _step(motion: Motion, key: str, recording: Recording, file) -> float:
     return recording.dt or motion.dt_s
 
 
-def _units(motion: Motion, key: str, recording: Recording, file) -> str:
+def _units(motion: Motion, key: str, recording: Recording, file: Path | str) -> str:
     if not (recording.units or motion.units):
         raise InputError(
             file,
@@ -240,7 +243,7 @@ def _units(motion: Motion, key: str, recording: Recording, file) -> str:
 
 
 def _axes(
-    motion: Motion, key: str, recording: Recording, several_files: bool, file
+    motion: Motion, key: str, recording: Recording, several_files: bool, file: Path | str
 ) -> tuple[str, ...]:
     """Axis of each component: the file's own, or that of the key it stands under."""
     axis = {"source": "x", "source_y": "y", "source_z": "z"}[key]

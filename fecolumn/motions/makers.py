@@ -2,6 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fecolumn.motions.ensemble import Ensemble
+
 _SHAPES = (
     "symmetric_ricker",
     "antisymmetric_ricker",
@@ -13,7 +20,11 @@ _SHAPES = (
 )
 
 
-def add_kinds(make, add_output, store) -> None:
+def add_kinds(
+    make: Any,
+    add_output: Callable[[argparse.ArgumentParser], None],
+    store: Callable[[Ensemble, str], int],
+) -> None:
     """Kinds of `fecolumn motions make`.
 
     Parameters
@@ -120,20 +131,23 @@ def add_kinds(make, add_output, store) -> None:
         add_output(parser)
 
 
-def _with(maker, store):
-    def command(args) -> int:
+def _with(
+    maker: Callable[[argparse.Namespace], Ensemble], store: Callable[[Ensemble, str], int]
+) -> Callable[[argparse.Namespace], int]:
+    def command(args: argparse.Namespace) -> int:
         from fecolumn.schema import InputError
 
         try:
             ensemble = maker(args)
         except ValueError as error:
             raise InputError("fecolumn motions make", "", None, str(error)) from None
-        return store(ensemble, args.output)
+        result: int = store(ensemble, args.output)
+        return result
 
     return command
 
 
-def _near_fault(args):
+def _near_fault(args: argparse.Namespace) -> Ensemble:
     from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES, near_fault_ensemble
 
     return near_fault_ensemble(
@@ -146,7 +160,7 @@ def _near_fault(args):
     )
 
 
-def _pulses(args):
+def _pulses(args: argparse.Namespace) -> Ensemble:
     from fecolumn.motions.pulses import pulse_ensemble
 
     return pulse_ensemble(
@@ -160,7 +174,7 @@ def _pulses(args):
     )
 
 
-def _records(args):
+def _records(args: argparse.Namespace) -> Ensemble:
     from fecolumn.motions.record_set import record_set
 
     return record_set(

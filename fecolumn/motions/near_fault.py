@@ -16,9 +16,12 @@ The recipe of the podium study of Bantilas et al.; where it is silent:
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.fft import next_fast_len
 
 import fecolumn
@@ -57,7 +60,7 @@ class Scenario:
     magnitude: float
     distance: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not 4 <= self.magnitude <= 8:
             raise ValueError(f"magnitude = {self.magnitude:g} must lie in [4, 8]")
         if not 0 <= self.distance <= 40:
@@ -77,19 +80,24 @@ class Scenario:
         return min(LOW_CUT, (1 - 1 / pulse.gamma) / pulse.period)
 
 
-def saragoni_hart_window(time, length: float) -> np.ndarray:
+def saragoni_hart_window(time: ArrayLike, length: float) -> NDArray[Any]:
     """Envelope a (t/L)^b exp(-c t/L): 1 at t = 0.2 L, 0.05 at L, 0 before t = 0 (Saragoni and Hart
     1974; Boore 2003).
     """
     eps, eta = _WINDOW_PEAK, _WINDOW_END
     b = -eps * math.log(eta) / (1 + eps * (math.log(eps) - 1))
     relative = np.maximum(np.asarray(time, dtype=np.float64), 0.0) / length
-    return (relative / eps) ** b * np.exp(b * (1 - relative / eps))
+    result: NDArray[Any] = (relative / eps) ** b * np.exp(b * (1 - relative / eps))
+    return result
 
 
 def stochastic_spectra(
-    scenario: Scenario, generators, dt: float, n_steps: int, start: float
-) -> np.ndarray:
+    scenario: Scenario,
+    generators: Iterable[np.random.Generator],
+    dt: float,
+    n_steps: int,
+    start: float,
+) -> NDArray[Any]:
     """Fourier transforms int a exp(-2 pi i f t) dt of windowed noise shaped to Atkinson and Silva's
     amplitude.
 
@@ -115,13 +123,18 @@ def stochastic_spectra(
         np.array([generator.standard_normal(n_steps) for generator in generators]) * window, axis=1
     )
     noise /= np.sqrt((np.abs(noise[:, 1:]) ** 2).mean(axis=1, keepdims=True))
-    return noise * fourier_amplitude(
+    result: NDArray[Any] = noise * fourier_amplitude(
         np.fft.rfftfreq(n_steps, dt), scenario.magnitude, scenario.distance
     )
+    return result
 
 
 def near_fault_motions(
-    scenario: Scenario, generators, dt: float, *, fault_parallel: bool = False
+    scenario: Scenario,
+    generators: Iterable[np.random.Generator],
+    dt: float,
+    *,
+    fault_parallel: bool = False,
 ) -> list[GroundMotion]:
     """One motion for each random generator, the fault-normal component along x.
 
@@ -183,8 +196,8 @@ def near_fault_motions(
 
 
 def near_fault_ensemble(
-    magnitudes=MAGNITUDES,
-    distances=DISTANCES,
+    magnitudes: Sequence[float] = MAGNITUDES,
+    distances: Sequence[float] = DISTANCES,
     count: int = 100,
     *,
     seed: int = 1,
@@ -210,7 +223,7 @@ def near_fault_ensemble(
         keys = [round(1000 * scenario.magnitude), round(1000 * scenario.distance)]
         generators = [np.random.default_rng([seed, *keys, number]) for number in range(count)]
         motions += near_fault_motions(scenario, generators, dt, fault_parallel=fault_parallel)
-    columns = {
+    columns: dict[str, Callable[[Scenario], float]] = {
         "magnitude": lambda s: s.magnitude,
         "distance_km": lambda s: s.distance,
         "pulse_period_s": lambda s: s.pulse.period,
@@ -241,8 +254,12 @@ def near_fault_ensemble(
     )
 
 
-def _back(spectra: np.ndarray, lowered, low_cut: float, dt: float) -> np.ndarray:
-    """Accelerations of lowered spectra, filtered, starting and ending at rest without displacement."""
+def _back(
+    spectra: NDArray[Any], lowered: float | NDArray[Any], low_cut: float, dt: float
+) -> NDArray[Any]:
+    """Accelerations of lowered spectra, filtered, starting and ending at rest without
+    displacement.
+    """
     n_steps = 2 * (spectra.shape[1] - 1)
     omega = 2 * math.pi * np.fft.rfftfreq(n_steps, dt)
     amplitude = np.abs(spectra)
@@ -264,4 +281,7 @@ def _back(spectra: np.ndarray, lowered, low_cut: float, dt: float) -> np.ndarray
     window = rise * rise[::-1]
     window_rate = (slope - slope[::-1]) / (margin * dt)
     window_bend = (bend + bend[::-1]) / (margin * dt) ** 2
-    return window * acceleration + 2 * window_rate * velocity + window_bend * displacement
+    result: NDArray[Any] = (
+        window * acceleration + 2 * window_rate * velocity + window_bend * displacement
+    )
+    return result

@@ -6,8 +6,10 @@ import dataclasses
 import math
 import warnings
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 from scipy.signal import butter, firwin, resample_poly, sosfiltfilt
 
@@ -55,7 +57,7 @@ def scale_time(motion: GroundMotion, factor: float) -> GroundMotion:
     return dataclasses.replace(motion, dt=motion.dt * factor)
 
 
-def integrate(motion: GroundMotion) -> tuple[np.ndarray, np.ndarray]:
+def integrate(motion: GroundMotion) -> tuple[NDArray[Any], NDArray[Any]]:
     """Velocity [m/s] and displacement [m] from rest, (n_steps, 3) each, by the trapezoidal rule; no
     baseline correction.
     """
@@ -173,15 +175,16 @@ def band_pass(
     return dataclasses.replace(motion, acceleration=acceleration)
 
 
-def arias_intensity(motion: GroundMotion) -> np.ndarray:
+def arias_intensity(motion: GroundMotion) -> NDArray[Any]:
     """Intensity pi/(2 g) int a^2 dt up to each sample (n_steps, 3) [m/s], by the trapezoidal rule
     (Arias 1970).
     """
-    return (
+    result: NDArray[Any] = (
         math.pi
         / (2 * GRAVITY)
         * cumulative_trapezoid(motion.acceleration**2, dx=motion.dt, axis=0, initial=0.0)
     )
+    return result
 
 
 def strong_part(motion: GroundMotion, fractions: tuple[float, float]) -> GroundMotion:
@@ -216,9 +219,10 @@ def strong_part(motion: GroundMotion, fractions: tuple[float, float]) -> GroundM
     )
 
 
-def _half_cosine(n_steps: int) -> np.ndarray:
+def _half_cosine(n_steps: int) -> NDArray[Any]:
     """Values of a rise from 0 to 1, neither included."""
-    return 0.5 * (1 - np.cos(math.pi * np.arange(1, n_steps + 1) / (n_steps + 1)))
+    result: NDArray[Any] = 0.5 * (1 - np.cos(math.pi * np.arange(1, n_steps + 1) / (n_steps + 1)))
+    return result
 
 
 def energy_above(motion: GroundMotion, frequency: float) -> float:
@@ -337,13 +341,12 @@ def delay(motion: GroundMotion, seconds: float) -> GroundMotion:
         slope = (acceleration[-1] - acceleration[0]) / (n_steps - 1)
         line = acceleration[0] + slope * np.arange(n_steps)[:, None]
         length = 2 * n_steps  # zeros, so that the end does not come round to the start
-        turn = np.exp(-2j * math.pi * np.fft.rfftfreq(length) * fraction)[:, None]
+        turn = np.exp(-2j * math.pi * np.fft.rfftfreq(length, 1.0) * fraction)[:, None]
         moved = np.fft.irfft(
             np.fft.rfft(acceleration - line, length, axis=0) * turn, length, axis=0
         )[: n_steps + 1]
-        moved[1:n_steps] += (
-            line[1:] - fraction * slope
-        )  # rest before the first sample and after the last
+        # rest before the first sample and after the last
+        moved[1:n_steps] += line[1:] - fraction * slope
         acceleration = moved
     return dataclasses.replace(motion, acceleration=np.pad(acceleration, ((int(whole), 0), (0, 0))))
 

@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 import fecolumn
@@ -24,7 +26,7 @@ ANTISYMMETRIC_PEAK = (
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class PulseShape:
     """A pulse of unit amplitude in dimensionless time s = t/T_p.
 
     Attributes
@@ -40,9 +42,9 @@ class Shape:
 
     start: Callable[[int], float]
     end: Callable[[int], float]
-    acceleration: Callable
-    velocity: Callable
-    displacement: Callable
+    acceleration: Callable[..., Any]
+    velocity: Callable[..., Any]
+    displacement: Callable[..., Any]
     source: str
 
 
@@ -86,7 +88,7 @@ class Pulse:
     period: float
     cycles: int = 1
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.shape not in SHAPES:
             raise ValueError(f"shape = {self.shape!r} must be one of {', '.join(SHAPES)}")
         if not math.isfinite(self.amplitude) or self.amplitude == 0:
@@ -122,13 +124,13 @@ class Pulse:
         """Velocity the ground keeps after the pulse [m/s]."""
         return float(self.velocity(self.end))
 
-    def acceleration(self, time) -> np.ndarray:
+    def acceleration(self, time: ArrayLike) -> NDArray[Any]:
         """Acceleration at any times [m/s2]."""
         shape, s = SHAPES[self.shape], np.asarray(time, dtype=np.float64) / self.period
         inside = (s >= shape.start(self.cycles)) & (s <= shape.end(self.cycles))
         return self.amplitude * np.where(inside, shape.acceleration(s, self.cycles), 0.0)
 
-    def velocity(self, time) -> np.ndarray:
+    def velocity(self, time: ArrayLike) -> NDArray[Any]:
         """Velocity at any times, from rest [m/s]."""
         shape = SHAPES[self.shape]
         s = np.clip(
@@ -136,17 +138,19 @@ class Pulse:
             shape.start(self.cycles),
             shape.end(self.cycles),
         )
-        return self.amplitude * self.period * shape.velocity(s, self.cycles)
+        result: NDArray[Any] = self.amplitude * self.period * shape.velocity(s, self.cycles)
+        return result
 
-    def displacement(self, time) -> np.ndarray:
+    def displacement(self, time: ArrayLike) -> NDArray[Any]:
         """Displacement at any times, from rest [m]."""
         shape, time = SHAPES[self.shape], np.asarray(time, dtype=np.float64)
         s = np.clip(time / self.period, shape.start(self.cycles), shape.end(self.cycles))
         after = np.maximum(time - self.end, 0.0)
-        return (
+        result: NDArray[Any] = (
             self.amplitude * self.period**2 * shape.displacement(s, self.cycles)
             + self.residual_velocity * after
         )
+        return result
 
 
 def type_c_phase(cycles: int) -> float:
@@ -156,7 +160,10 @@ def type_c_phase(cycles: int) -> float:
     0.0697 pi for n = 1, 0.0410 pi for n = 2 (Makris and Roussos 2000).
     """
     half = (2 * cycles + 1) * math.pi / 2
-    return brentq(lambda phi: (half - phi) * math.sin(phi) - math.cos(phi), 0.0, 0.5, xtol=1e-15)
+    result: float = brentq(
+        lambda phi: (half - phi) * math.sin(phi) - math.cos(phi), 0.0, 0.5, xtol=1e-15
+    )
+    return result
 
 
 def sample(pulse: Pulse, dt: float, lead: float = 0.0, tail: float = 0.0) -> GroundMotion:
@@ -205,8 +212,8 @@ def sample(pulse: Pulse, dt: float, lead: float = 0.0, tail: float = 0.0) -> Gro
 
 def pulse_ensemble(
     shape: str,
-    amplitudes,
-    periods,
+    amplitudes: Sequence[float],
+    periods: Sequence[float],
     dt: float,
     *,
     cycles: int = 1,
@@ -251,40 +258,47 @@ def _at(value: float) -> Callable[[int], float]:
     return lambda cycles: value
 
 
-def _gaussian(s) -> np.ndarray:
-    return np.exp(-((math.pi * s) ** 2))
+def _gaussian(s: NDArray[Any]) -> NDArray[Any]:
+    result: NDArray[Any] = np.exp(-((math.pi * s) ** 2))
+    return result
 
 
-def _antisymmetric(s) -> tuple[np.ndarray, np.ndarray]:
+def _antisymmetric(s: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Argument x of the wavelet and exp(-x^2/2)."""
     x = 2 * math.pi / SQRT3 * s
     return x, np.exp(-(x**2) / 2)
 
 
-def _antisymmetric_acceleration(s, n):
+def _antisymmetric_acceleration(s: NDArray[Any], n: int) -> NDArray[Any]:
     x, bell = _antisymmetric(s)
-    return (x**3 - 3 * x) * bell / ANTISYMMETRIC_PEAK
+    result: NDArray[Any] = (x**3 - 3 * x) * bell / ANTISYMMETRIC_PEAK
+    return result
 
 
-def _antisymmetric_velocity(s, n):
+def _antisymmetric_velocity(s: NDArray[Any], n: int) -> NDArray[Any]:
     x, bell = _antisymmetric(s)
-    return -(x**2 - 1) * bell / ANTISYMMETRIC_PEAK * SQRT3 / (2 * math.pi)
+    result: NDArray[Any] = -(x**2 - 1) * bell / ANTISYMMETRIC_PEAK * SQRT3 / (2 * math.pi)
+    return result
 
 
-def _antisymmetric_displacement(s, n):
+def _antisymmetric_displacement(s: NDArray[Any], n: int) -> NDArray[Any]:
     x, bell = _antisymmetric(s)
-    return x * bell / ANTISYMMETRIC_PEAK * 3 / (4 * math.pi**2)
+    result: NDArray[Any] = x * bell / ANTISYMMETRIC_PEAK * 3 / (4 * math.pi**2)
+    return result
 
 
-def _type_c_displacement(s, n):
+def _type_c_displacement(s: NDArray[Any], n: int) -> NDArray[Any]:
     phase, turn = type_c_phase(n), 2 * math.pi * s
-    return (math.cos(phase) - np.cos(turn + phase) - turn * math.sin(phase)) / (4 * math.pi**2)
+    result: NDArray[Any] = (math.cos(phase) - np.cos(turn + phase) - turn * math.sin(phase)) / (
+        4 * math.pi**2
+    )
+    return result
 
 
 _TURN = 2 * math.pi
 _RICKER = "Ricker (1943) wavelet as in Vassiliou and Makris (2011)"
 _CYCLOID = "cycloidal pulse of Makris and Roussos (2000)"
-_ONE_SINE = Shape(
+_ONE_SINE = PulseShape(
     _at(0.0),
     _at(1.0),
     lambda s, n: np.sin(_TURN * s),
@@ -293,7 +307,7 @@ _ONE_SINE = Shape(
     _CYCLOID,
 )
 SHAPES = {
-    "symmetric_ricker": Shape(
+    "symmetric_ricker": PulseShape(
         _at(-1.6),
         _at(1.6),
         lambda s, n: (1 - 2 * (math.pi * s) ** 2) * _gaussian(s),
@@ -301,7 +315,7 @@ SHAPES = {
         lambda s, n: -_gaussian(s) / (2 * math.pi**2),
         _RICKER,
     ),
-    "antisymmetric_ricker": Shape(
+    "antisymmetric_ricker": PulseShape(
         _at(-2.0),
         _at(2.0),
         _antisymmetric_acceleration,
@@ -310,7 +324,7 @@ SHAPES = {
         _RICKER,
     ),
     "one_sine": _ONE_SINE,
-    "one_cosine": Shape(
+    "one_cosine": PulseShape(
         _at(0.0),
         _at(1.0),
         lambda s, n: np.cos(_TURN * s),
@@ -318,7 +332,7 @@ SHAPES = {
         lambda s, n: (1 - np.cos(_TURN * s)) / _TURN**2,
         _CYCLOID,
     ),
-    "type_c": Shape(
+    "type_c": PulseShape(
         _at(0.0),
         lambda n: n + 0.5 - type_c_phase(n) / math.pi,
         lambda s, n: np.cos(_TURN * s + type_c_phase(n)),
@@ -327,7 +341,7 @@ SHAPES = {
         _CYCLOID,
     ),
     "half_sine": dataclasses.replace(_ONE_SINE, end=_at(0.5), source="pulse of Housner (1963)"),
-    "rectangular": Shape(
+    "rectangular": PulseShape(
         _at(0.0),
         _at(1.0),
         lambda s, n: np.ones_like(s),

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case import GRAVITY
 
@@ -35,12 +37,12 @@ class GroundMotion:
         where the motion comes from, to be cited.
     """
 
-    acceleration: np.ndarray
+    acceleration: NDArray[Any]
     dt: float
     name: str
     source: str
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         acceleration = np.array(self.acceleration, dtype=np.float64, order="C")
         if acceleration.ndim != 2 or acceleration.shape[1] != 3 or len(acceleration) < 2:
             raise ValueError(f"acceleration must be (n_steps >= 2, 3), not {acceleration.shape}")
@@ -60,9 +62,10 @@ class GroundMotion:
         return tuple(axis for axis in (0, 1) if self.acceleration[:, axis].any())
 
     @property
-    def pga(self) -> np.ndarray:
+    def pga(self) -> NDArray[Any]:
         """Peak absolute acceleration (3,) [m/s2]."""
-        return np.abs(self.acceleration).max(axis=0)
+        result: NDArray[Any] = np.abs(self.acceleration).max(axis=0)
+        return result
 
 
 def sound(motion: GroundMotion) -> GroundMotion:
@@ -112,7 +115,7 @@ class Recording:
         what the file says about its origin.
     """
 
-    values: np.ndarray
+    values: NDArray[Any]
     axes: tuple[str, ...]
     dt: float | None
     units: str

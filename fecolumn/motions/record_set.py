@@ -119,4 +119,4 @@ def _motion(entry: Entry) -> GroundMotion:
     recording = read_fema_p695(entry.name)
     acceleration = np.zeros((len(recording.values), 3))
     acceleration[:, :2] = GRAVITY * recording.values
-    return GroundMotion(acceleration, recording.dt, entry.name, recording.source)
+    return GroundMotion(acceleration, entry.dt, entry.name, recording.source)

@@ -6,15 +6,17 @@ import dataclasses
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 import fecolumn
 from fecolumn.atomic import write_bytes
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.processing import scale_time
 from fecolumn.motions.record import GroundMotion
-from fecolumn.motions.stochastic import Component, Shape, bidirectional
+from fecolumn.motions.stochastic import Component, EnsembleShape, bidirectional
 from fecolumn.motions.target import Target
 from fecolumn.motions.variability import drawn
 from fecolumn.schema import InputError, build, parameter, read_toml
@@ -82,7 +84,7 @@ class SeededModel:
     made_by: str = parameter("", doc="command and version that fitted the parameters")
 
 
-def read_model(path) -> SeededModel:
+def read_model(path: Path | str) -> SeededModel:
     """Model of a parameter file.
 
     Raises
@@ -105,10 +107,12 @@ def read_model(path) -> SeededModel:
                 None,
                 f"must hold one number for each of {len(model.frequencies_hz)} frequencies_hz",
             )
-    return model
+    result: SeededModel = model
+    return result
 
 
-def check_components(components: Components, path) -> None:
+def check_components(components: Components, path: Path | str) -> None:
+    """Refuse component tables that lack one value for each of the two directions."""
     for field in ("arias_ratio", "frequency_hz", "frequency_slope_hz_s", "damping"):
         if len(getattr(components, field)) != 2:
             raise InputError(
@@ -119,7 +123,8 @@ def check_components(components: Components, path) -> None:
             )
 
 
-def check_target(target: Target, path) -> None:
+def check_target(target: Target, path: Path | str) -> None:
+    """Refuse a target spectrum whose ordinates are not one for each period."""
     if len(target.periods_s) != len(target.sa_g):
         raise InputError(
             path,
@@ -135,7 +140,7 @@ def check_target(target: Target, path) -> None:
 MODEL_HEAD = "# Stochastic model of ground motion fitted to a seed motion"
 
 
-def write_model(model: SeededModel, path) -> None:
+def write_model(model: SeededModel, path: Path | str) -> None:
     """Write a parameter file that read_model reads."""
     tables = dataclasses.asdict(model)
     lines = [f"{MODEL_HEAD}; see fecolumn/motions/stochastic.py for the equations."]
@@ -146,7 +151,7 @@ def write_model(model: SeededModel, path) -> None:
     write_bytes(Path(path), ("\n".join(lines) + "\n").encode())
 
 
-def _line(key: str, value) -> str:
+def _line(key: str, value: Any) -> str:
     if isinstance(value, str):
         return f"{key} = {json.dumps(value, ensure_ascii=False)}"
     if not isinstance(value, tuple):
@@ -160,7 +165,7 @@ def _line(key: str, value) -> str:
 
 def medians(components: Components, fitted: Fitted) -> tuple[Component, Component]:
     """Median parameters of x and y."""
-    return tuple(
+    x, y = (
         Component(ratio * fitted.arias_m_s, fitted.duration_s, frequency, slope, damping)
         for ratio, frequency, slope, damping in zip(
             components.arias_ratio,
@@ -169,12 +174,13 @@ def medians(components: Components, fitted: Fitted) -> tuple[Component, Componen
             components.damping,
         )
     )
+    return x, y
 
 
-def shape_of(model: SeededModel, variability: str) -> Shape:
+def ensemble_shape(model: SeededModel, variability: str) -> EnsembleShape:
     """What all motions share."""
     fitted = getattr(model, variability)
-    return Shape(
+    return EnsembleShape(
         fitted.modulation_shape,
         model.components.corner_hz,
         np.array(model.frequencies_hz),
@@ -193,13 +199,15 @@ def parameters(
     return middle if variability == "fixed" else drawn(middle, seed, number)
 
 
-def seeded_acceleration(model: SeededModel, variability: str, seed: int, number: int) -> np.ndarray:
+def seeded_acceleration(
+    model: SeededModel, variability: str, seed: int, number: int
+) -> NDArray[Any]:
     """Acceleration (n_steps, 3) [m/s2] of motion `number` (from 0) at full scale; it depends on no
     other motion.
     """
     rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(number,))))
     horizontal = bidirectional(
-        parameters(model, variability, seed, number), shape_of(model, variability), rng
+        parameters(model, variability, seed, number), ensemble_shape(model, variability), rng
     )
     return np.column_stack([horizontal, np.zeros(len(horizontal))])
 

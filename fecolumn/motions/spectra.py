@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 import numba
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.motions.record import GroundMotion
 
@@ -15,8 +18,11 @@ _SIGHTS = 8
 
 
 def rotd_spectrum(
-    motion: GroundMotion, periods, damping: float = 0.05, percentiles=(50.0, 100.0)
-) -> np.ndarray:
+    motion: GroundMotion,
+    periods: ArrayLike,
+    damping: float = 0.05,
+    percentiles: Sequence[float] = (50.0, 100.0),
+) -> NDArray[Any]:
     """Pseudo-acceleration of the horizontal motion, as a percentile over all directions (Boore
     2010).
 
@@ -39,21 +45,31 @@ def rotd_spectrum(
     -------
     (n_percentiles, n_periods) [m/s2].
     """
-    return np.percentile(_peaks_over_directions(motion, periods, damping), percentiles, axis=0)
+    result: NDArray[Any] = np.percentile(
+        _peaks_over_directions(motion, periods, damping), percentiles, axis=0
+    )
+    return result
 
 
-def horizontal_spectrum(motion: GroundMotion, periods, damping: float = 0.05) -> np.ndarray:
+def horizontal_spectrum(
+    motion: GroundMotion, periods: ArrayLike, damping: float = 0.05
+) -> NDArray[Any]:
     """Pseudo-acceleration (n_periods,) [m/s2]: RotD50, or the spectrum of the only component of a
     motion along x or y alone.
 
     RotD50 of one component would be cos 45 degrees of it. Arguments as in rotd_spectrum.
     """
     if len(motion.horizontal_axes) == 1:
-        return component_spectra(motion, periods, damping)[motion.horizontal_axes[0]]
-    return rotd_spectrum(motion, periods, damping, (50.0,))[0]
+        spectra, row = component_spectra(motion, periods, damping), motion.horizontal_axes[0]
+    else:
+        spectra, row = rotd_spectrum(motion, periods, damping, (50.0,)), 0
+    result: NDArray[Any] = spectra[row]
+    return result
 
 
-def component_spectra(motion: GroundMotion, periods, damping: float = 0.05) -> np.ndarray:
+def component_spectra(
+    motion: GroundMotion, periods: ArrayLike, damping: float = 0.05
+) -> NDArray[Any]:
     """Pseudo-acceleration along x, y and z, (3, n_periods) [m/s2]; oscillator and arguments as in
     rotd_spectrum.
     """
@@ -69,7 +85,7 @@ def component_spectra(motion: GroundMotion, periods, damping: float = 0.05) -> n
     )
 
 
-def rotated_peaks(history: np.ndarray) -> np.ndarray:
+def rotated_peaks(history: NDArray[Any]) -> NDArray[Any]:
     """Peak absolute value of a horizontal history (n_steps, 2) along each of 180 directions, a
     degree apart, from x towards y.
     """
@@ -79,7 +95,7 @@ def rotated_peaks(history: np.ndarray) -> np.ndarray:
     return peaks
 
 
-def _oscillators(periods, damping: float) -> tuple[np.ndarray, float]:
+def _oscillators(periods: ArrayLike, damping: float) -> tuple[NDArray[Any], float]:
     periods = np.atleast_1d(np.asarray(periods, dtype=np.float64))
     if not (periods > 0).all():
         raise ValueError(f"natural periods must be greater than 0 s, not {periods.min():g} s")
@@ -88,14 +104,19 @@ def _oscillators(periods, damping: float) -> tuple[np.ndarray, float]:
     return periods, float(damping)
 
 
-def _peaks_over_directions(motion: GroundMotion, periods, damping: float) -> np.ndarray:
-    return _peaks(
+def _peaks_over_directions(
+    motion: GroundMotion, periods: ArrayLike, damping: float
+) -> NDArray[Any]:
+    result: NDArray[Any] = _peaks(
         np.ascontiguousarray(motion.acceleration[:, :2]), motion.dt, *_oscillators(periods, damping)
     )
+    return result
 
 
 @numba.njit(cache=True)
-def _peaks(acceleration, dt, periods, damping):
+def _peaks(
+    acceleration: NDArray[Any], dt: float, periods: NDArray[Any], damping: float
+) -> NDArray[Any]:
     """Peak pseudo-acceleration (180, n_periods) of the horizontal acceleration (n_steps, 2)."""
     result = np.empty((N_ANGLES, len(periods)))
     directions = np.empty(N_ANGLES)
@@ -112,7 +133,15 @@ def _peaks(acceleration, dt, periods, damping):
 
 
 @numba.njit(cache=True)
-def _oscillate(acceleration, pieces, step, omega, damping, ux, uy):
+def _oscillate(
+    acceleration: NDArray[Any],
+    pieces: int,
+    step: float,
+    omega: float,
+    damping: float,
+    ux: NDArray[Any],
+    uy: NDArray[Any],
+) -> None:
     """Relative displacements of two equal oscillators from rest, after Nigam and Jennings (1969),
     equation 2.7.
     """
@@ -161,7 +190,9 @@ def _oscillate(acceleration, pieces, step, omega, damping, ux, uy):
 
 
 @numba.njit(cache=True)
-def _directional_peaks(x, y, n_states, peaks):
+def _directional_peaks(
+    x: NDArray[Any], y: NDArray[Any], n_states: int, peaks: NDArray[Any]
+) -> None:
     """Peaks (180,) of |x cos + y sin|.
 
     Peaks along eight sights bound the peaks along all directions from below; states nearer to rest

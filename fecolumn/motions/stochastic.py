@@ -4,8 +4,10 @@ process made of harmonics.
 Model of Rezaeian and Der Kiureghian (2008, 2010) in its spectral form (after Broccardo and Dabaghi
 2017). One component is
 
-    a(t) = q(t)/s(t) sum_k sqrt(2 S(w_k, t) dw) (u_k cos w_k t + v_k sin w_k t),   u_k, v_k ~ N(0, 1),   s^2 = sum_k 2 S dw,
-    S(w, t) = |H_f(w; t)|^2 G(w),   H_f = w_f^2 / (w_f^2 - w^2 + 2 i z w_f w),   w_f(t) = w_mid + w' (t - t_mid),
+    a(t) = q(t)/s(t) sum_k sqrt(2 S(w_k, t) dw) (u_k cos w_k t + v_k sin w_k t),
+    u_k, v_k ~ N(0, 1),   s^2 = sum_k 2 S dw,
+    S(w, t) = |H_f(w; t)|^2 G(w),   H_f = w_f^2 / (w_f^2 - w^2 + 2 i z w_f w),
+    w_f(t) = w_mid + w' (t - t_mid),
     q(t)^2 = Ia 2 g/pi p(t),   p the density of a gamma law in time.
 
 The product goes through a high-pass without phase shift, Butterworth's of fourth order (Dabaghi and
@@ -22,9 +24,12 @@ joined by straight lines, so that a component costs one Fourier transform a knot
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import cumulative_trapezoid
 from scipy.stats import gamma
 
@@ -62,7 +67,7 @@ class Component:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shape:
+class EnsembleShape:
     """What all motions of an ensemble share.
 
     Attributes
@@ -81,18 +86,21 @@ class Shape:
 
     modulation_shape: float
     corner_hz: float
-    frequencies_hz: np.ndarray
-    ln_gains: np.ndarray
+    frequencies_hz: NDArray[Any]
+    ln_gains: NDArray[Any]
     dt: float
 
 
 def modulation_scale(shape: float, duration_s: float) -> float:
     """Scale [s] of the gamma law with `duration_s` between its 5 % and 95 % quantiles; 1/(2 a3)."""
     early, late = gamma.ppf([0.05, 0.95], shape)
-    return duration_s / (late - early)
+    result: float = duration_s / (late - early)
+    return result
 
 
-def bidirectional(components, shape: Shape, rng: np.random.Generator) -> np.ndarray:
+def bidirectional(
+    components: Sequence[Component], shape: EnsembleShape, rng: np.random.Generator
+) -> NDArray[Any]:
     """Accelerations (n_steps, n_components) [m/s2]; velocity and displacement by the trapezoidal
     rule start and end at zero.
 
@@ -119,23 +127,26 @@ def bidirectional(components, shape: Shape, rng: np.random.Generator) -> np.ndar
     )
 
 
-def amplitude(frequencies, component: Component, shape: Shape, filter_hz: float) -> np.ndarray:
+def amplitude(
+    frequencies: ArrayLike, component: Component, shape: EnsembleShape, filter_hz: float
+) -> NDArray[Any]:
     """sqrt(S) at frequencies [Hz] for a filter frequency [Hz], up to a constant factor."""
     ratio = np.asarray(frequencies) / filter_hz
     peak = 1 / np.sqrt((1 - ratio**2) ** 2 + (2 * component.damping * ratio) ** 2)
     correction = np.interp(np.log(frequencies), np.log(shape.frequencies_hz), shape.ln_gains)
-    return peak * np.exp(correction)
+    result: NDArray[Any] = peak * np.exp(correction)
+    return result
 
 
 def _component(
     component: Component,
     start: float,
     scale: float,
-    shape: Shape,
+    shape: EnsembleShape,
     n_steps: int,
     n_harmonics: int,
-    phase: np.ndarray,
-) -> np.ndarray:
+    phase: NDArray[Any],
+) -> NDArray[Any]:
     time = np.arange(n_steps) * shape.dt
     modulation = np.sqrt(
         2
@@ -168,15 +179,16 @@ def _component(
     moved = np.fft.irfft(np.fft.rfft(process * modulation, n_harmonics) * passed, n_harmonics)[
         :n_steps
     ]
-    return at_rest(moved, shape.dt)
+    return brought_to_rest(moved, shape.dt)
 
 
-def high_pass(frequencies, corner_hz: float) -> np.ndarray:
+def high_pass(frequencies: ArrayLike, corner_hz: float) -> NDArray[Any]:
     """Amplitude of Butterworth's high-pass of fourth order at frequencies [Hz]."""
-    return 1 / np.sqrt(1 + (corner_hz / np.asarray(frequencies)) ** 8)
+    result: NDArray[Any] = 1 / np.sqrt(1 + (corner_hz / np.asarray(frequencies)) ** 8)
+    return result
 
 
-def at_rest(acceleration: np.ndarray, dt: float) -> np.ndarray:
+def brought_to_rest(acceleration: NDArray[Any], dt: float) -> NDArray[Any]:
     """Acceleration (n_steps,) corrected so that its velocity and displacement (trapezoidal rule)
     end at zero.
 
@@ -188,10 +200,13 @@ def at_rest(acceleration: np.ndarray, dt: float) -> np.ndarray:
     window = (1 - place**2) ** 2
     slow = np.column_stack([window, window * place])
     ends = _ends(slow, dt)
-    return acceleration - slow @ np.linalg.solve(ends, _ends(acceleration[:, None], dt))[:, 0]
+    result: NDArray[Any] = (
+        acceleration - slow @ np.linalg.solve(ends, _ends(acceleration[:, None], dt))[:, 0]
+    )
+    return result
 
 
-def _ends(acceleration: np.ndarray, dt: float) -> np.ndarray:
+def _ends(acceleration: NDArray[Any], dt: float) -> NDArray[Any]:
     """Final velocity and displacement (2, n) of accelerations (n_steps, n)."""
     velocity = cumulative_trapezoid(acceleration, dx=dt, axis=0, initial=0)
     displacement = cumulative_trapezoid(velocity, dx=dt, axis=0)

@@ -5,9 +5,12 @@ seeds it.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.case import GRAVITY
 from fecolumn.motions.intensity import peak_values, significant_duration
@@ -54,10 +57,11 @@ class Agreement:
 
     @property
     def within(self) -> bool:
+        """Whether the median differs from the target by no more than the tolerance."""
         return abs(self.median / self.target - 1) <= self.tolerance
 
 
-def measured(motion: GroundMotion, periods) -> np.ndarray:
+def measured(motion: GroundMotion, periods: ArrayLike) -> NDArray[Any]:
     """Spectrum [m/s2] at the periods, then PGA [m/s2], PGV [m/s], PGD [m], Ds5-75 and Ds5-95 [s]:
     (n_periods + 5,).
     """
@@ -65,7 +69,7 @@ def measured(motion: GroundMotion, periods) -> np.ndarray:
     return np.concatenate([horizontal_spectrum(motion, periods), peak_values(motion), durations])
 
 
-def figures(target: Target) -> np.ndarray:
+def figures(target: Target) -> NDArray[Any]:
     """The target's figures in the order and units of `measured`."""
     return np.concatenate(
         [
@@ -110,7 +114,9 @@ def time_scaled(target: Target, factor: float) -> Target:
     )
 
 
-def agreement(motions, target: Target, time_scale: float = 1.0) -> list[Agreement]:
+def agreement(
+    motions: Iterable[GroundMotion], target: Target, time_scale: float = 1.0
+) -> list[Agreement]:
     """Medians over motions beside the target's figures: PGA, PGV, PGD, durations, and the ordinates
     from 0.05 to 3 s at full scale.
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.files import Unreadable, read_bytes
 from fecolumn.motions.record import UnusableRecord
@@ -21,7 +24,7 @@ _LATEST_S, _RESOLVED = 1e13, 1e-4
 _UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
 
 
-def read_text(path) -> str:
+def read_text(path: Path | str) -> str:
     """Text of a file in UTF-8, or else Latin-1 as in older headers; without byte order mark.
 
     Raises
@@ -45,7 +48,7 @@ def read_text(path) -> str:
     return text
 
 
-def number(word: str) -> float:
+def parse_number(word: str) -> float:
     """Value of a number such as `-.1234E-02` or `.1D+01`.
 
     Raises
@@ -67,7 +70,7 @@ def unit_named(text: str) -> str:
     return _UNITS.get(word.replace("sec", "s"), "")
 
 
-def uniform_step(time: np.ndarray, lines: list[int], dt_s: float) -> float:
+def uniform_step(time: NDArray[Any], lines: list[int], dt_s: float) -> float:
     """Sampling step of a column of times [s].
 
     No sample may lie further than a twentieth of a step from an even grid. Times rounded more

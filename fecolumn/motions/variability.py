@@ -65,7 +65,7 @@ def drawn(
     ).random(len(_PRIMES))
     place = np.clip((shift + (number + 1) * np.sqrt(_PRIMES)) % 1.0, _EDGE, 1 - _EDGE)
     scores = (_DEVIATIONS * (np.linalg.cholesky(_CORRELATIONS) @ ndtri(place))).reshape(2, 5)
-    return tuple(
+    x, y = (
         Component(
             arias_m_s=median.arias_m_s * math.exp(arias),
             duration_s=median.duration_s * math.exp(duration),
@@ -75,6 +75,7 @@ def drawn(
         )
         for median, (arias, duration, frequency, slope, damping) in zip(medians, scores)
     )
+    return x, y
 
 
 def slope_of(score: float) -> float:

@@ -1,0 +1,1 @@
+"""Figures of results, and the fields of a body at chosen times."""

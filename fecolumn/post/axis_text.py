@@ -5,8 +5,9 @@ from __future__ import annotations
 import dataclasses
 import typing
 
-from fecolumn.case import Cap, Case, Flange
+from fecolumn.case import Cap, Flange
 from fecolumn.rocking.model import TABLES, model_class
+from fecolumn.short_form import ShortForm
 from fecolumn.structures.case import NAMED
 from fecolumn.structures.keys import KINDS
 
@@ -17,14 +18,15 @@ _SYMBOLS = {
     "material.youngs_modulus_pa": "$E$",
 }
 _NAMED = ("base", "cap")  # parts whose keys other parts have, too
+# of keys that are no words for their values
 _WORDS = {
     "podium.impact": "law of impact",
     "podium.storeys": "number of storeys",
-}  # of keys that are no words for their values
+}
 
 
 def axis_text(key: str, value) -> str:
-    """Text such as "$\\Delta t$ = 0.001 s" for the dotted key `integration.dt_s`."""
+    r"""Text such as "$\Delta t$ = 0.001 s" for the dotted key `integration.dt_s`."""
     if isinstance(value, dict):
         return ", ".join(axis_text(f"{key}.{inner}", item) for inner, item in value.items())
     unit = axis_unit(key)
@@ -34,7 +36,9 @@ def axis_text(key: str, value) -> str:
 
 
 def axis_words(key: str) -> str:
-    """Last word of a key without its unit, after the part it belongs to where others have it, too."""
+    """Last word of a key without its unit, after the part it belongs to where others have it,
+    too.
+    """
     if key in _WORDS:
         return _WORDS[key]
     section, _, last = key.rpartition(".")
@@ -59,11 +63,11 @@ def axis_unit(key: str) -> str:
     model; "-" where it has none.
     """
     section, _, name = key.partition(".")
-    kind = typing.get_type_hints(Case).get(section)
-    owners = (
+    kind = typing.get_type_hints(ShortForm).get(section)
+    owners: list = (
         [one for one in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(one)]
         if kind
-        else [Case]
+        else [ShortForm]
     )
     if section in TABLES:
         owners.append(model_class(TABLES[section]).SECTION)

@@ -25,7 +25,7 @@ SHADES, BARS = "shades: pointwise 95 % bands", "bars: pointwise 95 % bands"
 
 
 @dataclass(frozen=True, slots=True)
-class Panel:
+class CdfPanel:
     """One set of axes: its title, a label with a distribution of u_max [m] for each line, and what
     its legend calls the share beyond.
     """
@@ -36,7 +36,7 @@ class Panel:
 
 
 def cdf_figure(
-    panels: list[Panel], path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN
+    panels: list[CdfPanel], path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN
 ) -> list[Path]:
     """Write the figure, as PNG and PDF unless told otherwise.
 
@@ -68,13 +68,11 @@ def cdf_figure(
     )
     rows = math.ceil(len(panels) / columns)
     deepest = max(len(panel.lines) for panel in panels)
-    looks = {
-        label: None for panel in panels for label, _ in panel.lines
-    }  # one look a label, whatever a panel lacks
-    looks = {label: LINES[number % len(LINES)] for number, label in enumerate(looks)}
-    legend_in = 0.3 + 0.145 * (
-        deepest + 1 + (1e3 * max(peaks, default=0.0) > limit_mm)
-    )  # the legend has a strip of its own: a line of points leaves no free corner
+    # one look a label, whatever a panel lacks
+    labels = dict.fromkeys(label for panel in panels for label, _ in panel.lines)
+    looks = {label: LINES[number % len(LINES)] for number, label in enumerate(labels)}
+    # the legend has a strip of its own: a line of points leaves no free corner
+    legend_in = 0.3 + 0.145 * (deepest + 1 + (1e3 * max(peaks, default=0.0) > limit_mm))
     with styled():
         figure = new_figure(
             width_in if columns > 1 else min(width_in, 0.6 * PAGE_WIDTH_IN),
@@ -128,7 +126,7 @@ def common(peaks) -> list[float]:
     return [peak for peak in peaks if peak <= _FAR * np.quantile(peaks, 0.95)]
 
 
-def _beyond(panel: Panel, limit_mm: float) -> str:
+def _beyond(panel: CdfPanel, limit_mm: float) -> str:
     """A line on the peaks beyond the axis, "" where there are none."""
     beyond = [
         1e3 * peak
@@ -139,7 +137,7 @@ def _beyond(panel: Panel, limit_mm: float) -> str:
     return f"\n{len(beyond)} beyond the axis, up to {max(beyond):.0f} mm" if beyond else ""
 
 
-def _draw(axes, panel: Panel, looks: dict, limit_mm: float) -> str:
+def _draw(axes, panel: CdfPanel, looks: dict, limit_mm: float) -> str:
     """Bands below, lines above; what the bands are."""
     shaded = len(panel.lines) <= SHADED
     for number, (label, distribution) in enumerate(panel.lines):

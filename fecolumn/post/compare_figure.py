@@ -181,9 +181,10 @@ def _pairs(axes, a, b, labels, limit_mm: float, correlation, slides: bool) -> No
         tick for tick in MaxNLocator(5).tick_values(0, limit_mm) if 0 <= tick < 0.97 * limit_mm
     ]
     if not (both | one).any():  # no strip for what is not there
-        end, fallen = limit_mm, []
+        end = limit_mm
+    marks = [*ticks, fallen] if (both | one).any() else ticks
     names = [f"{tick:g}" for tick in ticks] + (
-        ["lost" if slides else "over-\nturned"] if np.size(fallen) else []
+        ["lost" if slides else "over-\nturned"] if len(marks) > len(ticks) else []
     )
     axes.set(
         xlim=(0, end),
@@ -192,8 +193,8 @@ def _pairs(axes, a, b, labels, limit_mm: float, correlation, slides: bool) -> No
         xlabel=rf"$u_{{\max}}$ [mm], {labels[1]}",
         ylabel=rf"$u_{{\max}}$ [mm], {labels[0]}",
     )
-    axes.set_xticks([*ticks, *np.atleast_1d(fallen)], names)
-    axes.set_yticks([*ticks, *np.atleast_1d(fallen)], names)
+    axes.set_xticks(marks, names)
+    axes.set_yticks(marks, names)
     axes.grid(False)
     if correlation is not None and np.isfinite(correlation):
         axes.text(

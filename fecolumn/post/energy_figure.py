@@ -74,9 +74,8 @@ def energy_figure(history, path, formats=("png", "pdf")) -> list[Path]:
             gridspec_kw={"height_ratios": [height for *_, height in panels]},
         )
         for axes, (label, terms, sign, _) in zip(grid, panels):
-            terms = {
-                term: look for term, look in terms.items() if term in energy
-            }  # earlier versions wrote fewer
+            # earlier versions wrote fewer
+            terms = {term: look for term, look in terms.items() if term in energy}
             largest = max(float(np.abs(energy[term]).max()) for term in terms)
             for term, (name, colour, dashes) in terms.items():
                 if np.abs(energy[term]).max() > _NIL * largest:

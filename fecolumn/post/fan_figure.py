@@ -150,8 +150,10 @@ def _line(trace, limit_m: float) -> tuple[np.ndarray, np.ndarray]:
 
 def rows_within(trace, limit_m: float) -> int:
     """Number of rows up to the first beyond the limit of what was lost; all of what stood."""
-    beyond = np.flatnonzero(np.hypot(*trace.u_top.T) >= limit_m) if trace.end else ()
-    return beyond[0] + 1 if len(beyond) else len(trace.time)
+    if not trace.end:
+        return len(trace.time)
+    beyond = np.flatnonzero(np.hypot(*trace.u_top.T) >= limit_m)
+    return int(beyond[0]) + 1 if len(beyond) else len(trace.time)
 
 
 def end_legend(figure, ends, critical_m: float | None = None, more=()) -> None:

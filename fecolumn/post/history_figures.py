@@ -20,7 +20,7 @@ from fecolumn.schema import InputError
 
 
 @dataclass(frozen=True, slots=True)
-class History:
+class HistoryCurves:
     """What an analysis recorded at its n steps.
 
     Attributes
@@ -45,7 +45,7 @@ class History:
     energy: dict[str, np.ndarray]
 
     @classmethod
-    def read(cls, file) -> History:
+    def read(cls, file) -> HistoryCurves:
         """History of an HDF5 file.
 
         Raises
@@ -67,7 +67,7 @@ class History:
 
 
 @dataclass(frozen=True, slots=True)
-class Ending:
+class EndingMark:
     """How an analysis ended, for its figures.
 
     Attributes
@@ -89,7 +89,7 @@ class Ending:
     outline: Outline | None
 
 
-def read_ending(folder: Path) -> Ending:
+def read_ending(folder: Path) -> EndingMark:
     """The end of the analysis in a result folder.
 
     Raises
@@ -107,7 +107,9 @@ def read_ending(folder: Path) -> Ending:
     except (Unreadable, KeyError, TypeError, ValueError, AttributeError):
         outline = None
     words = summary.get("outcome") or ("overturned" if overturned else "end")
-    return Ending(words, overturned or words == "slid off", summary.get("u_critical_m"), outline)
+    return EndingMark(
+        words, overturned or words == "slid off", summary.get("u_critical_m"), outline
+    )
 
 
 def has_figures(folder) -> bool:
@@ -130,7 +132,7 @@ def history_figures(folder) -> list[Path]:
     links besides, each as PNG and PDF; needs history.h5 and summary.json.
     """
     folder = Path(folder)
-    history, ending = History.read(folder / "history.h5"), read_ending(folder)
+    history, ending = HistoryCurves.read(folder / "history.h5"), read_ending(folder)
     files = [
         *top_figure(history, ending, folder / "u_top"),
         *path_figure(history, ending, folder / "path"),

@@ -1,4 +1,6 @@
-"""Estimates with their intervals, one a row: probabilities of overturning, effects of parameters."""
+"""Estimates with their intervals, one a row: probabilities of overturning, effects of
+parameters.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ from fecolumn.post.style import (
 
 
 @dataclass(frozen=True, slots=True)
-class Estimate:
+class IntervalRow:
     """One row.
 
     Attributes
@@ -51,7 +53,7 @@ class Scale:
 
 
 def interval_figure(
-    columns: list[tuple[Scale, list[Estimate]]],
+    columns: list[tuple[Scale, list[IntervalRow]]],
     path,
     formats=("png", "pdf"),
     width_in: float = PAGE_WIDTH_IN,

@@ -108,10 +108,14 @@ def _band(axes, curve: Curve, colour: str, number: int, banded: int) -> None:
     """Shade of a curve's band, or where many curves have one, bars of it: at its points, or at
     places of its own.
     """
+    if curve.band is None:
+        return
+    lower, upper = map(np.asarray, curve.band)
     if banded <= _SHADED:
         axes.fill_between(
             curve.x,
-            *curve.band,
+            lower,
+            upper,
             step="post" if curve.steps else None,
             color=colour,
             alpha=0.15,
@@ -125,8 +129,8 @@ def _band(axes, curve: Curve, colour: str, number: int, banded: int) -> None:
         )
     axes.vlines(
         np.asarray(curve.x)[at],
-        np.asarray(curve.band[0])[at],
-        np.asarray(curve.band[1])[at],
+        lower[at],
+        upper[at],
         color=colour,
         linewidth=1.6,
         alpha=0.5,

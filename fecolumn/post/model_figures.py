@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.post.cdf_figure import Panel, cdf_figure
+from fecolumn.post.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.post.style import (
     BLUE,
     GREY,
@@ -118,7 +118,11 @@ def ensemble_figure(responses, model, name: str, path) -> list[Path]:
         for values in zip(*((response.u_max, response.overturned) for _, response in responses))
     )
     return cdf_figure(
-        [Panel(f"{len(responses)} motions", ((name.replace("_", " "), ecdf(u_max, overturned)),))],
+        [
+            CdfPanel(
+                f"{len(responses)} motions", ((name.replace("_", " "), ecdf(u_max, overturned)),)
+            )
+        ],
         path,
     )
 

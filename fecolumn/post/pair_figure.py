@@ -113,9 +113,8 @@ def _pair(axes, a: Variable, b: Variable, end: float, limit_m: float, fallen: bo
         zorder=3,
     )
     ticks = [tick for tick in MaxNLocator(4).tick_values(0, end) if 0 <= tick < 0.92 * end]
-    top, strip, word = (
-        (_STRIP * end, [middle], ["lost"]) if fallen else (end, [], [])
-    )  # no strip for what is not there
+    # no strip for what is not there
+    top, strip, word = (_STRIP * end, [middle], ["lost"]) if fallen else (end, [], [])
     axes.set(xlim=(0, top), ylim=(0, top), aspect="equal", xlabel=_label(a), ylabel=_label(b))
     axes.set_xticks([*ticks, *strip], [*(f"{tick:g}" for tick in ticks), *word])
     axes.set_yticks([*ticks, *strip], [*(f"{tick:g}" for tick in ticks), *word])

@@ -72,7 +72,8 @@ def parting_figure(
         figure = new_figure(PAGE_WIDTH_IN, 1.15 * len(panels) + 2.0)
         figure.get_layout_engine().set(w_pad=0.06)
         grid = figure.add_gridspec(len(panels) + 1, 2, width_ratios=[2.5, 1])
-        rows, every = [], max(1, len(found.time) // _MOST_POINTS)
+        rows: list = []
+        every = max(1, len(found.time) // _MOST_POINTS)
         for k, (label, values, parted) in enumerate(panels):
             axes = figure.add_subplot(grid[k, 0], sharex=rows[0] if rows else None)
             for series, name, colour, dashes in zip(values, labels, (BLUE, VERMILION), ("-", "--")):

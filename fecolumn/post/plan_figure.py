@@ -5,8 +5,10 @@ columns were lost.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.post.fan_figure import LOOKS, MOST_POINTS, end_legend, rows_within
 from fecolumn.post.style import (
@@ -28,10 +30,25 @@ _FAR = 3
 _FINE = 0.002  # of the axes, what a path may be off
 
 
+class LostDirections(NamedTuple):
+    """Directions in which columns were lost [deg], from x towards y.
+
+    Attributes
+    ----------
+    here, anywhere
+        of this setting, and of all settings.
+    word
+        what became of the columns, such as "overturned".
+    """
+
+    here: ArrayLike
+    anywhere: ArrayLike
+    word: str
+
+
 def plan_figure(
     traces: list,
-    directions_deg,
-    word: str,
+    lost: LostDirections,
     foot,
     critical_m,
     limit_m: float,
@@ -45,11 +62,8 @@ def plan_figure(
     ----------
     traces
         `report.histories.Trace`s or what has their attributes, of one setting.
-    directions_deg
-        directions in which columns were lost [deg], from x towards y: of this setting, and of all
-        settings.
-    word
-        what became of these, such as "overturned".
+    lost
+        where columns went that were lost.
     foot
         (k, 2) closed outline of the foot [m]; None where it is not known.
     critical_m
@@ -63,10 +77,8 @@ def plan_figure(
     width_in
         of the figure; of a column's width the rose stands below the paths.
     """
-    narrow, own, every = (
-        width_in <= COLUMN_WIDTH_IN,
-        *(np.asarray(angles, float) for angles in directions_deg),
-    )
+    narrow = width_in <= COLUMN_WIDTH_IN
+    own, every = np.asarray(lost.here, float), np.asarray(lost.anywhere, float)
     rose = own.size or every.size
     with styled():
         figure = new_figure(
@@ -80,13 +92,15 @@ def plan_figure(
         axes = figure.add_subplot(*shape, 1) if rose else figure.add_subplot()
         critical, more = _paths(axes, traces, foot, critical_m, limit_m)
         if rose:
-            _rose(figure.add_subplot(*shape, 2, projection="polar"), own, every, word)
+            _rose(figure.add_subplot(*shape, 2, projection="polar"), own, every, lost.word)
         end_legend(figure, {trace.end for trace in traces}, critical, more)
         return save(figure, path, formats)
 
 
 def _paths(axes, traces, foot, critical_m, limit_m) -> tuple[float | None, list]:
-    """Draw them; the critical displacement [m] where it is drawn, and what else the legend names."""
+    """Draw them; the critical displacement [m] where it is drawn, and what else the legend
+    names.
+    """
     lines = [_path(trace, limit_m) for trace in traces]
     reach = max((np.abs(u).max() for u in lines), default=0.0)
     raster = sum(map(len, lines)) > MOST_POINTS

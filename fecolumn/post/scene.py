@@ -78,6 +78,8 @@ class Contact:
         numbers of the slave and of what it stands on, GROUND of the ground.
     faces
         (n, 4 or 3) numbers of the scene's points.
+    ground
+        number of the ground, of a contact with one.
     domed
         whether it touches at one point of a dome.
     origin, axes
@@ -94,11 +96,16 @@ class Contact:
     origin: np.ndarray
     axes: np.ndarray
     domed: bool = False
+    ground: int = 0
 
     @property
     def on_ground(self) -> bool:
         """Whether its slave stands on the ground."""
         return self.master == GROUND
+
+    def stands_on(self, ground: int) -> bool:
+        """Whether its slave stands on the ground of this number."""
+        return self.on_ground and self.ground == ground
 
     @cached_property
     def points(self) -> np.ndarray:
@@ -151,25 +158,35 @@ class Scene:
         numbers of the elements of all pieces by name, for ParaView.
     expand
         makes the `post.state_fields.StateFields` of the scene.
+    give
+        makes what its `plates` are.
     links
         of `structures.model.Link`.
     mass
         MassProperties of a body that stands alone, where it stands upright; else None.
     other_sides
         numbers of the contacts that are the other side of a joint.
+    planes
+        height [m] by number of the grounds that are drawn as a plane.
     """
 
     pieces: tuple[Piece, ...]
     contacts: tuple[Contact, ...]
     of_cells: dict[str, np.ndarray]
     expand: Callable
+    give: Callable
     links: tuple = ()
     mass: MassProperties | None = None
     other_sides: frozenset = frozenset()
+    planes: dict[int, float] = field(default_factory=dict)
 
     def fields(self):
         """`post.state_fields.StateFields` of the scene; made anew, which takes time."""
         return self.expand(self)
+
+    def plates(self) -> list:
+        """(`post.state_fields.Plate`, number of the ground) of each piece that belongs to one."""
+        return self.give()
 
     @cached_property
     def bodies(self) -> tuple[Piece, ...]:

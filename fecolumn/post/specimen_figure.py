@@ -1,4 +1,6 @@
-"""The specimen in elevation and plan, beside a ground motion: what a report is about, at a glance."""
+"""The specimen in elevation and plan, beside a ground motion: what a report is about, at a
+glance.
+"""
 
 from __future__ import annotations
 

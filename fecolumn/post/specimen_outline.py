@@ -8,7 +8,7 @@ import numpy as np
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class OutlinePart:
     """A part of the specimen in elevation: name, half its width along x, heights of bottom and top
     [m], and whether it is hollow (wall [m]).
     """
@@ -38,7 +38,7 @@ class Outline:
 
     foot: np.ndarray
     round: bool
-    parts: tuple[Part, ...]
+    parts: tuple[OutlinePart, ...]
     words: str
 
 
@@ -73,19 +73,21 @@ def specimen_outline(case: dict) -> Outline | None:
     foot = half
     if flange.get("outer_diameter_m"):
         foot, round_ = (flange["outer_diameter_m"] / 2,) * 2, True
-        parts.append(Part("foot plate", foot[0], 0.0, bottom := flange["thickness_m"]))
+        parts.append(OutlinePart("foot plate", foot[0], 0.0, bottom := flange["thickness_m"]))
         words.append(f"foot plate {_mm(2 * foot[0])} mm")
-    parts.append(Part("column", half[0], bottom, bottom + column["height_m"], wall))
+    parts.append(OutlinePart("column", half[0], bottom, bottom + column["height_m"], wall))
     words.append(f"height {_mm(column['height_m'])} mm")
     if cap.get("length_m"):
         parts.append(
-            Part("cap", cap["length_m"] / 2, parts[-1].top_m, parts[-1].top_m + cap["thickness_m"])
+            OutlinePart(
+                "cap", cap["length_m"] / 2, parts[-1].top_m, parts[-1].top_m + cap["thickness_m"]
+            )
         )
         words.append(
             f"cap {_mm(cap['length_m'])} × {_mm(cap['width_m'])} × {_mm(cap['thickness_m'])} mm"
         )
     thickness = base.get("thickness_m") or 0.25 * min(foot)
-    parts.insert(0, Part("base", (base.get("length_m") or 5 * foot[0]) / 2, -thickness, 0.0))
+    parts.insert(0, OutlinePart("base", (base.get("length_m") or 5 * foot[0]) / 2, -thickness, 0.0))
     return Outline(_edge(*foot, round_), round_, tuple(parts), ", ".join(words))
 
 

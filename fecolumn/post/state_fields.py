@@ -52,7 +52,7 @@ class StateFields:
     seats
         of each contact.
     grounds
-        mover of each piece of the ground.
+        (Plate, number of the ground) of each piece that belongs to one.
     """
 
     def __init__(self, scene: Scene, movers, models, seats: list[Seat], grounds=()):
@@ -122,9 +122,11 @@ class StateFields:
         scene = self.scene
         local, _, stress = self.local(state)
         displacement = self.positions(state, local) - scene.points
-        for k, ground in enumerate(self._grounds, len(scene.bodies)):
+        for k, (plate, ground) in enumerate(self._grounds, len(scene.bodies)):
+            on = [number for number, one in enumerate(scene.contacts) if one.stands_on(ground)]
+            own = np.isin(state.interface, on)
             displacement[scene.own(k)], stress[scene.first_cell[k] : scene.first_cell[k + 1]] = (
-                ground.sunk(state.position, state.force)
+                plate.sunk(state.position[own], state.force[own])
             )
         pressure = np.zeros(len(scene.points))
         for contact, seat, values in zip(scene.contacts, self.seats, self.pressures(state)[0]):

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.mesh.bricks import FACES, outer_faces
+from fecolumn.mesh.bricks import BASE, FACES, outer_faces
 from fecolumn.mesh.quality import MassProperties
 from fecolumn.post.scene import Contact, Piece, Scene, cells_of, joined
-from fecolumn.post.state_fields import Building, Continuum, Rigid, Seat, StateFields
+from fecolumn.post.state_fields import Building, Continuum, Plate, Rigid, Seat, StateFields
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.feet import ball_of, rise
 from fecolumn.structures.keys import Matrices, Storeys
@@ -53,9 +53,12 @@ def structure_scene(case, structure: StructureModel, drawings: dict[str, Drawing
     """
     kinds = [name for name in case.bodies for _ in case.names_of(name)]
     shown = {name: _Shown(drawing) for name, drawing in drawings.items()}
-    pieces = tuple(
+    bodies = [
         shown[kind].piece(kind, part) for kind, part in zip(kinds, structure.parts, strict=True)
-    )
+    ]
+    plates = _plates(case, structure, file)
+    held = [_ground_piece(case, ground, *plates[ground]) for ground in plates]
+    pieces = (*bodies, *held)
     first = np.cumsum([0] + [len(piece.points) for piece in pieces])
     contacts = tuple(
         _contact(joint, shown[kinds[joint.slave]], structure.parts[joint.slave], first)
@@ -67,15 +70,44 @@ def structure_scene(case, structure: StructureModel, drawings: dict[str, Drawing
         pieces,
         contacts,
         {
+            "part": np.concatenate(
+                [shown[kind].part for kind in kinds]
+                + [np.full(len(piece.elements), BASE) for piece in held]
+            ),
             "body": np.repeat(
-                np.arange(1, len(pieces) + 1), [len(piece.elements) for piece in pieces]
-            )
+                [*range(1, len(bodies) + 1), *[0] * len(held)],
+                [len(piece.elements) for piece in pieces],
+            ),
         },
         lambda scene: _expanded(case, structure, kinds, shown, scene, file),
+        lambda: [(_plate(*plates[place]), place) for place in plates],
         structure.links,
         alone and MassProperties(np.nan, alone.mass, parts[0].center, alone.inertia),
         frozenset(k for k, joint in enumerate(structure.joints) if joint.pair >= 0),
+        {k: level for k, level in enumerate(structure.levels) if k not in plates},
     )
+
+
+def _plates(case, structure: StructureModel, file) -> dict:
+    """(Sized, keys) of each elastic plate on which something stands, by the ground's number."""
+    from fecolumn.structures.ground import feet_on, sized_ground
+
+    found = {}
+    for place, (name, ground) in enumerate(case.grounds.items()):
+        feet = feet_on(structure.parts, structure.joints, place)
+        if ground.kind == "plate" and feet:
+            found[place] = sized_ground(name, ground, feet, file), ground
+    return found
+
+
+def _ground_piece(case, place: int, sized, ground) -> Piece:
+    from fecolumn.structures.ground import plate_mesh
+
+    mesh, name = plate_mesh(sized), list(case.grounds)[place]
+    faces = outer_faces(mesh, BASE)
+    level = np.array([0.0, 0.0, ground.level_m])
+    cells = cells_of(mesh.cells, faces)
+    return Piece(name, name, mesh.points, faces, mesh.cells, cells, level, level, held=True)
 
 
 class _Shown:
@@ -89,6 +121,7 @@ class _Shown:
             self.kinds = [drawing.system.triangles]
             self.elements = drawing.system.triangles
             self.cells = np.full(len(self.elements), -1)
+            self.part = np.zeros(len(self.elements), np.int8)
             return
         mesh = drawing.shape.mesh
         self.elements = mesh.cells
@@ -101,6 +134,7 @@ class _Shown:
             self.elements = np.concatenate([mesh.cells, boxes])
             self.kinds.append(boxes[:, FACES].reshape(-1, 4))
         self.cells = cells_of(self.elements, np.concatenate(self.kinds))
+        self.part = np.pad(mesh.part, (0, self.floors))
 
     def piece(self, kind: str, part) -> Piece:
         """The piece of a copy."""
@@ -177,7 +211,18 @@ def _contact(joint, shown: _Shown, part, first: np.ndarray) -> Contact:
     name = joint.name.partition(":")[0]
     origin = part.center + surface.origin
     domed = bool(joint.ball and joint.ball.is_dome)
-    return Contact(name, part.name, joint.name, joint.slave, joint.master, faces, origin, axes, domed)
+    return Contact(
+        name,
+        part.name,
+        joint.name,
+        joint.slave,
+        joint.master,
+        faces,
+        origin,
+        axes,
+        domed,
+        joint.ground,
+    )
 
 
 def _expanded(case, structure, kinds, shown, scene: Scene, file) -> StateFields:
@@ -203,7 +248,13 @@ def _expanded(case, structure, kinds, shown, scene: Scene, file) -> StateFields:
         plan = contact.plan(part.center + part.model.arms[surface.nodes])
         nearest = cKDTree(plan).query(contact.plan(scene.points[contact.points]))[1]
         seats.append(Seat(first[joint.slave] + surface.nodes, surface.areas, plan, nearest))
-    return StateFields(scene, movers, models, seats)
+    return StateFields(scene, movers, models, seats, scene.plates())
+
+
+def _plate(sized, ground) -> Plate:
+    from fecolumn.structures.ground import plate_of
+
+    return Plate(plate_of(sized, ground))
 
 
 def _mover(piece: Piece, model, one: _Shown, folder):

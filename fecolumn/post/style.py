@@ -9,13 +9,13 @@ from pathlib import Path
 
 import matplotlib
 
-with (
-    warnings.catch_warnings()
-):  # a newer matplotlib in a venv over Debian's finds Debian's 3D toolkit; it is not used here
+# a newer matplotlib in a venv over Debian's finds Debian's 3D toolkit; it is not used here
+with warnings.catch_warnings():
     warnings.filterwarnings("ignore", "Unable to import Axes3D")
     from matplotlib.figure import Figure
 
 COLUMN_WIDTH_IN, PAGE_WIDTH_IN = 3.5, 7.2
+# Okabe & Ito (2008)
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
     "#000000",
     "#E69F00",
@@ -25,7 +25,7 @@ BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
     "#0072B2",
     "#D55E00",
     "#CC79A7",
-)  # Okabe & Ito (2008)
+)
 GREY = "#9A9A9A"
 _PRINT_DPI = 300  # of those parts of a PDF that are drawn as an image, for their many lines
 # Told apart by colour and by dash, so that print in grey still reads; yellow is too faint for a

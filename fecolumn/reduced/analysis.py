@@ -13,6 +13,7 @@ from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.atomic import write_bytes
 from fecolumn.case import GRAVITY
 from fecolumn.contact.arrays import arrays_of
+from fecolumn.contact.gathered import base_to_resume, gather_again
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.pad import pad_of
 from fecolumn.contact.problem import list_present
@@ -21,11 +22,14 @@ from fecolumn.dynamics.cuts import StepFailed
 from fecolumn.dynamics.gravity import NoEquilibrium
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS
+from fecolumn.ending import Ending
 from fecolumn.progress import Progress
 from fecolumn.reduced import start
 from fecolumn.reduced.cache import load_model
-from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import Engine, advance, column_engine
+from fecolumn.reduced.engine import Engine, column_engine
+from fecolumn.reduced.observe import COLUMNS, place_of, view
+from fecolumn.reduced.rigid_loss import loss_share
+from fecolumn.reduced.run import advance
 from fecolumn.reduced.states import States, state_of
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
@@ -79,16 +83,15 @@ class ReducedAnalysis(Analysis):
 
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
-        self.model, self.base, self.model_folder = load_model(case, self.say)
-        self.warn_of_base(
-            self.base.frequency, pad_of(case, self.model.areas, self.model.mass), file
-        )
+        self.model, base, self.model_folder = load_model(case, self.say)
+        self.bases = (base,)
+        self.warn_of_base(base.frequency, pad_of(case, self.model.areas, self.model.mass), file)
         if not compiled(advance):
             self.say(
                 "compiling the reduced engine, once on this machine: a minute or two; "
                 "other processes wait for it"
             )
-        self.engine = engine_of(case, self.model, self.base)
+        self.engine = engine_of(case, self.model, base)
         self.began, self.cpu_began = (
             time.perf_counter(),
             time.process_time(),
@@ -99,7 +102,7 @@ class ReducedAnalysis(Analysis):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
             self.standing_j = (
-                standing_energy(case, self.model, self.base)
+                standing_energy(case, self.model, base)
                 if case.initial.tilt_rad
                 else self.engine.potential()
             )
@@ -113,12 +116,6 @@ class ReducedAnalysis(Analysis):
 
         fields = self.scene().fields()
         return FieldWriter(self.folder / "fields", fields), fields
-
-    def scene(self):
-        """`post.scene.Scene` of the case."""
-        from fecolumn.post.column_scene import column_scene
-
-        return column_scene(self.case)
 
     def _states(self) -> States | None:
         every = self.case.output.states_every_s
@@ -162,7 +159,11 @@ class ReducedAnalysis(Analysis):
                 last = engine.made[-1]
                 progress.show(
                     self.step,
-                    dict(time=last[0], tilt=last[4], active_nodes=int(last[11])),
+                    {
+                        "time": last[place_of("time")],
+                        "tilt": last[place_of("tilt")],
+                        "active_nodes": int(last[place_of("active_nodes")]),
+                    },
                     engine.record,
                 )
                 self._keep()
@@ -173,13 +174,7 @@ class ReducedAnalysis(Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            frame, rotation = engine.motion.frames[0], engine.motion.rotation[0]
-            off = self.slid_off(
-                failure,
-                self.base,
-                frame["center"] + self.model.arms @ rotation.T,
-                frame["velocity"] + np.cross(frame["spin"], self.model.arms) @ rotation.T,
-            )
+            off = self._off_base(failure)
             if off is None:
                 self._save()
                 raise AnalysisFailed(
@@ -193,13 +188,23 @@ class ReducedAnalysis(Analysis):
             self.states.write(self.folder, {"case_id": self.case.id, **self.code})
         return self.finish(
             off or self.ending(fallen, engine.motion.rotation[0]),
-            self.model.dofs + self.base.dofs,
+            self.model.dofs + sum(base.dofs for base in self.bases),
             engine.record,
             0,
         )
 
+    def _off_base(self, failure) -> Ending | None:
+        """As `slid_off`, of the column."""
+        frame, rotation = self.engine.motion.frames[0], self.engine.motion.rotation[0]
+        return self.slid_off(
+            failure,
+            self.bases[0],
+            frame["center"] + self.model.arms @ rotation.T,
+            frame["velocity"] + np.cross(frame["spin"], self.model.arms) @ rotation.T,
+        )
+
     def rigid_loss_share(self) -> float | None:
-        return self.engine.rigid_loss_share
+        return loss_share(self.engine.ledger, self.engine.structure.interfaces)
 
     def _advance(self, count: int) -> bool:
         """So many steps at most; whether the column is lost or at rest.
@@ -212,15 +217,14 @@ class ReducedAnalysis(Analysis):
             as `Engine.advance`. Any other error, of a full disk for example, once a checkpoint is
             written if the disk still takes it.
         """
-        engine, steps, began, made_s, made_cpu_s = (
+        engine, steps, began, (made_s, made_cpu_s) = (
             self.engine,
             range(self.step + 1, self.step + count + 1),
             time.perf_counter(),
-            self.base.made_s,
-            self.base.made_cpu_s,
+            self._made(),
         )
         grounds, steepest = (
-            np.array([self.ground(k) for k in steps]),
+            np.array([self.grounds(k) for k in steps]),
             np.array([self.steepest(k) for k in steps]),
         )
         failure, over = None, False
@@ -230,9 +234,9 @@ class ReducedAnalysis(Analysis):
             failure = error
         self._note(engine.made)
         self.step += len(engine.made)
-        made_s = self.base.made_s - made_s
+        made_s, made_cpu_s = np.subtract(self._made(), (made_s, made_cpu_s)).tolist()
         self.began += made_s
-        self.cpu_began += self.base.made_cpu_s - made_cpu_s
+        self.cpu_began += made_cpu_s
         self.stepping_s += time.perf_counter() - began - made_s
         if failure is None:
             return over
@@ -244,6 +248,17 @@ class ReducedAnalysis(Analysis):
             with contextlib.suppress(OSError):
                 self._save()
         raise failure
+
+    def _made(self) -> tuple[float, float]:
+        """Wall and processor time spent on what grounds keep for later analyses [s]."""
+        return (
+            sum(base.made_s for base in self.bases),
+            sum(base.made_cpu_s for base in self.bases),
+        )
+
+    def grounds(self, step: int) -> np.ndarray:
+        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
+        return self.ground(step)
 
     def _note(self, rows: np.ndarray) -> None:
         columns, place = {}, 0
@@ -261,7 +276,7 @@ class ReducedAnalysis(Analysis):
         np.savez(
             content,
             **arrays,
-            **self.engine.base_to_resume(),
+            **base_to_resume(self.engine.surface),
             **self.to_resume(),
             **(self.states.to_resume() if self.states else {}),
         )
@@ -288,11 +303,12 @@ class ReducedAnalysis(Analysis):
                 saved[name].dtype, values.dtype, "equiv"
             ):
                 raise ValueError(f"{name} does not fit")
-        base = saved["base.known"], saved["base.gathered"]
+        known, gathered = saved["base.known"], saved["base.gathered"]
         self.resumed(saved)
         if self.states:
             self.states.resumed(saved)
         for name, values in targets.items():
             values[...] = saved[name]
-        self.engine.resume_base(*base)
+        self.engine.know_base(known)
+        gather_again(self.engine.surface, gathered)
         interpreted(list_present)(self.engine.work.problem, self.engine.work.points)

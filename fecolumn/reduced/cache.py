@@ -25,11 +25,12 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn._compiled import cache_folder
-from fecolumn.case import Case, section_table
+from fecolumn.case import section_table
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base
 from fecolumn.lock import alone
 from fecolumn.reduced.model import ColumnModel
+from fecolumn.short_form import ShortForm
 from fecolumn.sources import digest_of, files_of
 
 # Sources that a model is made from: a change in any of them makes models anew. Not those that only
@@ -91,7 +92,11 @@ class KnownBase:
                 float(file["frequency"]),
                 int(file["dofs"]),
             )
-            self._foot, self._allowance = file["foot"], float(file["allowance"])
+            self._allowance = float(file["allowance"])
+            # of several feet the first place of each
+            self._feet = np.split(
+                file["foot"], file["firsts"][1:] if "firsts" in file.files else []
+            )
         self._open(0)
 
     def need(self, wanted: np.ndarray) -> None:
@@ -132,11 +137,11 @@ class KnownBase:
                 "delete this folder"
             )
         plate.adopt(self._known, self.compliance)
-        plate.need(_under(self.grid.points, self._foot, self._allowance * 2**reach))
-        _keep_base(plate, lambda name: self._file(name, reach))
+        plate.need(under(self.grid.points, self._feet, self._allowance * 2**reach))
+        keep_base(plate, lambda name: self._file(name, reach))
 
 
-def _keep_base(plate, file) -> None:
+def keep_base(plate, file) -> None:
     """Write what is known of a plate; `known` comes last and says that all is there."""
     for name, values in (
         ("compliance", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3))),
@@ -148,7 +153,7 @@ def _keep_base(plate, file) -> None:
         os.replace(partial.name, file(name))
 
 
-def model_key(case: Case) -> str:
+def model_key(case: ShortForm) -> str:
     """Name of the model of a case: what of the case, and which code, its mesh and operators are
     made from.
 
@@ -169,7 +174,9 @@ def model_key(case: Case) -> str:
             del tables["base"][key]
     tables["material"].pop("damping_ratio", None)  # no operator has it
     tables |= dict(
-        modes=max(case.n_modes, KEPT_MODES), interior=case.contact.interior_points, code=_code()
+        modes=max(case.integration.n_modes, KEPT_MODES),
+        interior=case.contact.interior_points,
+        code=_code(),
     )
     return hashlib.sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest()[:16]
 
@@ -190,12 +197,12 @@ def _code() -> list[str]:
     ]
 
 
-def model_folder(case: Case) -> Path:
+def model_folder(case: ShortForm) -> Path:
     """Where the model of a case is kept, or will be."""
     return cache_folder() / f"model-{model_key(case)}"
 
 
-def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBase, Path]:
+def load_model(case: ShortForm, say=lambda text: None) -> tuple[ColumnModel, KnownBase, Path]:
     """Column and base of a case, and the folder of their model; made and kept if there is none yet.
 
     Parameters
@@ -211,11 +218,11 @@ def load_model(case: Case, say=lambda text: None) -> tuple[ColumnModel, KnownBas
                 _make(case, folder)
     with np.load(folder / "column.npz") as file:
         values = {name: file[name] if file[name].ndim else file[name].item() for name in file.files}
-    model = ColumnModel(**values).with_modes(case.n_modes)
+    model = ColumnModel(**values).with_modes(case.integration.n_modes)
     return model, _open_base(case, folder, model.reference), folder
 
 
-def _open_base(case: Case, folder: Path, reference):
+def _open_base(case: ShortForm, folder: Path, reference):
     """The base of a model: KnownBase or UnboundedBase."""
     if case.base.kind == "plate":
         return KnownBase(folder, lambda: make_bodies(case)[1])
@@ -227,7 +234,7 @@ def _open_base(case: Case, folder: Path, reference):
         )
 
 
-def make_bodies(case: Case):
+def make_bodies(case: ShortForm):
     """The column's Body and the BasePlate of a case, None where the base has no edges; and the
     specimen's mesh.
     """
@@ -244,7 +251,7 @@ def make_bodies(case: Case):
     return column_body(case, specimen, MPI.COMM_SELF), plate, specimen
 
 
-def _make(case: Case, folder: Path) -> None:
+def _make(case: ShortForm, folder: Path) -> None:
     from fecolumn.dynamics.assembly import base_of, foot_of
     from fecolumn.dynamics.observer import top_of
     from fecolumn.reduced.build import column_model
@@ -252,11 +259,15 @@ def _make(case: Case, folder: Path) -> None:
     body, plate, specimen = make_bodies(case)
     foot = foot_of(case, specimen, body)
     model, fields = column_model(
-        body, foot.nodes, foot.areas, *top_of(body, specimen), max(case.n_modes, KEPT_MODES)
+        body,
+        foot.nodes,
+        foot.areas,
+        *top_of(body, specimen),
+        max(case.integration.n_modes, KEPT_MODES),
     )
     if plate:
         allowance = max(case.base.slide_allowance_m, LEAST_REACH * np.ptp(model.reference[:, 0]))
-        plate.need(_under(plate.grid.points, model.reference, allowance))
+        plate.need(under(plate.grid.points, [model.reference], allowance))
         base = dict(
             points=plate.grid.points,
             frequency=plate.frequency,
@@ -281,7 +292,7 @@ def _make(case: Case, folder: Path) -> None:
             with open(partial / f"{name}.npz", "wb") as file:
                 np.savez(file, **values)
         if plate:
-            _keep_base(plate, lambda name: partial / f"{name}-0.npy")
+            keep_base(plate, lambda name: partial / f"{name}-0.npy")
         np.save(partial / "fields.npy", fields)
         os.replace(partial, folder)
     except OSError:
@@ -292,15 +303,19 @@ def _make(case: Case, folder: Path) -> None:
         shutil.rmtree(partial, ignore_errors=True)
 
 
-def _under(points, foot, allowance: float) -> np.ndarray:
-    """Top nodes (k,) that a foot at (n, 3) [m] may press when it slides by `allowance` [m] to any
-    side.
+def under(points, feet, allowance: float) -> np.ndarray:
+    """Top nodes (k,) that feet, each at (n, 3) [m], may press when they slide by `allowance` [m] to
+    any side.
     """
-    x, y = (np.unique(np.round(points[:, axis], 12)) for axis in (0, 1))
-    cell = max(
-        np.diff(lines[np.abs(lines) <= np.abs(foot[:, :2]).max() + allowance]).max()
-        for lines in (x, y)
-    )
-    radius = np.linalg.norm(foot[:, :2], axis=1)
-    distance, reach = np.linalg.norm(points[:, :2], axis=1), allowance + 1.5 * cell
-    return np.flatnonzero((distance <= radius.max() + reach) & (distance >= radius.min() - reach))
+    found = np.zeros(len(points), bool)
+    for foot in feet:
+        middle = (foot[:, :2].min(axis=0) + foot[:, :2].max(axis=0)) / 2
+        place, own = points[:, :2] - middle, foot[:, :2] - middle
+        cell = max(
+            np.diff(lines[np.abs(lines) <= np.abs(own).max() + allowance]).max()
+            for lines in (np.unique(np.round(place[:, axis], 12)) for axis in (0, 1))
+        )
+        radius = np.linalg.norm(own, axis=1)
+        distance, reach = np.linalg.norm(place, axis=1), allowance + 1.5 * cell
+        found |= (distance <= radius.max() + reach) & (distance >= radius.min() - reach)
+    return np.flatnonzero(found)

@@ -115,8 +115,7 @@ def find_places(structure, points, rim, motion, pose, elastic, wanted, places):
         for a in range(3):
             x[a] = arms[node, a] + moved[node, a]
         _into_table(motion, b, x[0], x[1], x[2], places[node])
-        if points[i].master != BASE:
-            into_frame(pose, places[node])
+        into_frame(pose, places[node])
 
 
 @njit
@@ -134,7 +133,7 @@ def _into_table(motion, b, x, y, z, target):
 @njit(inline="always")
 def find_position(points, i, motion, elastic, when, target):
     """Target (3,): position of point i in the table frame without its static part, its elastic
-    displacement being known; on the base that is all of it.
+    displacement being known; on a ground in the frame of that, which is all of it.
     """
     b, u = points[i].slave, elastic.point[when, i]
     x, y, z = points[i].arm[0] + u[0], points[i].arm[1] + u[1], points[i].arm[2] + u[2]
@@ -146,6 +145,8 @@ def find_position(points, i, motion, elastic, when, target):
             + motion.rotation[b, a, 2] * z
         )
     if points[i].master == BASE:
+        for a in range(3):
+            target[a] -= motion.grounds[points[i].ground].place[a]
         target[2] += points[i].lift
 
 
@@ -213,6 +214,8 @@ def find_velocity(structure, points, i, motion, poses, elastic, when, target):
         target[a] = motion.frames[b].velocity[a] + R[a, 0] * v0 + R[a, 1] * v1 + R[a, 2] * v2
     b = points[i].master
     if b == BASE:
+        for a in range(3):
+            target[a] -= motion.grounds[points[i].ground].velocity[a]
         return
     R, w, seat, Q = (
         motion.rotation[b],

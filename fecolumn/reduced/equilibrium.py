@@ -11,14 +11,17 @@ import numpy as np
 from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.outline import mark_sunk, was_beyond
+from fecolumn.contact.pad import begin_yielding, find_yielding
 from fecolumn.contact.points import BASE, CONTACT, OVER, UNPREPARED
 from fecolumn.contact.pose import POSE, SLAVE, find_poses
 from fecolumn.contact.problem import (
+    ASSEMBLED,
     ITERATIONS_SPENT,
     N_ITERATIONS,
     OFF_PATCH,
     OK,
     STICKS_STILL,
+    WORTH_STICK,
     Problem,
     begin_problem,
     find_forces,
@@ -125,7 +128,7 @@ def find_positions(structure, work, start, end):
     )
     all_of_them, reach, known = work.problem.flags[STICKS_STILL], np.zeros(len(end.frames)), True
     most = all_of_them or 2 * work.problem.count[0] > work.problem.count[2]
-    find_poses(interfaces, end.frames, end.rotation, poses)
+    find_poses(interfaces, end.grounds, end.frames, end.rotation, poses)
     for b in range(len(end.frames)):
         for k in range(end.modal.shape[2]):
             reach[b] += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
@@ -214,11 +217,9 @@ def _slave_in_frame(interface, pose, motion, turned, center):
     place, offset, frame = motion.frames[interface.slave].center, pose.origin, pose.frame
     put_matrix(pose.turned[SLAVE], turned)
     for a in range(3):
-        center[a] = place[a]
-        if interface.master != BASE:
-            center[a] = 0.0
-            for c in range(3):
-                center[a] += frame[c, a] * (place[c] - offset[c])
+        center[a] = 0.0
+        for c in range(3):
+            center[a] += frame[c, a] * (place[c] - offset[c])
 
 
 @njit
@@ -227,7 +228,7 @@ def find_arms(structure, work, end):
     their moments depend.
     """
     points, elastic, poses, place = work.points, work.elastic, work.poses[END], np.empty(3)
-    find_poses(structure.interfaces, end.frames, end.rotation, poses)
+    find_poses(structure.interfaces, end.grounds, end.frames, end.rotation, poses)
     for i in near_points(work.problem):
         if end.contact[i].force[2] > 0:
             find_elastic(structure, points, i, end, elastic, END)
@@ -266,7 +267,7 @@ def equilibrate(
         work.poses,
     )
     carrying, foreseen = 0, False
-    find_poses(interfaces, start.frames, start.rotation, poses[START])
+    find_poses(interfaces, start.grounds, start.frames, start.rotation, poses[START])
     for i in range(len(points)):
         end.contact[i] = before[i]
         points[i].beyond = OVER
@@ -295,6 +296,7 @@ def equilibrate(
         not still and stays(interfaces, poses[START], start, rims, free_center, advance),
     )
     begin_frames(structure, start, free_center, advance, end, work.action)
+    begin_yielding(points, scheme.springs)
     for iteration in range(ITERATIONS):
         counts[N_ITERATIONS] += 1
         if not follow(
@@ -333,6 +335,10 @@ def equilibrate(
             return OFF_PATCH
         if iteration == 0 or not problem.flags[STICKS_STILL]:
             mark_close(problem, points, interfaces, work.positions, before, end.contact)
+        if find_yielding(points, scheme.springs, near_points(problem), end.contact):
+            # the operator of feet that stick is that of pads that do not yield
+            problem.flags[ASSEMBLED] = problem.flags[STICKS_STILL] = False
+            problem.flags[WORTH_STICK] = False
         answer, residual = find_residual(
             problem,
             structure.bodies,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fecolumn._compiled import njit
+from fecolumn.contact.points import BASE as GROUND
 from fecolumn.contact.problem import near_points
 from fecolumn.contact.work import losses
 from fecolumn.dynamics.links import end_links
@@ -68,8 +69,28 @@ def weight_energy(structure, reference, motion):
 
 
 @njit
+def _work_of_grounds(structure, work, start, end):
+    """Energy [J] that grounds which move relative to the first one bring in a step."""
+    done = 0.0
+    if len(start.grounds) == 1:
+        return done
+    for i in near_points(work.problem):
+        if work.points[i].master == GROUND and end.contact[i].force[2] > 0.0:
+            before, after = start.grounds[work.points[i].ground], end.grounds[work.points[i].ground]
+            for a in range(3):
+                done += end.contact[i].force[a] * (after.place[a] - before.place[a])
+    for n in range(len(structure.links)):
+        if structure.links[n].b == GROUND:
+            before = start.grounds[structure.links[n].ground]
+            after = end.grounds[structure.links[n].ground]
+            for a in range(3):
+                done += work.action.pulls[n, a] * (after.place[a] - before.place[a])
+    return done
+
+
+@njit
 def book(structure, scheme, work, start, end, ledger):
-    """Book a step before its impact; returns the work of contact [J].
+    """Book a step before its impact; returns the work of contact but that of dashpots [J].
 
     Of the bodies as `dynamics.stepper`, of contact as `contact.work`.
     """
@@ -111,7 +132,12 @@ def book(structure, scheme, work, start, end, ledger):
             # with the rate that the damping meets, see dynamics.stepper
             rate = end.modal[b, RATE, k] - dt * al**2 / (4 * scheme.beta) * push
             damping -= (q1 - q0) * structure.damping[b, k] * (start.modal[b, RATE, k] + rate) / 2
-    tied, taken = end_links(structure.links, end.frames, end.rotation, start.ties, end.ties, dt)
+    tied, taken = end_links(
+        structure.links, end.grounds, end.frames, end.rotation, start.ties, end.ties, dt
+    )
+    carried = _work_of_grounds(structure, work, start, end)
+    moved_base += carried
+    done -= carried
     contact = done - rolling + end.whole[0].static + tied - start.whole[0].static + taken
     end.whole[0].static += tied
     friction, landed, dashpots = losses(
@@ -131,4 +157,4 @@ def book(structure, scheme, work, start, end, ledger):
     ledger[DAMPING] += damping - dashpots
     ledger[ROLLING] += rolling
     ledger[LINKS] -= taken
-    return contact
+    return contact + dashpots

@@ -194,7 +194,7 @@ def _scheme(structure, points, dt, half, alpha, beta, gamma, stiffness) -> Schem
         gamma,
         shrink,
         dynamic,
-        springs_of(points, structure.interfaces[0], dt),
+        springs_of(points, structure.interfaces, dt),
     )
 
 

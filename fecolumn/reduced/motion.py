@@ -10,7 +10,7 @@ from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.points import BASE, CONTACT
-from fecolumn.contact.pose import MASTER, SLAVE
+from fecolumn.contact.pose import MASTER, SLAVE, grounds_at
 from fecolumn.contact.record import record
 from fecolumn.dynamics.links import TIE, pull_links
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
@@ -35,7 +35,8 @@ class Motion(NamedTuple):
     """State of a structure in the table frame; arrays, so that compiled code may change them.
 
     frames: (nb,) of FRAME; rotation: (nb, 3, 3) body to table; modal: (nb, 3, m) of unit modal
-    mass; contact: (P,) of CONTACT; rims: (ni,) of RIM; ties: (nl,) of TIE; whole: (1,) of WHOLE.
+    mass; contact: (P,) of CONTACT; rims: (ni,) of RIM; ties: (nl,) of TIE; whole: (1,) of WHOLE;
+    grounds: (G,) of GROUND.
     """
 
     frames: np.ndarray
@@ -45,6 +46,7 @@ class Motion(NamedTuple):
     rims: np.ndarray
     ties: np.ndarray
     whole: np.ndarray
+    grounds: np.ndarray
 
     @property
     def time(self) -> float:
@@ -58,9 +60,14 @@ class Motion(NamedTuple):
 
 
 def at_rest(
-    points: int, modes: int, bodies: int = 1, interfaces: int = 1, links: int = 0
+    points: int,
+    modes: int,
+    bodies: int = 1,
+    interfaces: int = 1,
+    links: int = 0,
+    levels: tuple[float, ...] = (0.0,),
 ) -> Motion:
-    """Zeros everywhere but for upright rotations."""
+    """Zeros everywhere but for upright rotations, and the levels of the grounds [m]."""
     return Motion(
         np.zeros(bodies, FRAME),
         np.tile(np.eye(3), (bodies, 1, 1)),
@@ -69,6 +76,7 @@ def at_rest(
         rims_at_rest(interfaces),
         np.zeros(links, TIE),
         np.zeros(1, WHOLE),
+        grounds_at(levels),
     )
 
 
@@ -119,9 +127,37 @@ def copy(source, target):
     for n in range(len(source.ties)):
         target.ties[n] = source.ties[n]
     target.whole[0] = source.whole[0]
+    copy_grounds(source, target)
     for b in range(len(source.frames)):
         put_matrix(source.rotation[b], target.rotation[b])
         put_matrix(source.modal[b], target.modal[b])
+
+
+@njit
+def copy_grounds(source, target):
+    """Copy the grounds of a Motion."""
+    for g in range(len(source.grounds)):
+        target.grounds[g] = source.grounds[g]
+
+
+@njit
+def move_grounds(start, accelerations, dt, end):
+    """Carry the grounds to the end of a step, relative to the first one, which stays.
+
+    accelerations: (3 G,) of each at the end [m/s2], to which they change evenly in the step.
+    """
+    copy_grounds(start, end)
+    for g in range(len(start.grounds)):
+        before, after = start.grounds[g], end.grounds[g]
+        for a in range(3):
+            after.acceleration[a] = accelerations[3 * g + a]
+            if g > 0:
+                first = before.acceleration[a] - start.grounds[0].acceleration[a]
+                last = after.acceleration[a] - accelerations[a]
+                way = dt * before.velocity[a] + dt**2 * (first / 3 + last / 6)
+                after.place[a] += way
+                after.moved[a] += way
+                after.velocity[a] += dt * (first + last) / 2
 
 
 @njit
@@ -184,8 +220,10 @@ def follow(
             pull_links(
                 structure.links,
                 start.ties,
+                start.grounds,
                 start.frames,
                 start.rotation,
+                end.grounds,
                 end.frames,
                 end.rotation,
                 scheme.dt,

@@ -37,6 +37,15 @@ from fecolumn.reduced.ledger import (
 )
 
 
+def loss_share(ledger: np.ndarray, interfaces: np.ndarray) -> float | None:
+    """What impacts have taken over what those of rigid bodies would have; None where none counts,
+    or they give back by a coefficient of restitution.
+    """
+    if ledger[RIGID_LOSS] == 0 or interfaces["restitution"].any():
+        return None
+    return float(ledger[TAKEN] / ledger[RIGID_LOSS])
+
+
 @njit
 def rigid_energy(structure, motion, ledger):
     """Energy [J] of the rigid motion, and of weight and links, less what base, rolling and links
@@ -61,22 +70,27 @@ def find_together(structure, work, end):
     points, poses, before, give = work.points, work.poses[END], work.before, 0.0
     listed, count, place = present_points(work.problem), 0, np.empty(3)
     height, together = np.empty(len(listed)), np.empty(len(listed), np.int64)
-    find_poses(structure.interfaces, end.frames, end.rotation, poses)
+    find_poses(structure.interfaces, end.grounds, end.frames, end.rotation, poses)
     for j in range(len(listed)):
         point, pose = points[listed[j]], poses[points[listed[j]].interface]
         _place_of(point, end, place)
         height[j] = point.lift
         for a in range(3):
             height[j] += pose.frame[a, 2] * (place[a] - pose.origin[a])
-        if end.contact[listed[j]].force[2] > 0:
+        if (
+            end.contact[listed[j]].force[2] > 0
+            and not structure.interfaces[points[listed[j]].interface].on_pad
+        ):
             give = max(give, -height[j])
     for j in range(len(listed)):
         i = listed[j]
         near = (
             points[i].beyond == OVER
+            and not structure.interfaces[points[i].interface].on_pad
             and height[j] <= NEAR * structure.interfaces[points[i].interface].width + give
         )
-        if near or before[i].force[2] > 0 or end.contact[i].force[2] > 0:
+        touches = before[i].force[2] > 0 or end.contact[i].force[2] > 0
+        if near or touches and not structure.interfaces[points[i].interface].on_pad:
             together[count] = i
             count += 1
     return together[:count]
@@ -123,6 +137,19 @@ def _velocities_by_motion(structure, points, poses, listed, end):
                 for a in range(3):
                     J[3 * j + c, 6 * b + 3 + a] = sign * (R[0, a] * x + R[1, a] * y + R[2, a] * z)
     return J
+
+
+@njit
+def _velocities(J, points, listed, motion):
+    """(3 k,) velocities of the listed points (k,), slave relative to master; J: of
+    `_velocities_by_motion`.
+    """
+    found = J @ _velocities_of(motion)
+    for j in range(len(listed)):
+        if points[listed[j]].master == BASE:
+            for a in range(3):
+                found[3 * j + a] -= motion.grounds[points[listed[j]].ground].velocity[a]
+    return found
 
 
 @njit
@@ -173,8 +200,8 @@ def begin_impact(structure, work, start, end, dt, moment, booked, ledger):
         mobility,
         friction,
         held,
-        J @ _velocities_of(start),
-        J @ _velocities_of(end),
+        _velocities(J, work.points, listed, start),
+        _velocities(J, work.points, listed, end),
         given,
         moment,
         np.zeros(N_COUNTS, np.int64),
@@ -204,9 +231,8 @@ def follow_impact(structure, work, end, dt, ledger):
     if ledger[SPEED] > 0.0:
         listed, approach = find_together(structure, work, end), 0.0
         if len(listed):
-            velocity = _velocities_by_motion(
-                structure, work.points, work.poses[END], listed, end
-            ) @ _velocities_of(end)
+            J = _velocities_by_motion(structure, work.points, work.poses[END], listed, end)
+            velocity = _velocities(J, work.points, listed, end)
             for j in range(len(listed)):
                 approach = max(approach, -velocity[3 * j + 2])
         if approach <= APPROACH_LEFT * ledger[SPEED]:

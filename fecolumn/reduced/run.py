@@ -1,62 +1,35 @@
-"""The reduced engine: advances a reduced structure by many steps at a time."""
+"""Steps of a reduced structure, many at a time: all that Python calls of the reduced engine's
+compiled code. `engine` has what calls it.
+"""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
 from fecolumn._borrowed import borrowed
-from fecolumn._compiled import compile_for, interpreted, njit
+from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put, put_matrix
-from fecolumn.contact.ball import from_center, lay_down
-from fecolumn.contact.gathered import gather_again, gathered_nodes
-from fecolumn.contact.joints import left_faces
+from fecolumn.contact.ball import lay_down
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, find_poses, frames_at, poses_of
-from fecolumn.contact.problem import (
-    CONTACT_FAILED,
-    ENDED,
-    FAR_BASE,
-    IMPACT_FAILED,
-    ITERATIONS_SPENT,
-    N_COUNTS,
-    N_CUTS,
-    N_IMPACTS,
-    N_ITERATIONS,
-    N_PARTS,
-    OFF_BASE,
-    OFF_PATCH,
-    OK,
-    ROLLS_FAST,
-)
-from fecolumn.contact.projection import base_for_steps
+from fecolumn.contact.pose import find_poses
+from fecolumn.contact.problem import ENDED, N_IMPACTS, N_ITERATIONS, N_PARTS, OK, ROLLS_FAST
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import PARTS
 from fecolumn.contact.two_sided import mark_unused
-from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
-from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.links import end_links, span
-from fecolumn.dynamics.overturning import STANDS, steepest_to_come
-from fecolumn.dynamics.record import Record
+from fecolumn.dynamics.cuts import IMPACTS, ROLLING
+from fecolumn.dynamics.links import end_links
+from fecolumn.dynamics.overturning import STANDS
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.balls import roll_balls
 from fecolumn.reduced.elastic import COORDINATE, END, START
-from fecolumn.reduced.equilibrium import equilibrate, work_of
-from fecolumn.reduced.ledger import N_PLACES, RIGID_LOSS, TAKEN
-from fecolumn.reduced.model import scheme, structure_of
+from fecolumn.reduced.equilibrium import equilibrate
 from fecolumn.reduced.observe import ENERGY, lost, observe
 from fecolumn.reduced.step import lay_points, step
 
 # step lengths from a whole step to its smallest part
 LENGTHS = PARTS.bit_length()
-# of the halves of a step, whose end alone counts: nothing is past returning, nothing at rest
-_NO_END, _NO_REST = np.array([np.inf]), (0.0, -np.inf)
-_STOPS = {
-    CONTACT_FAILED: Stop.CONTACT,
-    IMPACT_FAILED: Stop.CONTACT,
-    ITERATIONS_SPENT: Stop.ITERATIONS,
-    OFF_BASE: Stop.OFF_BASE,
-    OFF_PATCH: Stop.OFF_PATCH,
-}
 
 
 @njit
@@ -117,68 +90,50 @@ def begin_anew(elastic):
                 elastic.node[START, i, a] = elastic.node[END, i, a]
 
 
+class Course(NamedTuple):
+    """What steps carry on. motion: Motion, after them; spare, kept: room for one; ledger:
+    (N_PLACES,); counts: (N_COUNTS,).
+    """
+
+    motion: motions.Motion
+    spare: motions.Motion
+    kept: motions.Motion
+    ledger: np.ndarray
+    counts: np.ndarray
+
+
+class Chunk(NamedTuple):
+    """The steps that are asked for. grounds: (k, 3) [m/s2] acceleration of the ground at their
+    ends. steepest: (k,) as of `overturning.fallen` after each. rest: as of `Engine.advance`.
+    substeps: for what a step is made in parts, a number of `cuts.SUBSTEPS`. rows: (k, width) of the
+    history, to be filled.
+    """
+
+    grounds: np.ndarray
+    steepest: np.ndarray
+    rest: tuple[float, float]
+    substeps: int
+    rows: np.ndarray
+
+
 @njit
-def advance(
-    structure,
-    base,
-    schemes,
-    work,
-    eye,
-    motion,
-    spare,
-    kept,
-    grounds,
-    steepest,
-    rest,
-    substeps,
-    rows,
-    ledger,
-    counts,
-):
-    """Steps of one chunk: steps made and why it ended; `motion` is the state after them, rows (k,
-    eye.width) are filled.
+def advance(structure, base, schemes, work, eye, course, chunk):
+    """Make the steps of a Chunk: those made and why they ended; `motion` of the Course is the state
+    after them.
 
     schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are
-    still to be made, for which ROLLS_FAST asks. kept: room for a Motion. steepest: (k,) as of
-    `overturning.fallen` after each step. rest: as of `Engine.advance`. substeps: for what a step is
-    made in parts, a number of `cuts.SUBSTEPS`. A part in which a point lands is halved down to the
+    still to be made, for which ROLLS_FAST asks. A part in which a point lands is halved down to the
     smallest where IMPACTS are located.
 
     Without any step to make: the row of `motion` where there is one to fill, else one proximal step
     of the first scheme towards gravity equilibrium, from `motion` to `spare`; see `start.standing`.
     They are here because each function that Python calls is compiled with all it calls.
     """
-    (
-        structure,
-        base,
-        schemes,
-        work,
-        eye,
-        motion,
-        spare,
-        kept,
-        grounds,
-        steepest,
-        rows,
-        ledger,
-        counts,
-    ) = borrowed(
-        (
-            structure,
-            base,
-            schemes,
-            work,
-            eye,
-            motion,
-            spare,
-            kept,
-            grounds,
-            steepest,
-            rows,
-            ledger,
-            counts,
-        )
+    structure, base, schemes, work, eye, course, chunk = borrowed(
+        (structure, base, schemes, work, eye, course, chunk)
     )
+    motion, spare, kept, ledger, counts = course
+    grounds, steepest, rest, substeps, rows = chunk
     elastic, bodies, scheme, longest = (
         work.elastic,
         len(motion.frames),
@@ -208,8 +163,10 @@ def advance(
         False,
         0,
         OK,
-        np.empty(3),
+        np.empty(grounds.shape[1]),
     )
+    for a in range(3):
+        motion.grounds[0].acceleration[a] = motion.whole[0].ground[a]
     for k in range(len(grounds)):
         before = counts[N_ITERATIONS]
         put(ledger, booked)
@@ -223,8 +180,8 @@ def advance(
             halved, whole = 0, PARTS
             while whole > part:
                 halved, whole = halved + 1, whole // 2
-            for a in range(3):
-                first = kept.whole[0].ground[a] if part < PARTS else 0.0
+            for a in range(grounds.shape[1]):
+                first = kept.grounds[a // 3].acceleration[a % 3] if part < PARTS else 0.0
                 target[a] = first + (done + part) / PARTS * (grounds[k, a] - first)
             struck = counts[N_IMPACTS]
             put(ledger, held)
@@ -285,7 +242,10 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     for i in range(len(motion.contact)):
         work.before[i] = motion.contact[i]
     for when in (START, END):
-        find_poses(structure.interfaces, motion.frames, motion.rotation, work.poses[when])
+        find_poses(
+            structure.interfaces, motion.grounds, motion.frames, motion.rotation, work.poses[when]
+        )
+    motions.copy_grounds(motion, spare)
     for k in range(len(structure.interfaces)):
         spare.rims[k] = motion.rims[k]
         if structure.interfaces[k].ball > 0.0:
@@ -308,348 +268,12 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     )
     if answer == OK:
         spare.whole[0].static += end_links(
-            structure.links, spare.frames, spare.rotation, motion.ties, spare.ties, scheme.dt
+            structure.links,
+            spare.grounds,
+            spare.frames,
+            spare.rotation,
+            motion.ties,
+            spare.ties,
+            scheme.dt,
         )[0]
     return answer
-
-
-def column_engine(
-    model,
-    base,
-    eye,
-    hht: HHT,
-    start,
-    gravity,
-    max_cuts: int = 4,
-    damping_ratio: float = 0.0,
-    substeps: str = "rolling",
-    **laws,
-) -> Engine:
-    """The Engine of a column: model: ColumnModel; gravity, damping_ratio, laws: as of
-    `model.structure_of`.
-    """
-
-    def build(hht):
-        return structure_of(model, hht, gravity, damping_ratio=damping_ratio, **laws)
-
-    return Engine(build, base, eye, hht, start, max_cuts, model, substeps)
-
-
-class Engine:
-    """Reduced bodies on their base, their motion and their ledger.
-
-    Parameters
-    ----------
-    build
-        function of an HHT that returns Structure and points, see `model.structure_of` and
-        `structure.structure_of`.
-    base
-        BasePlate, or another holder of its compliance with `grid`, `slot`, `compliance` and `need`.
-    eye
-        View.
-    hht
-        HHT.
-    start
-        function of the engine that returns the first Motion; see `reduced.start`.
-    model
-        what `start` needs of the bodies.
-    substeps
-        of `cuts.SUBSTEPS`, for what a step is made in parts.
-    """
-
-    def __init__(
-        self,
-        build,
-        base,
-        eye,
-        hht: HHT,
-        start,
-        max_cuts: int = 4,
-        model=None,
-        substeps: str = "rolling",
-    ):
-        self.model, self.base, self.eye, self.hht, self.max_cuts, self.substeps = (
-            model,
-            base,
-            eye,
-            hht,
-            max_cuts,
-            SUBSTEPS.index(substeps),
-        )
-        self.structure, self.points = build(hht)
-        self.work, self.spare, self.kept = (
-            work_of(self.structure, self.points),
-            self.motion_at_rest(),
-            self.motion_at_rest(),
-        )
-        self._schemes = {}
-        self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
-        self.base.need(
-            base.grid.around(
-                self.ground_places(eye.center, np.tile(np.eye(3), (len(eye.center), 1, 1))), 0
-            )
-        )
-        self.surface = base_for_steps(base)
-        compile_for(advance, self._arguments(self._schemes_of(hht), self.spare, self.spare))
-        self.motion = start(self)
-        self.ledger[0] = self.mechanical()
-
-    def motion_at_rest(self) -> motions.Motion:
-        """A Motion with zeros."""
-        structure = self.structure
-        return motions.at_rest(
-            len(self.points),
-            structure.squares.shape[1],
-            len(structure.squares),
-            len(structure.interfaces),
-            len(structure.links),
-        )
-
-    def ground_places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Places (k, 3) [m] of the nodes that may touch the base, of bodies with centres of mass
-        (nb, 3) turned by (nb, 3, 3).
-        """
-        points = self.points[self.points["master"] == BASE]
-        arms = self.structure.bodies.arms[points["node"]]
-        return centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
-
-    def places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Places (P, 3) [m] of the points in the frames of their interfaces, of bodies with centres
-        of mass (nb, 3) turned by (nb, 3, 3).
-        """
-        points, interfaces = self.points, self.structure.interfaces
-        each, offsets = poses_of(interfaces, centers, rotations), np.zeros((len(interfaces), 3))
-        for interface, pose, offset in zip(interfaces, each, offsets):
-            interpreted(from_center)(interface, pose["turned"][SLAVE, 2], offset)
-        poses, arms = (
-            each[points["interface"]],
-            self.structure.bodies.arms[points["node"]] + offsets[points["interface"]],
-        )
-        table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
-        return np.einsum("pba,pb->pa", poses["frame"], table - poses["origin"])
-
-    def link_lengths(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Lengths (nl,) [m] of the links; arguments as of `places`."""
-        frames = frames_at(centers)
-        return np.array(
-            [
-                interpreted(span)(link, frames, rotations, np.empty(3))
-                for link in self.structure.links
-            ]
-        )
-
-    def settle(self, scheme, motion, end) -> int:
-        """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way
-        to end.
-        """
-        return advance(*self._arguments((scheme,) * LENGTHS, motion, end))[1]
-
-    def _arguments(
-        self,
-        schemes,
-        motion,
-        spare,
-        grounds=np.empty((0, 3)),
-        steepest=np.empty(0),
-        rest=_NO_REST,
-        rows=None,
-    ) -> tuple:
-        rows = np.empty((0, self.eye.width)) if rows is None else rows
-        return (
-            self.structure,
-            self.surface,
-            schemes,
-            self.work,
-            self.eye,
-            motion,
-            spare,
-            self.kept,
-            grounds,
-            steepest,
-            rest,
-            self.substeps,
-            rows,
-            self.ledger,
-            self.counts,
-        )
-
-    @property
-    def record(self) -> Record:
-        """Counts as the full-order engine gives them."""
-        return Record(*self.counts[:5].tolist())
-
-    def row(self) -> np.ndarray:
-        """The present row (eye.width,) of the history."""
-        row = np.empty((1, self.eye.width))
-        advance(*self._arguments(self._schemes_of(self.hht), self.motion, self.spare, rows=row))
-        return row[0]
-
-    @property
-    def rigid_loss_share(self) -> float | None:
-        """What impacts have taken over what those of rigid bodies would have; None where none
-        counts, or they give back by a coefficient of restitution.
-        """
-        if self.ledger[RIGID_LOSS] == 0 or self.structure.interfaces["restitution"].any():
-            return None
-        return float(self.ledger[TAKEN] / self.ledger[RIGID_LOSS])
-
-    def mechanical(self) -> float:
-        """Kinetic, strain and gravity energy now [J]."""
-        return float(self.row()[ENERGY : ENERGY + 3].sum())
-
-    def potential(self) -> float:
-        """Strain and gravity energy now [J]."""
-        return float(self.row()[ENERGY + 1 : ENERGY + 3].sum())
-
-    def fallen(self, steepest: float) -> int:
-        """As `overturning.fallen`, now; steepest: tangent of the steepest inclination of apparent
-        gravity to come.
-        """
-        return interpreted(lost)(self.eye, self.motion, self.row(), steepest)
-
-    def advance(
-        self,
-        grounds: np.ndarray,
-        steepest: np.ndarray | None = None,
-        rest: tuple[float, float] = _NO_REST,
-    ) -> tuple[np.ndarray, bool]:
-        """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k',
-        eye.width) and whether the column is lost or at rest.
-
-        Parameters
-        ----------
-        grounds
-            (k, 3).
-        steepest
-            (k,) as of `overturning.steepest_to_come`; of these grounds alone unless given.
-        rest
-            mechanical energy in gravity equilibrium, and what may be left above it of a column at
-            rest, which ends the steps [J]; never more than that is kinetic, for what has come to
-            stand lower has less potential energy. -inf not to ask.
-
-        Raises
-        ------
-        StepFailed
-            no convergence after max_cuts halvings, or the column left the base; the motion is that
-            before the step, the rows of the steps made are in `made`. So they are where anything
-            else stops the steps, a base that cannot be extended for example.
-        """
-        grounds, done = np.array(grounds, float), 0
-        if not np.isfinite(grounds).all():
-            raise ValueError("a ground acceleration is not a finite number")
-        steepest = (
-            steepest_to_come(self.structure.gravity, grounds)
-            if steepest is None
-            else np.asarray(steepest, float)
-        )
-        rows = np.empty((len(grounds), self.eye.width))
-        self.made = rows[:0]
-        while done < len(grounds):
-            made, answer = self._steps(self.hht, grounds[done:], rows[done:], steepest[done:], rest)
-            done += made
-            self.made = rows[:done]
-            if answer == ENDED:
-                return rows[:done], True
-            if answer == FAR_BASE:
-                self.extend_base(self.spare)
-            elif answer != OK:
-                self._cut(grounds[done], answer)
-                rows[done] = self.row()
-                done += 1
-                self.made = rows[:done]
-                kinetic, strain, gravity = rows[done - 1, ENERGY : ENERGY + 3]
-                if (
-                    self.fallen(steepest[done - 1]) != STANDS
-                    or max(kinetic, kinetic + strain + gravity - rest[0]) <= rest[1]
-                ):
-                    return rows[:done], True
-        return rows, False
-
-    def _steps(self, hht, grounds, rows, steepest, rest) -> tuple[int, int]:
-        made, answer = advance(
-            *self._arguments(
-                self._schemes_of(hht), self.motion, self.spare, grounds, steepest, rest, rows
-            )
-        )
-        if answer == ROLLS_FAST:
-            parts = (
-                scheme(self.structure, self.points, HHT(hht.dt / 2**k, hht.alpha))
-                for k in range(1, LENGTHS)
-            )
-            self._schemes[hht] = (*self._schemes[hht][:1], *parts)
-            more, answer = self._steps(hht, grounds[made:], rows[made:], steepest[made:], rest)
-            made += more
-        return made, answer
-
-    def _cut(self, ground, answer) -> None:
-        """The step that failed with `answer`, in two halves and these in halves as far as it needs;
-        nothing has changed where it fails.
-        """
-        saved, booked, row = (
-            self.motion_at_rest(),
-            self.ledger.copy(),
-            np.empty((1, self.eye.width)),
-        )
-        motions.copy(self.motion, saved)
-
-        def take(_, target, hht):
-            while (answer := self._steps(hht, target[None], row, _NO_END, _NO_REST)[1]) == FAR_BASE:
-                self.extend_base(self.spare)
-            if answer not in (OK, ENDED):
-                raise StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
-
-        failure = StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
-        try:
-            in_halves(
-                take,
-                None,
-                self.motion.whole["ground"][0].copy(),
-                ground,
-                self.hht,
-                self.max_cuts,
-                failure,
-                self._count_cut,
-            )
-        except BaseException as error:
-            motions.copy(saved, self.motion)
-            self.ledger[:] = booked
-            if isinstance(error, StepFailed):
-                raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None
-            raise
-
-    def _left(self, answer) -> str:
-        """Which interface a body has left and what helps, after a step that failed with OFF_PATCH."""
-        if answer != OFF_PATCH:
-            return ""
-        return f": {left_faces([joint.name for joint in self.model.joints], self.work.points)}"
-
-    def _count_cut(self) -> None:
-        self.counts[N_CUTS] += 1
-
-    def _schemes_of(self, hht) -> tuple:
-        """Schemes of steps and of their parts, which are made when they are needed."""
-        if hht not in self._schemes:
-            self._schemes[hht] = (scheme(self.structure, self.points, hht),) * LENGTHS
-        return self._schemes[hht]
-
-    def extend_base(self, motion) -> None:
-        """Make the base's compliance known under the foot and two rows of its nodes around."""
-        self.base.need(
-            self.base.grid.around(self.ground_places(motion.frames["center"], motion.rotation), 2)
-        )
-        self.surface = base_for_steps(self.base)
-
-    def base_to_resume(self) -> dict[str, np.ndarray]:
-        """Top nodes of the base whose compliance is known, and those that are gathered, for a
-        checkpoint.
-        """
-        return {
-            "base.known": np.flatnonzero(self.surface.slot >= 0),
-            "base.gathered": gathered_nodes(self.surface),
-        }
-
-    def resume_base(self, known: np.ndarray, gathered: np.ndarray) -> None:
-        """Make known and gather the top nodes of the base that were so in a checkpoint."""
-        self.base.need(known)
-        self.surface = base_for_steps(self.base)
-        gather_again(self.surface, gathered)

@@ -141,6 +141,7 @@ def unstrained(engine, motion) -> motions.Motion:
     motion.ties["length"] = engine.link_lengths(motion.frames["center"], motion.rotation)
     motion.whole["static"] = interpreted(end_links)(
         engine.structure.links,
+        motion.grounds,
         motion.frames,
         motion.rotation,
         motion.ties.copy(),

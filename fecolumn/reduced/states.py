@@ -90,7 +90,8 @@ def state_of(engine) -> State:
     )
     loaded = np.flatnonzero(np.any(motion.forces != 0, axis=1))
     points, body = engine.work.points[loaded], structure.bodies.body
-    frames = poses_of(structure.interfaces, center, rotation)["frame"][points["interface"]]
+    poses = poses_of(structure.interfaces, center, rotation, motion.grounds)
+    frames = poses["frame"][points["interface"]]
     moved = np.concatenate(
         [
             structure.pushes[one["first"] : one["first"] + one["count"]] @ own

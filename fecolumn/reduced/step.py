@@ -19,9 +19,18 @@ from fecolumn.contact.impact import (
     touched,
     what_happens,
 )
+from fecolumn.contact.pad import without_pads
+from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, find_poses
 from fecolumn.contact.problem import N_IMPACTS, OK, list_present, near_points
-from fecolumn.contact.rolling import mark_rolling, plan_roll, roll_points, rolling_moment, stay
+from fecolumn.contact.rolling import (
+    least_rim_width,
+    mark_rolling,
+    plan_roll,
+    roll_points,
+    rolling_moment,
+    stay,
+)
 from fecolumn.contact.tolerances import CREATED
 from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.contact.work import book_impulses, move_anchors
@@ -37,32 +46,31 @@ from fecolumn.reduced.elastic import (
     find_velocity,
 )
 from fecolumn.reduced.equilibrium import equilibrate
+from fecolumn.reduced.ledger import BASE as BASE_WORK
 from fecolumn.reduced.ledger import CONTACT_WORK, FRICTION, HIT, book, kinetic
-from fecolumn.reduced.motion import push_bodies
+from fecolumn.reduced.motion import move_grounds, push_bodies
 from fecolumn.reduced.rigid_loss import begin_impact, follow_impact
 from fecolumn.reduced.rotation import orthonormal, turn_by
 
 
 @njit
 def step(structure, base, scheme, work, start, ground, end, ledger, counts):
-    """Carry `start` to `end`, one scheme.dt later, under the ground acceleration (3,); the steps of
-    `dynamics.stepper`.
+    """Carry `start` to `end`, one scheme.dt later, under the accelerations (3 G,) of the grounds; the
+    steps of `dynamics.stepper`.
 
     Returns: a way to end, OK or the reason why not; then `start` is unharmed and `ledger` is not to
     be used.
     """
-    booked, interfaces, weight, width = ledger.copy(), structure.interfaces, 0.0, np.inf
+    booked, interfaces, weight = ledger.copy(), structure.interfaces, 0.0
+    move_grounds(start, ground, scheme.dt, end)
     rolled = place_points_of_step(structure, scheme.dt, work, start, end, True)
     answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
     for b in range(len(start.frames)):
         weight += structure.bodies.body[b].mass
-    for k in range(len(interfaces)):
-        if interfaces[k].rim_count > 0:
-            width = min(width, interfaces[k].width)
     weight *= np.sqrt(
         structure.gravity[0] ** 2 + structure.gravity[1] ** 2 + structure.gravity[2] ** 2
     )
-    if answer == OK and rolled and contact_work > CREATED * weight * width:
+    if answer == OK and rolled and contact_work > CREATED * weight * least_rim_width(interfaces):
         # several points of the rim carry while it rolls fast: they stay for this step. No
         # recursion: numba cannot load it from its cache
         put(booked, ledger)
@@ -70,8 +78,7 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
         answer, contact_work = _carry(
             structure, base, scheme, work, start, ground, end, ledger, counts
         )
-    # the springs of a pad bring a landing foot to rest in their own time: there is no impact
-    if answer == OK and not interfaces[0].on_pad:
+    if answer == OK:
         answer = _collide(
             structure, base, scheme, work, start, end, contact_work, booked, ledger, counts
         )
@@ -86,13 +93,13 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
     rims. Returns: whether any rim rolled.
     """
     rolled, part, halfway, poses = False, np.empty(3), work.action.halfway, work.poses
-    find_poses(structure.interfaces, start.frames, start.rotation, poses[START])
+    find_poses(structure.interfaces, start.grounds, start.frames, start.rotation, poses[START])
     for b in range(len(start.frames)):
         for a in range(3):
             part[a] = dt / 2 * start.frames[b].spin[a]
         turn_by(start.rotation[b], part, halfway[b])
     # turned alone: where the bodies go does not matter here
-    find_poses(structure.interfaces, start.frames, halfway, poses[END])
+    find_poses(structure.interfaces, start.grounds, start.frames, halfway, poses[END])
     for i in range(len(work.points)):
         work.before[i] = start.contact[i]
     for k in range(len(structure.interfaces)):
@@ -177,13 +184,12 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
     remembers; the rotation is energy-momentum conserving whatever alpha is, since HHT does not damp
     rigid motion.
     """
-    dt, al, be, gravity, action, points = (
+    dt, al, be, gravity, action = (
         scheme.dt,
         scheme.alpha,
         scheme.beta,
         structure.gravity,
         work.action,
-        work.points,
     )
     bodies, m = len(start.frames), start.modal.shape[2]
     free_center, free_modal, advance = (
@@ -217,24 +223,8 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
                     * (be * dt * (al * rate - (1 + al) * later) + (1 + al) * scheme.gamma * way)
                 )
     for k in range(len(structure.interfaces)):
-        # on a moving master nothing resists, see `model.structure_of`
         if structure.interfaces[k].rolling > 0.0:
-            b, load = structure.interfaces[k].slave, 0.0
-            for i in range(len(work.before)):
-                if points[i].interface == k:
-                    load += max(work.before[i].force[2], 0.0)
-            put(
-                rolling_moment(
-                    start.rotation[b],
-                    start.frames[b].spin,
-                    load,
-                    structure.interfaces[k].radius,
-                    structure.interfaces[k].rolling,
-                    structure.bodies.body[b].inverse_inertia,
-                    dt,
-                ),
-                action.resistance[b],
-            )
+            _resist(structure, k, work, start, dt)
     answer = equilibrate(
         structure,
         base,
@@ -252,6 +242,46 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
         return answer, 0.0
     _finish(structure, scheme, work, start, ground, end)
     return OK, book(structure, scheme, work, start, end, ledger)
+
+
+@njit
+def _resist(structure, k, work, start, dt):
+    """Add to the action on slave and master what resists that the rim of interface k rolls."""
+    interface, pose, resistance = (
+        structure.interfaces[k],
+        work.poses[START, k],
+        work.action.resistance,
+    )
+    b, m, load = interface.slave, interface.master, 0.0
+    for i in range(len(work.before)):
+        if work.points[i].interface == k:
+            load += max(work.before[i].force[2], 0.0)
+    spin, inverse, into = np.empty(3), np.empty((3, 3)), np.empty((3, 3))
+    for a in range(3):
+        spin[a] = start.frames[b].spin[a]
+        for c in range(3):
+            inverse[a, c] = structure.bodies.body[b].inverse_inertia[a, c]
+            # from the master's frame into the slave's
+            into[a, c] = 0.0
+            if m != BASE:
+                for e in range(3):
+                    into[a, c] += start.rotation[b, e, a] * start.rotation[m, e, c]
+    if m != BASE:
+        other = structure.bodies.body[m].inverse_inertia
+        for a in range(3):
+            for c in range(3):
+                spin[a] -= into[a, c] * start.frames[m].spin[c]
+                for e in range(3):
+                    for f in range(3):
+                        inverse[a, c] += into[a, e] * other[e, f] * into[c, f]
+    moment = rolling_moment(
+        pose.turned[SLAVE], spin, load, interface.radius, interface.rolling, inverse, dt
+    )
+    for a in range(3):
+        resistance[b, a] += moment[a]
+        if m != BASE:
+            for c in range(3):
+                resistance[m, a] -= into[c, a] * moment[c]
 
 
 @njit
@@ -340,7 +370,8 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
         work.before,
         work.elastic,
     )
-    listed = near_points(work.problem)
+    # the springs of a pad bring a landing foot to rest in their own time: there is no impact
+    listed = without_pads(interfaces, points, near_points(work.problem))
     lands = mark_landing(interfaces, points, listed, before, end.contact, work.landing) > 0
     if mark_turning(points, listed, before, end.contact, work.turning) == 0 and not lands:
         return OK
@@ -361,20 +392,17 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
     )
     if happens == NOTHING:
         return OK
-    arms = np.zeros((len(points), 3))
-    for i in touched(listed, before, end.contact):
+    arms, union, moment = (
+        np.zeros((len(points), 3)),
+        touched(listed, before, end.contact),
+        np.nan,
+    )
+    for i in union:
         _find_velocities(structure, work, i, start, end)
         for a in range(3):
             arms[i, a] = points[i].arm[a] + elastic.point[END, i, a]
     if happens == LANDS:
-        moment = landing_moment(
-            touched(listed, before, end.contact),
-            before,
-            end.contact,
-            work.early,
-            work.landing,
-            scheme.dt,
-        )
+        moment = landing_moment(union, before, end.contact, work.early, work.landing, scheme.dt)
         begin_impact(structure, work, start, end, scheme.dt, moment, booked, ledger)
     answer, pushed, impulses = find_impact(
         structure.bodies,
@@ -382,7 +410,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
         points,
         interfaces,
         scheme.springs,
-        listed,
+        union,
         arms,
         work.poses[END],
         before,
@@ -391,18 +419,23 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
         work.late,
         work.landing,
         work.turning,
-        happens == LANDS,
+        moment,
         scheme.dt,
         contact_work,
         counts,
     )
     if answer != OK or not pushed:
         return answer
-    energy = kinetic(structure, end)
+    energy, brought = kinetic(structure, end), 0.0
     push_bodies(structure, scheme, points, arms, work.poses[END], impulses, end)
+    for i in listed:
+        if points[i].master == BASE:
+            for a in range(3):
+                brought += impulses[i, a] * end.grounds[points[i].ground].velocity[a]
+    ledger[BASE_WORK] += brought
     own, other = (HIT, FRICTION) if happens == LANDS else (FRICTION, HIT)
     terms = book_impulses(
-        kinetic(structure, end) - energy,
+        kinetic(structure, end) - energy - brought,
         ledger[own] - booked[own],
         ledger[CONTACT_WORK] - booked[CONTACT_WORK],
         ledger[other] - booked[other],

@@ -9,15 +9,12 @@ import numpy as np
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.joints import joints_of
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, poses_of
+from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.tolerances import RIGID_GIVE
 from fecolumn.dynamics.links import links_of
-from fecolumn.dynamics.overturning import never_alone
+from fecolumn.dynamics.overturning import Limits, never_alone
 from fecolumn.reduced.model import Structure, modal_sum
 from fecolumn.reduced.observe import MARK, View
-
-# Tilt of a body at which it is lost [rad]: far beyond what any structure that still stands reaches
-LOST = np.pi / 4
 
 
 def structure_of(model, hht, gravity, parts_of_step: int = 1) -> tuple[Structure, np.ndarray]:
@@ -112,7 +109,7 @@ def _least_give(body, dt: float) -> np.ndarray:
     return static
 
 
-def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOST) -> View:
+def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -> View:
     """What is watched of a StructureModel.
 
     Parameters
@@ -121,8 +118,8 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
         of all bodies [N].
     cap
         horizontal displacement of the observed mark that counts as overturned [m], 0 for none.
-    lost
-        tilt of any body that does [rad].
+    limits
+        when a body is lost.
     """
     centers, rotations = (
         np.array([part.center for part in model.parts]),
@@ -136,13 +133,18 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
         marks[n]["body"], marks[n]["arm"], shapes[n, :, : shape.shape[1]] = b, arm, shape
     place = names.index((body, name))
     feet = [joint for joint in model.joints if joint.slave == body]
-    foot = np.zeros(3)
+    foot, foot_shape = np.zeros(3), np.zeros((3, modes))
     if feet:
-        surface = model.parts[body].model.surfaces[feet[0].slave_surface]
-        foot = model.parts[body].model.arms[surface.nodes].mean(axis=0) + (
-            feet[0].ball.radius * surface.normal if feet[0].ball else 0.0
+        own = model.parts[body].model
+        surface = own.surfaces[feet[0].slave_surface]
+        share = surface.areas / surface.areas.sum()
+        foot = share @ own.arms[surface.nodes]
+        foot_shape[:, : own.shapes.shape[2]] = np.einsum(
+            "i,iam->am", share, own.shapes[surface.nodes]
         )
-    reference = poses_of(structure.interfaces, centers, rotations)
+        if feet[0].ball:
+            foot += feet[0].ball.radius * surface.normal
+    reference = poses_of(structure.interfaces, centers, rotations, grounds_at(model.levels))
     stance = never_alone(model.parts[body].model.inertia, weight, cap)
     return View(
         centers,
@@ -150,12 +152,15 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
         np.array(marks[place]["arm"]),
         np.ascontiguousarray(shapes[place]),
         foot,
-        np.zeros((3, modes)),
+        foot_shape,
         stance,
-        np.full(len(centers), float(lost)),
+        limits.tilts,
+        limits.standing,
+        limits.corners,
         np.array(reference["foot"]),
         np.array(reference["turned"][:, SLAVE, 2]),
         marks,
         shapes,
         len(structure.links),
+        np.array(model.levels, float),
     )

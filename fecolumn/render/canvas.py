@@ -132,9 +132,6 @@ class Canvas:
     def _add_base(self, first: Frame):
         import pyvista
 
-        surface = self._frames.scene.base
-        if first.base_colour is not None:
-            return self._add(surface, first, first.base_colour)
         look = dict(
             color=_BASE,
             show_edges=True,
@@ -144,24 +141,26 @@ class Canvas:
             ambient=0.55,
             diffuse=0.5,
         )
-        if surface is not None:
-            mesh = _mesh_of(surface, first)
-            self._plotter.add_mesh(mesh, **look)
-            return mesh
-        low, high, square = self._frames.result.ground
-        square = max(square, float((high - low).max()) / 200)
-        low, high = np.floor(low / square) * square, np.ceil(high / square) * square
-        count = np.round((high - low) / square).astype(int)
-        plane = pyvista.Plane(
-            center=(*((low + high) / 2), 0.0),
-            direction=(0, 0, 1),
-            i_size=float(np.ptp([low[0], high[0]])),
-            j_size=float(np.ptp([low[1], high[1]])),
-            i_resolution=int(count[0]),
-            j_resolution=int(count[1]),
-        )
-        self._plotter.add_mesh(plane, **look)
-        return None
+        for low, high, square in self._frames.result.grounds:
+            square = max(square, float((high - low).max()) / 200)
+            sides = high[:2] - low[:2]
+            plane = pyvista.Plane(
+                center=tuple((low + high) / 2),
+                direction=(0, 0, 1),
+                i_size=float(sides[0]),
+                j_size=float(sides[1]),
+                i_resolution=max(1, round(sides[0] / square)),
+                j_resolution=max(1, round(sides[1] / square)),
+            )
+            self._plotter.add_mesh(plane, **look)
+        surface = self._frames.scene.base
+        if surface is None:
+            return None
+        if first.base_colour is not None:
+            return self._add(surface, first, first.base_colour)
+        mesh = _mesh_of(surface, first)
+        self._plotter.add_mesh(mesh, **look)
+        return mesh
 
     def _light_and_look(self) -> None:
         import pyvista

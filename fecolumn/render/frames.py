@@ -293,14 +293,15 @@ class Frames:
     def _pressure_centres(self, times: np.ndarray) -> np.ndarray | None:
         from fecolumn.render.pressure_centre import pressure_centre
 
-        poses, mass = self.result.poses[0], self.scene.mass
-        alone = mass is not None and [one.on_ground for one in self.scene.contacts] == [True]
+        poses, mass, contacts = self.result.poses[0], self.scene.mass, self.scene.contacts
+        alone = mass is not None and [one.on_ground for one in contacts] == [True]
         if not alone:
             return None
         if len(poses.time) != len(self.result.time):
             return np.full((len(times), 2), np.nan)
         ground = self.result.history["ground"]
-        return pressure_centre(poses, ground, mass, times, self._interval)
+        level = float(contacts[0].origin[2])
+        return pressure_centre(poses, ground, mass, times, self._interval, level)
 
     def pressure_path(self) -> tuple[np.ndarray, np.ndarray]:
         """Times (n,) [s] from the first frame to the last, more than there are frames, and the

@@ -7,14 +7,15 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.case import MODEL_ENGINES
 from fecolumn.dynamics.history import read_history
 from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.post.scene import Contact, Scene
 from fecolumn.reduced.states import NAME as STATES
-from fecolumn.render import told
 from fecolumn.render.field_frames import FieldFrames, FrameSeries
 from fecolumn.render.pose import Poses, nearest_rigid
 from fecolumn.render.state_frames import StateFrames
+from fecolumn.render.told import Told, told_by
 from fecolumn.schema import InputError
 from fecolumn.simulation import read_folder_case
 from fecolumn.structures.case import StructureCase
@@ -68,7 +69,7 @@ class Result:
     case: object
     summary: dict
     history: dict[str, np.ndarray]
-    told: told.Told
+    told: Told
     poses: tuple[Poses, ...]
     fields: FieldFrames
     states: StateFrames | None
@@ -115,21 +116,30 @@ class Result:
         )
 
     @property
-    def ground(self) -> tuple[np.ndarray, np.ndarray, float]:
-        """Lowest and highest corner (2,) [m] of the piece of plane ground that is shown, and the
-        size of its squares [m].
+    def grounds(self) -> list[tuple[np.ndarray, np.ndarray, float]]:
+        """Of each ground that is a plane: lowest and highest corner (3,) [m] of the piece that is
+        shown, and the size of its squares [m].
         """
-        times = self.poses[0].time
-        reach = self._reached(times[:: max(1, len(times) // _POSES)])[:, :2]
-        margin, square = _AROUND * self.scene.width, self.scene.width / _SQUARES
-        low = np.floor((reach.min(axis=0) - margin) / square) * square
-        high = np.ceil((reach.max(axis=0) + margin) / square) * square
-        return low, high, square
+        scene, times, found = self.scene, self.poses[0].time, []
+        every = times[:: max(1, len(times) // _POSES)]
+        margin, square = _AROUND * scene.width, scene.width / _SQUARES
+        for place, level in scene.planes.items():
+            own = {one.piece for one in scene.contacts if one.stands_on(place)}
+            if not own:
+                continue
+            # the only ground is below all
+            everything = range(len(scene.bodies)) if len(scene.planes) == 1 else own
+            reach = self._reached(every, everything)[:, :2]
+            low = np.floor((reach.min(axis=0) - margin) / square) * square
+            high = np.ceil((reach.max(axis=0) + margin) / square) * square
+            found.append((np.append(low, level), np.append(high, level), square))
+        return found
 
-    def _reached(self, times: np.ndarray) -> np.ndarray:
-        """Corners (n, 3) [m] of the boxes around all bodies at `times` [s]."""
+    def _reached(self, times: np.ndarray, numbers) -> np.ndarray:
+        """Corners (n, 3) [m] of the boxes around bodies of these numbers at `times` [s]."""
         found = []
-        for piece, poses in zip(self.scene.bodies, self.poses):
+        for number in numbers:
+            piece, poses = self.scene.bodies[number], self.poses[number]
             low, high = piece.upright.min(axis=0), piece.upright.max(axis=0)
             box = np.array(np.meshgrid(*zip(low, high))).reshape(3, -1).T
             found.append(poses.at(times).move(box, slice(None)).reshape(-1, 3))
@@ -140,12 +150,13 @@ class Result:
         if view == "foot":
             around, size = self._around(self._foot(), times)
             return np.concatenate([around, around + [0, 0, _ABOVE_FOOT * size]])
-        if self.scene.base is None:
-            low, high, _ = self.ground
-            around = [[[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])]]
-        else:
-            around = [self._around(one, times)[0] for one in self.scene.contacts if one.on_ground]
-        return np.concatenate([self._reached(times), *around])
+        contacts = [one for one in self.scene.contacts if one.on_ground]
+        plates = [one for one in contacts if one.ground not in self.scene.planes]
+        around = [self._around(one, times)[0] for one in plates] + [
+            np.array([[x, y, low[2]] for x in (low[0], high[0]) for y in (low[1], high[1])])
+            for low, high, _ in self.grounds
+        ]
+        return np.concatenate([self._reached(times, range(len(self.poses))), *around])
 
     def _foot(self) -> Contact:
         """The lowest face of the followed body, or where it has none of its own, of the body on the
@@ -165,7 +176,8 @@ class Result:
         moved = self.poses[contact.piece].at(times).move(foot.mean(axis=0)[None], slice(None))
         side = (0.5 + _AROUND_FOOT) * size
         corners = np.array([[-side, -side, 0], [side, -side, 0], [-side, side, 0], [side, side, 0]])
-        return (moved * [1, 1, 0] + corners).reshape(-1, 3), size
+        level = [0, 0, contact.origin[2]]
+        return (moved * [1, 1, 0] + corners + level).reshape(-1, 3), size
 
 
 def read_result(folder, body: str = "") -> Result:
@@ -196,10 +208,11 @@ def read_result(folder, body: str = "") -> Result:
             f"{folder / 'analyses'}/CASE_ID",
         )
     case, _ = read_folder_case(folder)
-    if hasattr(case, "table"):
+    model = isinstance(case, StructureCase) and case.integration.engine in MODEL_ENGINES
+    if hasattr(case, "table") or model:
         raise InputError(
             folder,
-            case.table,
+            "integration.engine" if model else case.table,
             None,
             "is a rocking model of rigid bodies: nothing is meshed that could be "
             "drawn; its history has figures",
@@ -216,8 +229,7 @@ def read_result(folder, body: str = "") -> Result:
     except Unreadable as error:
         raise InputError(folder / NAME, "", None, str(error)) from None
     history = read_rows(folder / "history.h5")
-    of = told.of_structure if isinstance(case, StructureCase) else told.of_column
-    known = of(case, folder, history, body)
+    known = told_by(case, folder, history, body)
     fields = FieldFrames(folder / "fields")
     fields.check(known.scene)
     states = StateFrames(folder / STATES, known.scene) if is_file(folder / STATES) else None

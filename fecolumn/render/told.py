@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fecolumn.case import finished
 from fecolumn.post.scene import Scene
-from fecolumn.render.pose import Poses, poses
+from fecolumn.render.pose import Poses
 from fecolumn.schema import InputError, meant
 
 
@@ -44,31 +43,8 @@ class Told:
     floors: dict[int, np.ndarray] = field(default_factory=dict)
 
 
-def of_column(case, folder, history: dict[str, np.ndarray], body: str) -> Told:
-    """What the history of a single column tells.
-
-    Raises
-    ------
-    InputError
-        a body is named, or the mesh file that the case names is gone.
-    """
-    from fecolumn.post.column_scene import column_scene, ends_of
-
-    if body:
-        raise InputError(
-            "fecolumn render",
-            "--body",
-            body,
-            f"is for structures of [bodies]; {folder} holds a single column",
-        )
-    scene = column_scene(finished(case, folder / "case.json"))
-    foot, top = ends_of(scene)
-    moves = poses(history, foot, top)
-    return Told(scene, (moves,), history["u_top"], top, "top in plan", 0)
-
-
-def of_structure(case, folder, history: dict[str, np.ndarray], body: str) -> Told:
-    """What the history of a structure tells; before version 0.7 no poses.
+def told_by(case, folder, history: dict[str, np.ndarray], body: str) -> Told:
+    """What the history of an analysis tells; before version 0.7 no poses.
 
     Raises
     ------
@@ -94,7 +70,8 @@ def of_structure(case, folder, history: dict[str, np.ndarray], body: str) -> Tol
                 folder / "history.h5",
                 "",
                 None,
-                f'has no column "{name}": it is of another structure than that of case.json',
+                f'has no column "{name}": it is of another structure than that of case.json, '
+                "or of a column and a version before 0.7",
             )
     moves = []
     for one in structure.parts:

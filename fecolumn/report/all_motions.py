@@ -11,9 +11,9 @@ import numpy as np
 from fecolumn.ending import lost
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.fan_figure import Fan, fan_figure
-from fecolumn.post.plan_figure import plan_figure
+from fecolumn.post.plan_figure import LostDirections, plan_figure
 from fecolumn.post.specimen_outline import specimen_outline
-from fecolumn.report.document import Paragraph, Section
+from fecolumn.report.document import PageSection, Paragraph
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.histories import Histories
 from fecolumn.report.notation import axis_name, count
@@ -23,16 +23,15 @@ _PANELS, _ACROSS = 20, 5
 SHAPE = {"column", "cap", "flange"}
 
 
-def all_motions(sweep: Sweep, histories: Histories, gallery: Gallery) -> Section | None:
+def all_motions(sweep: Sweep, histories: Histories, gallery: Gallery) -> PageSection | None:
     """The section; None where no history is to be read."""
     drawn = [setting for setting in sweep.done if histories.of(setting)]
     if not drawn:
         return None
     shown = sweep.reference if sweep.reference in drawn else drawn[0]
     limit, own = 1.03 * sweep.limit_m, histories.of(shown)
-    in_plan = any(
-        trace.u_top[:, 1].any() for trace in own
-    )  # a model of a plane has no path in plan
+    # a model of a plane has no path in plan
+    in_plan = any(trace.u_top[:, 1].any() for trace in own)
     caption = (
         f"{_what(sweep)} in {count(len(own), 'motion')} {sweep.at(shown.values)}, against "
         f"time. {_marked(sweep, shown)}"
@@ -45,7 +44,7 @@ def all_motions(sweep: Sweep, histories: Histories, gallery: Gallery) -> Section
         blocks.append(_plan(sweep, histories, shown, limit, gallery))
     if len(drawn) > 1:
         blocks.append(_multiples(sweep, histories, drawn, limit, gallery))
-    return Section("All motions together", blocks)
+    return PageSection("All motions together", blocks)
 
 
 def _what(sweep: Sweep) -> str:
@@ -81,18 +80,17 @@ def _marked(sweep: Sweep, setting: Setting) -> str:
 
 
 def _plan(sweep: Sweep, histories: Histories, shown: Setting, limit: float, gallery: Gallery):
-    directions = [_directions(setting for setting in chosen) for chosen in ([shown], sweep.done)]
+    here, anywhere = _directions([shown]), _directions(sweep.done)
     same = not {axis.partition(".")[0] for axis in sweep.varied} & SHAPE
     outline = specimen_outline(sweep.case) if sweep.case and same else None
     caption = f"Paths of the top in plan, relative to the base, {sweep.at(shown.values)}"
-    if len(directions[1]):
+    if len(anywhere):
         caption += (
             f". Right or below: directions in which {sweep.subject.noun}s were lost, the "
             "share of each sector of 30°"
         )
         caption += (
-            f"; filled, {len(directions[0])} of this setting; outline, "
-            f"{len(directions[1])} of all settings"
+            f"; filled, {len(here)} of this setting; outline, {len(anywhere)} of all settings"
             if len(sweep.done) > 1
             else ""
         )
@@ -101,8 +99,7 @@ def _plan(sweep: Sweep, histories: Histories, shown: Setting, limit: float, gall
         caption + ".",
         plan_figure,
         histories.of(shown),
-        directions,
-        "lost" if sweep.slides else "overturned",
+        LostDirections(here, anywhere, "lost" if sweep.slides else "overturned"),
         None if outline is None else outline.foot,
         critical_of([shown]),
         limit,

@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.distributions import axis_columns
-from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import axis_name, count, fixed, number
 from fecolumn.report.sweep import Setting, Sweep
@@ -20,7 +20,7 @@ _CURVES, _FOLD = 7, 40
 _CLOSED = 1e-3  # closure error that a reader should look at
 
 
-def audit(sweep: Sweep, gallery: Gallery) -> Section:
+def audit(sweep: Sweep, gallery: Gallery) -> PageSection:
     """The section."""
     blocks = [
         Paragraph(_completeness(sweep)),
@@ -44,13 +44,13 @@ def audit(sweep: Sweep, gallery: Gallery) -> Section:
             for row in failed
         ]
         columns = (
-            *(Column(axis, axis_name(axis), text=True) for axis in axes),
-            Column("reason", "reason", text=True),
-            Column("id", "analysis", text=True),
-            Column("log", "log", text=True),
+            *(PageColumn(axis, axis_name(axis), text=True) for axis in axes),
+            PageColumn("reason", "reason", text=True),
+            PageColumn("id", "analysis", text=True),
+            PageColumn("log", "log", text=True),
         )
         blocks.append(
-            Table(
+            PageTable(
                 "failures",
                 columns,
                 rows,
@@ -60,7 +60,7 @@ def audit(sweep: Sweep, gallery: Gallery) -> Section:
                 folded=len(rows) > _FOLD,
             )
         )
-    return Section("Audit", blocks)
+    return PageSection("Audit", blocks)
 
 
 def _completeness(sweep: Sweep) -> str:
@@ -126,7 +126,7 @@ def _energy(sweep: Sweep) -> str:
     )
 
 
-def _table(sweep: Sweep) -> Table:
+def _table(sweep: Sweep) -> PageTable:
     rows = [
         (
             *(setting.values[axis] for axis in sweep.varied),
@@ -145,25 +145,25 @@ def _table(sweep: Sweep) -> Table:
     ]
     columns = (
         *axis_columns(sweep.varied),
-        Column("planned", "planned"),
-        Column("done", "done"),
-        Column("failed", "failed"),
-        Column("closure_median", "closure, median", number),
-        Column("closure_worst", "worst", number),
-        Column(
+        PageColumn("planned", "planned"),
+        PageColumn("done", "done"),
+        PageColumn("failed", "failed"),
+        PageColumn("closure_median", "closure, median", number),
+        PageColumn("closure_worst", "worst", number),
+        PageColumn(
             "penetration_max_m",
             "pene\N{SOFT HYPHEN}tration [mm]",
             lambda value: number(None if value is None else 1e3 * value),
         ),
-        Column("cuts", "step cuts", number),
-        Column("impacts_mean", "impacts a run", number),
-        Column("rigid_loss_share_mean", "of the rigid loss [%]", _hundred),
-        Column("algorithmic_share", "loss by HHT [%]", _hundred),
-        Column("impact_share", "impact [%]", _hundred),
-        Column("friction_share", "friction [%]", _hundred),
-        Column("overturn_first_s overturn_last_s", "overturned at [s]", _span),
+        PageColumn("cuts", "step cuts", number),
+        PageColumn("impacts_mean", "impacts a run", number),
+        PageColumn("rigid_loss_share_mean", "of the rigid loss [%]", _hundred),
+        PageColumn("algorithmic_share", "loss by HHT [%]", _hundred),
+        PageColumn("impact_share", "impact [%]", _hundred),
+        PageColumn("friction_share", "friction [%]", _hundred),
+        PageColumn("overturn_first_s overturn_last_s", "overturned at [s]", _span),
     )
-    return Table(
+    return PageTable(
         "audit",
         columns,
         rows,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from fecolumn.report.document import Column, Table
+from fecolumn.report.document import PageColumn, PageTable
 from fecolumn.statistics.equivalence import detectable_distance
 
 SUPPORTED, NOT_SUPPORTED, UNDECIDED = "supported", "not supported", "undecided"
@@ -57,6 +57,6 @@ class ClaimList:
         """Write claims.csv, the whole of every claim."""
         names = ("key", "paper", "verdict", "ours", "rule")
         rows = [tuple(getattr(claim, name) for name in names) for claim in self.claims]
-        return Table("claims", tuple(Column(name, name) for name in names), rows, "").write_csv(
-            folder
-        )
+        return PageTable(
+            "claims", tuple(PageColumn(name, name) for name in names), rows, ""
+        ).write_csv(folder)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from fecolumn.report.claim import MARGIN, NOT_SUPPORTED, SUPPORTED, UNDECIDED, Claim
 from fecolumn.report.notation import count, fixed, level_text, p_clause, percent, setting_text
-from fecolumn.report.pair import FINE_STEPS, WITH_COARSE_STEP, Pair
+from fecolumn.report.pair import FINE_STEPS, WITH_COARSE_STEP, ComparedPair
 from fecolumn.report.sweep import DT
 from fecolumn.statistics.equivalence import difference_shortfall, equality_shortfall
 from fecolumn.study.alpha import ALPHA
@@ -29,7 +29,7 @@ _COARSE_STEP = (
 )
 
 
-def distribution_claims(pairs: list[Pair], alpha_note: str = "") -> list[Claim]:
+def distribution_claims(pairs: list[ComparedPair], alpha_note: str = "") -> list[Claim]:
     """Time step, small time step, and alpha at small time steps; alpha_note: what of alpha's
     effect, or its lack, is built in.
     """
@@ -61,7 +61,7 @@ def distribution_claims(pairs: list[Pair], alpha_note: str = "") -> list[Claim]:
     ]
 
 
-def _different(key: str, paper: str, pairs: list[Pair], note: str) -> Claim:
+def _different(key: str, paper: str, pairs: list[ComparedPair], note: str) -> Claim:
     if not pairs:
         return Claim(
             key,
@@ -96,7 +96,7 @@ def _different(key: str, paper: str, pairs: list[Pair], note: str) -> Claim:
     )
 
 
-def _same(key: str, paper: str, pairs: list[Pair], needed: str, note: str = "") -> Claim:
+def _same(key: str, paper: str, pairs: list[ComparedPair], needed: str, note: str = "") -> Claim:
     if not pairs:
         return Claim(
             key,
@@ -137,7 +137,7 @@ def _same(key: str, paper: str, pairs: list[Pair], needed: str, note: str = "") 
     )
 
 
-def _few(clear: list[Pair]) -> str:
+def _few(clear: list[ComparedPair]) -> str:
     """Warning where the motions are few for the claim that the clearest pair differs; "" where they
     are not, or none differs.
     """
@@ -147,14 +147,14 @@ def _few(clear: list[Pair]) -> str:
     return difference_shortfall(widest.comparison.n_a, widest.distance, widest.comparisons)
 
 
-def _widest(pair: Pair) -> str:
+def _widest(pair: ComparedPair) -> str:
     return (
         f"the largest distance is {fixed(pair.distance)}, {_names(pair)} (Holm "
         f"{p_clause(pair.p_holm)}, n = {pair.comparison.n_a})."
     )
 
 
-def _names(pair: Pair) -> str:
+def _names(pair: ComparedPair) -> str:
     levels = f"{setting_text({pair.axis: pair.low})} against {level_text(pair.axis, pair.high)}"
     return levels + (f" at {setting_text(pair.others)}" if pair.others else "")
 
@@ -167,7 +167,7 @@ def _open(bound: float) -> str:
     return text + (f", below {MARGIN:.3f}." if bound <= MARGIN else f", more than {MARGIN:.3f}.")
 
 
-def _why(pair: Pair) -> str:
+def _why(pair: ComparedPair) -> str:
     """Which way the distribution moves, and what tells it: overturns or peaks."""
     it = pair.comparison
     change = it.p_lost_b - it.p_lost_a

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import BARS, SHADED, SHADES, Panel, cdf_figure
-from fecolumn.post.interval_figure import Estimate, Scale, interval_figure
+from fecolumn.post.cdf_figure import BARS, SHADED, SHADES, CdfPanel, cdf_figure
+from fecolumn.post.interval_figure import IntervalRow, Scale, interval_figure
 from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.claim import CALIBRATION_TARGET
-from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.report.families import families, shortfalls
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import (
@@ -26,7 +26,7 @@ from fecolumn.report.notation import (
     sentence,
     setting_text,
 )
-from fecolumn.report.pair import Pair
+from fecolumn.report.pair import ComparedPair
 from fecolumn.report.power import power
 from fecolumn.report.sweep import Setting, Sweep
 from fecolumn.statistics.convergence import cdf_convergence
@@ -42,7 +42,7 @@ TARGET_NOTE = (
 )
 
 
-def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
+def distributions(sweep: Sweep, pairs: list[ComparedPair], gallery: Gallery) -> PageSection:
     """The section; figures go to the gallery's folder."""
     blocks: list = []
     for name, axis in _views(sweep):
@@ -95,16 +95,16 @@ def distributions(sweep: Sweep, pairs: list[Pair], gallery: Gallery) -> Section:
             families(pairs),
             _comparisons(sweep, pairs),
         ]
-    return Section("Distributions", blocks + _convergence(sweep, gallery))
+    return PageSection("Distributions", blocks + _convergence(sweep, gallery))
 
 
-def _bands(panels: list[Panel]) -> str:
+def _bands(panels: list[CdfPanel]) -> str:
     """What the bands of a figure are."""
     kinds = {(SHADES if len(panel.lines) <= SHADED else BARS).partition(":")[0] for panel in panels}
     return " and ".join(sorted(kinds)).capitalize()
 
 
-def _seen(panels: list[Panel]) -> str:
+def _seen(panels: list[CdfPanel]) -> str:
     return (
         ", of each line at places of its own"
         if any(len(panel.lines) > SHADED for panel in panels)
@@ -121,12 +121,11 @@ def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
     return [(f"cdf_by_{axis.split('.')[-1]}", axis) for axis in axes[:3]] or [("cdf", None)]
 
 
-def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
+def _panels(sweep: Sweep, axis: str | None) -> list[CdfPanel]:
     if axis is None:
         chosen = sweep.done
-        if (
-            len(chosen) > _LINES
-        ):  # of many unordered ones the least, the middle and the most dangerous
+        # of many unordered ones the least, the middle and the most dangerous
+        if len(chosen) > _LINES:
             ranked = sorted(
                 chosen,
                 key=lambda one: (one.column("overturned").mean(), percentile(*one.peaks(), 0.5)),
@@ -134,7 +133,9 @@ def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
             chosen = [ranked[0], ranked[len(ranked) // 2], ranked[-1]]
         labels = _labels(sweep)
         return [
-            Panel("", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen), sweep.p_lost)
+            CdfPanel(
+                "", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen), sweep.p_lost
+            )
         ]
     groups: dict[str, list[Setting]] = {}
     for setting in sorted(
@@ -150,7 +151,7 @@ def _panels(sweep: Sweep, axis: str | None) -> list[Panel]:
         )
         groups.setdefault(title, []).append(setting)
     panels = [
-        Panel(
+        CdfPanel(
             title,
             tuple((axis_text(axis, one.values[axis]), ecdf(*one.peaks())) for one in group),
             sweep.p_lost,
@@ -181,7 +182,7 @@ def _in_figure(values: dict) -> str:
     return ", ".join(axis_text(key, value) for key, value in values.items())
 
 
-def _left_out(sweep: Sweep, axis: str | None, panels: list[Panel]) -> str:
+def _left_out(sweep: Sweep, axis: str | None, panels: list[CdfPanel]) -> str:
     drawn, there = sum(len(panel.lines) for panel in panels), len(sweep.done)
     return f" ({drawn} of {there} settings)" if drawn < there else ""
 
@@ -249,27 +250,27 @@ def _overturning(sweep: Sweep, gallery: Gallery) -> list:
             )
         )
         estimates.append(
-            Estimate(labels[id(setting)], 100 * k / n, 100 * wilson[0], 100 * wilson[1])
+            IntervalRow(labels[id(setting)], 100 * k / n, 100 * wilson[0], 100 * wilson[1])
         )
-    table = Table(
+    table = PageTable(
         "p_overturn",
         (
-            Column("setting", "setting"),
+            PageColumn("setting", "setting"),
             *axis_columns(sweep.varied),
-            Column("planned", "planned"),
-            Column("n", "run"),
-            Column("overturned", "over\N{SOFT HYPHEN}turned", _whole),
-            *((Column("slid_off", "slid off", _whole),) if off else ()),
-            Column(
+            PageColumn("planned", "planned"),
+            PageColumn("n", "run"),
+            PageColumn("overturned", "over\N{SOFT HYPHEN}turned", _whole),
+            *((PageColumn("slid_off", "slid off", _whole),) if off else ()),
+            PageColumn(
                 "p_overturn",
                 "P(overturn) [%]",
                 lambda share: fixed(None if share is None else 100 * share, 1),
             ),
-            Column("wilson_low wilson_high", "Wilson [%]", percent_interval),
-            Column("exact_low exact_high", "exact [%]", percent_interval),
-            Column("u_max_16_m", "u₁₆ [mm]", millimetres),
-            Column("u_max_50_m", "u₅₀ [mm]", millimetres),
-            Column("u_max_84_m", "u₈₄ [mm]", millimetres),
+            PageColumn("wilson_low wilson_high", "Wilson [%]", percent_interval),
+            PageColumn("exact_low exact_high", "exact [%]", percent_interval),
+            PageColumn("u_max_16_m", "u₁₆ [mm]", millimetres),
+            PageColumn("u_max_50_m", "u₅₀ [mm]", millimetres),
+            PageColumn("u_max_84_m", "u₈₄ [mm]", millimetres),
         ),
         rows,
         "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and "
@@ -297,10 +298,12 @@ def _overturning(sweep: Sweep, gallery: Gallery) -> list:
     return [gallery.draw("overturning", caption, interval_figure, [(scale, estimates)]), table]
 
 
-def axis_columns(axes) -> tuple[Column, ...]:
+def axis_columns(axes) -> tuple[PageColumn, ...]:
     """Columns of the levels of axes."""
     return tuple(
-        Column(axis, axis_name(axis) + (f" [{unit}]" if (unit := _unit(axis)) else ""), plain_level)
+        PageColumn(
+            axis, axis_name(axis) + (f" [{unit}]" if (unit := _unit(axis)) else ""), plain_level
+        )
         for axis in axes
     )
 
@@ -324,7 +327,7 @@ def _whole(value) -> str:
     return "\N{EM DASH}" if value is None else str(value)
 
 
-def _comparisons(sweep: Sweep, pairs: list[Pair]) -> Table:
+def _comparisons(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
     rows = []
     for pair in pairs:
         it = pair.comparison
@@ -350,23 +353,23 @@ def _comparisons(sweep: Sweep, pairs: list[Pair]) -> Table:
             )
         )
     columns = (
-        Column("axis a b", "a against b", _levels, text=True),
-        Column("at", "at", setting_words, text=True),
-        Column("n", "n"),
-        Column("ks", "D", fixed),
-        Column("ks_p", "p", p_value),
-        Column("ks_evidence", "evidence", text=True),
-        Column("paired_p", "paired p", p_value),
-        Column("p_holm", "p (Holm)", p_value),
-        Column("ad_p", "AD p", p_value),
-        Column("cvm_p", "CvM p", p_value),
-        Column("e50", "e₅₀", fixed),
-        Column("correlation", "R", fixed),
-        Column("flips", "flips"),
-        Column("mcnemar_p", "McNemar p", p_value),
-        Column("bound_95", "D not excluded", fixed),
+        PageColumn("axis a b", "a against b", _levels, text=True),
+        PageColumn("at", "at", setting_words, text=True),
+        PageColumn("n", "n"),
+        PageColumn("ks", "D", fixed),
+        PageColumn("ks_p", "p", p_value),
+        PageColumn("ks_evidence", "evidence", text=True),
+        PageColumn("paired_p", "paired p", p_value),
+        PageColumn("p_holm", "p (Holm)", p_value),
+        PageColumn("ad_p", "AD p", p_value),
+        PageColumn("cvm_p", "CvM p", p_value),
+        PageColumn("e50", "e₅₀", fixed),
+        PageColumn("correlation", "R", fixed),
+        PageColumn("flips", "flips"),
+        PageColumn("mcnemar_p", "McNemar p", p_value),
+        PageColumn("bound_95", "D not excluded", fixed),
     )
-    return Table(
+    return PageTable(
         "comparisons",
         columns,
         rows,

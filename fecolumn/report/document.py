@@ -58,7 +58,7 @@ def _data_uri(svg: bytes) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class PageColumn:
     """A column of the page's table: its names in the CSV file, its heading with the unit, how its
     values are written.
 
@@ -73,18 +73,19 @@ class Column:
 
     @property
     def names(self) -> list[str]:
+        """Names of the figures side by side: `name` split at spaces."""
         return self.name.split()
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class PageTable:
     """A table; rows hold plain values, which the CSV file takes as they are.
 
     `folded` ones open on demand.
     """
 
     name: str
-    columns: tuple[Column, ...]
+    columns: tuple[PageColumn, ...]
     rows: list[tuple]
     caption: str
     folded: bool = False
@@ -129,7 +130,7 @@ def _plain(value):
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class PageSection:
     """A numbered section."""
 
     title: str
@@ -137,11 +138,12 @@ class Section:
 
     @property
     def anchor(self) -> str:
+        """Anchor of the section in the page, from its title."""
         return re.sub(r"\W+", "-", self.title.lower())
 
 
-def numbered(sections: list[Section]) -> dict[str, str]:
-    """ "Figure 1", "Table 1" of every figure and table by name."""
+def numbered(sections: list[PageSection]) -> dict[str, str]:
+    """Label, such as "Figure 1" or "Table 1", of every figure and table by name."""
     labels: dict[str, str] = {}
     for kind in ("figure", "table"):
         named = [block for section in sections for block in section.blocks if block.kind == kind]

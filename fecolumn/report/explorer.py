@@ -18,7 +18,7 @@ from fecolumn.post.fan_figure import LOOKS
 from fecolumn.post.specimen_outline import specimen_outline
 from fecolumn.post.style import LINES
 from fecolumn.report.all_motions import SHAPE, critical_of
-from fecolumn.report.document import Paragraph, Section
+from fecolumn.report.document import PageSection, Paragraph
 from fecolumn.report.histories import FINEST, Histories, Trace, spread_out
 from fecolumn.report.notation import (
     axis_name,
@@ -53,10 +53,10 @@ class Explorer:
         ).replace("<", "\\u003c")
 
 
-def explorer(sweep: Sweep, histories: Histories) -> Section:
+def explorer(sweep: Sweep, histories: Histories) -> PageSection:
     """The section."""
     if sum(len(setting.runs) for setting in sweep.done) > MOST_ANALYSES:
-        return Section(
+        return PageSection(
             "Explorer",
             [
                 Paragraph(
@@ -66,7 +66,7 @@ def explorer(sweep: Sweep, histories: Histories) -> Section:
             ],
         )
     data, words = explorer_data(sweep, histories)
-    return Section("Explorer", [Paragraph(_OPENING + words), Explorer(data)])
+    return PageSection("Explorer", [Paragraph(_OPENING + words), Explorer(data)])
 
 
 _OPENING = (
@@ -90,7 +90,7 @@ def explorer_data(sweep: Sweep, histories: Histories) -> tuple[dict, str]:
         key=lambda one: [sweep.axes[axis].index(one.values[axis]) for axis in sweep.varied],
     )
     chosen, share = _fitting(sweep, histories)
-    names = [name for name in LOOKS]
+    names = list(LOOKS)
     outline = (
         specimen_outline(sweep.case)
         if sweep.case and not SHAPE & {axis.partition(".")[0] for axis in sweep.varied}

@@ -4,9 +4,9 @@ enough for it.
 
 from __future__ import annotations
 
-from fecolumn.report.document import Column, Paragraph, Table
+from fecolumn.report.document import PageColumn, PageTable, Paragraph
 from fecolumn.report.notation import axis_name, fixed, p_value
-from fecolumn.report.pair import Pair
+from fecolumn.report.pair import ComparedPair
 from fecolumn.statistics.equivalence import (
     SMALL,
     detectable_distance,
@@ -16,7 +16,7 @@ from fecolumn.statistics.equivalence import (
 )
 
 
-def _by_family(pairs: list[Pair]) -> dict[str, list[Pair]]:
+def _by_family(pairs: list[ComparedPair]) -> dict[str, list[ComparedPair]]:
     """Pairs that answer one question, by the question."""
     return {
         family: [pair for pair in pairs if pair.family == family]
@@ -24,7 +24,7 @@ def _by_family(pairs: list[Pair]) -> dict[str, list[Pair]]:
     }
 
 
-def _needed(own: list[Pair]) -> tuple[float, int]:
+def _needed(own: list[ComparedPair]) -> tuple[float, int]:
     """Distance below which a family's CDFs cannot be told apart, and motions that its claim needs:
     that of a difference where one is found, of least distance, else that of none beyond `SMALL`.
     """
@@ -35,7 +35,7 @@ def _needed(own: list[Pair]) -> tuple[float, int]:
     ) if clear else motions_needed(SMALL)
 
 
-def shortfalls(pairs: list[Pair]) -> list[Paragraph]:
+def shortfalls(pairs: list[ComparedPair]) -> list[Paragraph]:
     """Warnings where motions are too few for what a family of pairs is said to show."""
     found = []
     for family, own in _by_family(pairs).items():
@@ -61,7 +61,7 @@ def shortfalls(pairs: list[Pair]) -> list[Paragraph]:
     return found
 
 
-def families(pairs: list[Pair]) -> Table:
+def families(pairs: list[ComparedPair]) -> PageTable:
     """A row for each question: how many pairs, what they show, what they leave open, and how many
     motions would settle it.
     """
@@ -83,19 +83,19 @@ def families(pairs: list[Pair]) -> Table:
             )
         )
     columns = (
-        Column("axis", "settings that differ in", axis_name, text=True),
-        Column("pairs_of", "pairs", text=True),
-        Column("pairs", "number"),
-        Column("significant", "p (Holm) < 0.05"),
-        Column("ks_max", "largest D", fixed),
-        Column("ks_p_min", "least p, independent", p_value),
-        Column("paired_p_min", "least p, paired", p_value),
-        Column("p_holm_min", "least p (Holm)", p_value),
-        Column("bound_95_max", "largest D not excluded", fixed),
-        Column("distance_told", "D told from 0", fixed),
-        Column("motions_needed", "motions needed"),
+        PageColumn("axis", "settings that differ in", axis_name, text=True),
+        PageColumn("pairs_of", "pairs", text=True),
+        PageColumn("pairs", "number"),
+        PageColumn("significant", "p (Holm) < 0.05"),
+        PageColumn("ks_max", "largest D", fixed),
+        PageColumn("ks_p_min", "least p, independent", p_value),
+        PageColumn("paired_p_min", "least p, paired", p_value),
+        PageColumn("p_holm_min", "least p (Holm)", p_value),
+        PageColumn("bound_95_max", "largest D not excluded", fixed),
+        PageColumn("distance_told", "D told from 0", fixed),
+        PageColumn("motions_needed", "motions needed"),
     )
-    return Table(
+    return PageTable(
         "families",
         columns,
         rows,

@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.distributions import axis_columns
-from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.intensity import NOT_FOUND, SCALE, Intensities, Runs, across_scales
 from fecolumn.report.notation import axis_name, count, fixed, interval, p_clause, p_value, sentence
@@ -22,7 +22,7 @@ _FEWEST, _BINS, _FOLD, _CURVES = 20, 6, 20, 7
 
 
 @dataclass(frozen=True, slots=True)
-class Fitted:
+class FittedSetting:
     """A setting over all scales of its motions: its values but the scale, its runs, and its
     fragility (None where it has none).
     """
@@ -32,7 +32,7 @@ class Fitted:
     fit: Fragility | None
 
 
-def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Section | None:
+def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageSection | None:
     """The section; None where the motions are not to be found, are few, or do not tell overturning
     from standing.
     """
@@ -43,7 +43,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Secti
     ]
     try:
         found = [
-            Fitted(values, runs, _fit(runs))
+            FittedSetting(values, runs, _fit(runs))
             for values, settings in groups
             for runs in [intensities.of_runs(settings)]
         ]
@@ -67,7 +67,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Secti
         f"{count(_BINS, 'group')} of runs of equal number, with Wilson's "
         "95 % interval of independent runs."
     )
-    if axis := line_axis(sweep, [one.values for one in found if one.fit]):
+    if axis := curve_axis(sweep, [one.values for one in found if one.fit]):
         panels.append(
             CurvePanel(
                 LABEL,
@@ -97,14 +97,14 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Secti
     )
     columns = (
         *axis_columns([axis for axis in sweep.varied if axis != SCALE]),
-        Column("n", "runs"),
-        Column("records", "records"),
-        Column("overturned", "over\N{SOFT HYPHEN}turned"),
-        Column("pgv_median_m_s", "median PGV [m/s]", _speed),
-        Column("pgv_low pgv_high", "95 %", lambda low, high: interval(low, high, _speed)),
-        Column("beta", "β", fixed),
-        Column("beta_low beta_high", "95 %", interval),
-        Column("pga_p", "p of PGA", p_value),
+        PageColumn("n", "runs"),
+        PageColumn("records", "records"),
+        PageColumn("overturned", "over\N{SOFT HYPHEN}turned"),
+        PageColumn("pgv_median_m_s", "median PGV [m/s]", _speed),
+        PageColumn("pgv_low pgv_high", "95 %", lambda low, high: interval(low, high, _speed)),
+        PageColumn("beta", "β", fixed),
+        PageColumn("beta_low beta_high", "95 %", interval),
+        PageColumn("pga_p", "p of PGA", p_value),
     )
     rows = [
         (
@@ -116,18 +116,22 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Secti
         )
         for one in found
     ]
-    return Section(
+    scaled = (
+        "at all its scales"
+        if SCALE in sweep.varied
+        else "unscaled: far from its middle the curve is an extrapolation"
+    )
+    return PageSection(
         "Fragility",
         [
             Paragraph(
                 "[[fragility]] and [[fragilities]]: probability of overturning over "
                 "the peak ground velocity, lognormal, by maximum likelihood (Baker "
                 f"2015), each run one yes or no. {told}{known}Intensities are those of "
-                "the ensemble as it stands"
-                f"{', at all its scales' if SCALE in sweep.varied else ', unscaled: far from its middle the curve is an extrapolation'}."
+                f"the ensemble as it stands, {scaled}."
             ),
             gallery.draw("fragility", caption, line_figure, panels),
-            Table(
+            PageTable(
                 "fragilities",
                 columns,
                 rows,
@@ -142,7 +146,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Secti
     )
 
 
-def line_axis(sweep: Sweep, values: list[dict]) -> str | None:
+def curve_axis(sweep: Sweep, values: list[dict]) -> str | None:
     """The axis whose levels are the curves of one figure: of those that vary among settings, but
     the scale, the one of most levels that fit.
     """
@@ -154,7 +158,7 @@ def line_axis(sweep: Sweep, values: list[dict]) -> str | None:
     )
 
 
-def settings_curves(axis: str, own: dict, found: list[Fitted]) -> list[Curve]:
+def settings_curves(axis: str, own: dict, found: list[FittedSetting]) -> list[Curve]:
     """A curve for each level of an axis, all else as in `own`."""
     line = [
         one
@@ -193,7 +197,7 @@ def _fit(runs: Runs) -> Fragility | None:
         return None
 
 
-def _row(one: Fitted) -> list:
+def _row(one: FittedSetting) -> list:
     """Median, beta, their intervals, and p of PGA; None where there is no fragility."""
     if one.fit is None:
         return [None] * 7
@@ -222,7 +226,7 @@ def _second(runs: Runs) -> float | None:
     return float(chi2.sf(max(more, 0.0), 1))
 
 
-def _curves(one: Fitted) -> list[Curve]:
+def _curves(one: FittedSetting) -> list[Curve]:
     """The curve with its band, and shares in groups of equal number."""
     pgv, over = one.runs.measures[:, 0], one.runs.overturned
     grid = _grid([pgv])

@@ -45,9 +45,8 @@ class Trace:
         between these.
         """
         top, tilt = self.scale
-        values = np.column_stack(
-            [self.u_top, np.hypot(*self.u_top.T), self.tilt]
-        )  # the magnitude turns where the top passes its place at rest
+        # the magnitude turns where the top passes its place at rest
+        values = np.column_stack([self.u_top, np.hypot(*self.u_top.T), self.tilt])
         rows = thinned(self.time, values, share * np.array([top, top, top, tilt]))
         return Trace(self.time[rows], self.u_top[rows], self.tilt[rows], self.end, self.scale)
 

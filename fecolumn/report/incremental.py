@@ -1,4 +1,6 @@
-"""Section: incremental dynamic analysis, where a study scales the same motions to several levels."""
+"""Section: incremental dynamic analysis, where a study scales the same motions to several
+levels.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +12,8 @@ from fecolumn.post.axis_text import axis_text
 from fecolumn.post.incremental_figure import incremental_figure
 from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.distributions import axis_columns
-from fecolumn.report.document import Column, Paragraph, Section, Table
-from fecolumn.report.fragility import LABEL, line_axis
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
+from fecolumn.report.fragility import LABEL, curve_axis
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.intensity import NOT_FOUND, SCALE, Intensities, across_scales
 from fecolumn.report.notation import axis_name, count, fixed, interval, millimetres
@@ -23,7 +25,7 @@ _LEAST_SCALES, _LEAST_MOTIONS, _FOLD = 3, 3, 20
 
 
 @dataclass(frozen=True, slots=True)
-class Scaled:
+class ScaledSetting:
     """A setting but for the scale: its values, the curves of its motions, and the law of the first
     overturning (None where there is none).
     """
@@ -33,7 +35,7 @@ class Scaled:
     fit: Fragility | None
 
 
-def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Section | None:
+def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageSection | None:
     """The section; None where motions are not at three scales or more, or not to be found."""
     if SCALE not in sweep.varied:
         return None
@@ -56,8 +58,8 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sec
     text = (
         f"[[ida]]: each of {count(len(here.curves), 'motion')} scaled to "
         f"{count(levels, 'level')} (Vamvatsikos and Cornell 2002), {at}. "
-        f"{fallen} overturn the {sweep.subject.noun} at one of their "
-        f"scales{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. "
+        f"{fallen} overturn the {sweep.subject.noun} at one of their scales"
+        f"{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. "
     )
     if here.fit:
         text += (
@@ -96,12 +98,12 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sec
     if here.fit:
         panels, caption = _panels(sweep, here, found)
         blocks.append(gallery.draw("first_overturning", caption, line_figure, panels))
-    return Section(
+    return PageSection(
         "Incremental dynamic analysis", [*blocks, _table(sweep, found), _motions(sweep, found)]
     )
 
 
-def _scaled(values: dict, settings, intensities: Intensities) -> Scaled | None:
+def _scaled(values: dict, settings, intensities: Intensities) -> ScaledSetting | None:
     runs = intensities.of_runs(settings)
     curves = incremental_curves(runs.motion, runs.measures[:, 0], runs.u_max, runs.lost)
     if (
@@ -113,7 +115,7 @@ def _scaled(values: dict, settings, intensities: Intensities) -> Scaled | None:
         fit = first_overturning(*np.transpose([curve.first for curve in curves]))
     except DegenerateData:
         fit = None
-    return Scaled(values, curves, fit)
+    return ScaledSetting(values, curves, fit)
 
 
 def _critical(sweep: Sweep) -> float | None:
@@ -124,8 +126,12 @@ def _critical(sweep: Sweep) -> float | None:
     return stated.pop() if len(stated) == 1 else None
 
 
-def _panels(sweep: Sweep, here: Scaled, found: list[Scaled]) -> tuple[list[CurvePanel], str]:
-    """The law of one setting beside what is known of its motions, and the laws of several settings."""
+def _panels(
+    sweep: Sweep, here: ScaledSetting, found: list[ScaledSetting]
+) -> tuple[list[CurvePanel], str]:
+    """The law of one setting beside what is known of its motions, and the laws of several
+    settings.
+    """
     lower, upper = np.transpose([curve.first for curve in here.curves])
     end = 1.05 * max(float(curve.im[-1]) for one in found for curve in one.curves)
     grid, share = np.linspace(1e-3 * end, end, 300), np.arange(lower.size + 1) / lower.size
@@ -160,7 +166,7 @@ def _panels(sweep: Sweep, here: Scaled, found: list[Scaled]) -> tuple[list[Curve
         "Steps: "
         "the two ends of what is known of each motion."
     )
-    if axis := line_axis(sweep, [one.values for one in found if one.fit]):
+    if axis := curve_axis(sweep, [one.values for one in found if one.fit]):
         line = [
             one
             for one in found
@@ -180,18 +186,18 @@ def _panels(sweep: Sweep, here: Scaled, found: list[Scaled]) -> tuple[list[Curve
     return panels, caption
 
 
-def _table(sweep: Sweep, found: list[Scaled]) -> Table:
+def _table(sweep: Sweep, found: list[ScaledSetting]) -> PageTable:
     axes = [axis for axis in sweep.varied if axis != SCALE]
     columns = (
         *axis_columns(axes),
-        Column("motions", "motions"),
-        Column("runs", "runs"),
-        Column("overturned", "motions that overturn"),
-        Column("stands_again", "that let stand again"),
-        Column("pgv_median_m_s", "median PGV [m/s]", _speed),
-        Column("pgv_low pgv_high", "95 %", lambda low, high: interval(low, high, _speed)),
-        Column("beta", "β", fixed),
-        Column("beta_low beta_high", "95 %", interval),
+        PageColumn("motions", "motions"),
+        PageColumn("runs", "runs"),
+        PageColumn("overturned", "motions that overturn"),
+        PageColumn("stands_again", "that let stand again"),
+        PageColumn("pgv_median_m_s", "median PGV [m/s]", _speed),
+        PageColumn("pgv_low pgv_high", "95 %", lambda low, high: interval(low, high, _speed)),
+        PageColumn("beta", "β", fixed),
+        PageColumn("beta_low beta_high", "95 %", interval),
     )
     rows = []
     for one in found:
@@ -215,7 +221,7 @@ def _table(sweep: Sweep, found: list[Scaled]) -> Table:
                 *law,
             )
         )
-    return Table(
+    return PageTable(
         "first_overturnings",
         columns,
         rows,
@@ -228,16 +234,16 @@ def _table(sweep: Sweep, found: list[Scaled]) -> Table:
     )
 
 
-def _motions(sweep: Sweep, found: list[Scaled]) -> Table:
+def _motions(sweep: Sweep, found: list[ScaledSetting]) -> PageTable:
     axes = [axis for axis in sweep.varied if axis != SCALE]
     columns = (
         *axis_columns(axes),
-        Column("motion", "motion", text=True),
-        Column("scales", "scales"),
-        Column("pgv_stood_m_s", "last PGV that stands [m/s]", _speed),
-        Column("u_max_m", "u_max there [mm]", millimetres),
-        Column("pgv_overturned_m_s", "first PGV that overturns [m/s]", _speed),
-        Column("stands_again", "stands again", lambda again: "yes" if again else ""),
+        PageColumn("motion", "motion", text=True),
+        PageColumn("scales", "scales"),
+        PageColumn("pgv_stood_m_s", "last PGV that stands [m/s]", _speed),
+        PageColumn("u_max_m", "u_max there [mm]", millimetres),
+        PageColumn("pgv_overturned_m_s", "first PGV that overturns [m/s]", _speed),
+        PageColumn("stands_again", "stands again", lambda again: "yes" if again else ""),
     )
     rows = []
     for one in found:
@@ -255,7 +261,7 @@ def _motions(sweep: Sweep, found: list[Scaled]) -> Table:
                     curve.stands_again,
                 )
             )
-    return Table(
+    return PageTable(
         "ida_motions",
         columns,
         rows,

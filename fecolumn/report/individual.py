@@ -8,9 +8,9 @@ from fecolumn.ending import lost
 from fecolumn.post.axis_text import axis_text
 from fecolumn.post.pair_figure import Variable, pair_figure
 from fecolumn.report.distributions import setting_words
-from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.report.gallery import Gallery
-from fecolumn.report.individual_claims import line_trends, spread
+from fecolumn.report.individual_claims import line_trends, setting_spread
 from fecolumn.report.notation import (
     axis_name,
     count,
@@ -26,14 +26,14 @@ from fecolumn.study.alpha import ALPHA
 _VARIABLES, _MATRICES, _FOLD = 6, 4, 20
 
 
-def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
+def individual(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     """The section; None where no motion was run in two settings."""
     matrices = [
         figure for axis in sweep.varied[:_MATRICES] if (figure := _matrix(sweep, axis, gallery))
     ]
     if not matrices:
         return None
-    found = spread(sweep.done)
+    found = setting_spread(sweep.done)
     text = (
         "One by one, the same motion gives different peaks in different settings: "
         f"{' and '.join(f'[[{one.name}]]' for one in matrices)}. "
@@ -60,19 +60,19 @@ def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
     ]
     if rows:
         columns = (
-            Column("axis", "along", axis_name, text=True),
-            Column("at", "at", setting_words, text=True),
-            Column("levels", "levels"),
-            Column("n", "n"),
-            Column("rising", "rise"),
-            Column("falling", "fall"),
-            Column("tau", "mean τ", fixed),
-            Column("tau_low tau_high", "95 %", interval),
-            Column("p", "p", p_value),
-            Column("p_holm", "p (Holm)", p_value),
+            PageColumn("axis", "along", axis_name, text=True),
+            PageColumn("at", "at", setting_words, text=True),
+            PageColumn("levels", "levels"),
+            PageColumn("n", "n"),
+            PageColumn("rising", "rise"),
+            PageColumn("falling", "fall"),
+            PageColumn("tau", "mean τ", fixed),
+            PageColumn("tau_low tau_high", "95 %", interval),
+            PageColumn("p", "p", p_value),
+            PageColumn("p_holm", "p (Holm)", p_value),
         )
         blocks.append(
-            Table(
+            PageTable(
                 "trends",
                 columns,
                 rows,
@@ -87,7 +87,7 @@ def individual(sweep: Sweep, gallery: Gallery) -> Section | None:
     if ALPHA in sweep.varied and sweep.alpha_note:
         blocks.append(Paragraph(sweep.alpha_note, warning=True))
     blocks.append(_motions(sweep))
-    return Section("One by one", blocks)
+    return PageSection("One by one", blocks)
 
 
 def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
@@ -152,7 +152,7 @@ def _trends(sweep: Sweep, axis: str) -> list[tuple]:
     return rows
 
 
-def _motions(sweep: Sweep) -> Table:
+def _motions(sweep: Sweep) -> PageTable:
     """A row for each motion: what the settings make of it."""
     rows = []
     for motion in sweep.motions:
@@ -174,16 +174,16 @@ def _motions(sweep: Sweep) -> Table:
                 high / low if low else None,
             )
         )
-    return Table(
+    return PageTable(
         "motions",
         (
-            Column("motion", "motion", text=True),
-            Column("n", "settings"),
-            Column("overturned", "overturned"),
-            *((Column("slid_off", "slid off"),) if sweep.slides else ()),
-            Column("u_max_smallest_m", "smallest [mm]", millimetres),
-            Column("u_max_largest_m", "largest [mm]", millimetres),
-            Column("factor", "factor", fixed),
+            PageColumn("motion", "motion", text=True),
+            PageColumn("n", "settings"),
+            PageColumn("overturned", "overturned"),
+            *((PageColumn("slid_off", "slid off"),) if sweep.slides else ()),
+            PageColumn("u_max_smallest_m", "smallest [mm]", millimetres),
+            PageColumn("u_max_largest_m", "largest [mm]", millimetres),
+            PageColumn("factor", "factor", fixed),
         ),
         rows,
         "Every motion over all settings: runs that overturned"

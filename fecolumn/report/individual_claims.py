@@ -27,7 +27,7 @@ _WEAK = 0.3  # |tau| below it: at most 65 % of the pairs of levels go one way
 
 
 @dataclass(frozen=True, slots=True)
-class Spread:
+class SettingSpread:
     """What the settings of a study do to one and the same motion.
 
     Attributes
@@ -50,14 +50,14 @@ class Spread:
     never: int
 
 
-def spread(settings) -> Spread:
+def setting_spread(settings) -> SettingSpread:
     """Spread of the peaks over settings, motion by motion."""
     motions = common_motions(settings)
     pairs = [setting.peaks(motions) for setting in settings]
     u, over = np.array([u for u, _ in pairs]), np.array([over for _, over in pairs])
     times = over.sum(axis=0)
     stands = (times == 0) & (u.min(axis=0) > 0)
-    return Spread(
+    return SettingSpread(
         len(settings),
         len(motions),
         u[:, stands].max(axis=0) / u[:, stands].min(axis=0),
@@ -105,7 +105,7 @@ def _fine_trend(line: Line) -> Trend | None:
 
 
 def _change(sweep: Sweep) -> Claim:
-    found = spread(sweep.done)
+    found = setting_spread(sweep.done)
     n, paper = (
         found.motions,
         "Changing the time step or α changes the peak of one and the same motion "

@@ -55,7 +55,8 @@ class Intensities:
     """
 
     def __init__(self, folder: Path):
-        self._folder, self._known = folder, {}
+        self._folder = folder
+        self._known: dict = {}
 
     def motion(self, run: dict) -> GroundMotion:
         """Ground motion of an analysis as applied, at its own step.

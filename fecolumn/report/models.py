@@ -15,9 +15,9 @@ import numpy as np
 from fecolumn.case import MODEL_ENGINES
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import Panel, cdf_figure
+from fecolumn.post.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.report.distributions import axis_columns
-from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import count, interval, millimetres, number, p_value, percent
 from fecolumn.report.sweep import ENGINE, Setting, Sweep, common_motions
@@ -42,7 +42,7 @@ ALL = "all"
 _PANELS, _MOST = 6, 12
 
 
-def models(sweep: Sweep, gallery: Gallery) -> Section | None:
+def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     """The section; None where the study has one engine, or no two of them on common motions."""
     lines = [line for line in _lines(sweep) if line.reference] if ENGINE in sweep.varied else []
     if not lines:
@@ -100,7 +100,7 @@ def models(sweep: Sweep, gallery: Gallery) -> Section | None:
         if (name != ALL or len(ensembles) == 1) and _of(line.reference.runs, some)
     ]
     panels = [
-        Panel(
+        CdfPanel(
             ", ".join(
                 [
                     *([name] if name != ALL else []),
@@ -127,34 +127,34 @@ def models(sweep: Sweep, gallery: Gallery) -> Section | None:
             panels,
         )
     )
-    named = (Column("ensemble", "motions of", text=True),) if len(ensembles) > 1 else ()
+    named = (PageColumn("ensemble", "motions of", text=True),) if len(ensembles) > 1 else ()
     columns = (
         *axis_columns(others),
         *named,
-        Column("engine", "engine", lambda one: NAMES.get(one, one), text=True),
-        Column("n", "n"),
-        Column("overturned", "over\N{SOFT HYPHEN}turned"),
-        Column("p_overturn", "P(overturn)", percent),
-        Column("p_low p_high", "95 % interval", lambda low, high: interval(low, high, percent)),
-        Column("u50_m", "u₅₀ [mm]", millimetres),
-        Column("e50", "e₅₀", number),
-        Column("distance", "D", number),
-        Column("p", "p", p_value),
-        Column("not_excluded", "not excluded", number),
-        Column("same_outcome", "same outcome", percent),
+        PageColumn("engine", "engine", lambda one: str(NAMES.get(one, one)), text=True),
+        PageColumn("n", "n"),
+        PageColumn("overturned", "over\N{SOFT HYPHEN}turned"),
+        PageColumn("p_overturn", "P(overturn)", percent),
+        PageColumn("p_low p_high", "95 % interval", lambda low, high: interval(low, high, percent)),
+        PageColumn("u50_m", "u₅₀ [mm]", millimetres),
+        PageColumn("e50", "e₅₀", number),
+        PageColumn("distance", "D", number),
+        PageColumn("p", "p", p_value),
+        PageColumn("not_excluded", "not excluded", number),
+        PageColumn("same_outcome", "same outcome", percent),
         *(
             (
-                Column(
+                PageColumn(
                     "reference_overturned", f"{told}: over\N{SOFT HYPHEN}turned of the same", number
                 ),
             )
             if fewer
             else ()
         ),
-        Column("cpu_s", "CPU an analysis [s]", number),
+        PageColumn("cpu_s", "CPU an analysis [s]", number),
     )
     blocks.append(
-        Table(
+        PageTable(
             "engines",
             columns,
             rows,
@@ -166,16 +166,23 @@ def models(sweep: Sweep, gallery: Gallery) -> Section | None:
             "analysis did not record it.",
         )
     )
-    return Section("Models beside each other", blocks)
+    return PageSection("Models beside each other", blocks)
 
 
 @dataclass(frozen=True, slots=True)
 class _Beside:
     """Engines that share all else, each on the motions that it has in common with the reference.
 
-    others: values of the other axes. settings: with at least one such motion. reference: the engine
-    nearest to the whole of those with most motions; None of models alone. fewer: names of the
-    engines that have not all of its motions.
+    Attributes
+    ----------
+    others
+        values of the other axes.
+    settings
+        with at least one such motion.
+    reference
+        the engine nearest to the whole of those with most motions; None of models alone.
+    fewer
+        names of the engines that have not all of its motions.
     """
 
     others: dict
@@ -212,12 +219,8 @@ def _span(numbers) -> str:
 
 def _exceptions(fewer: dict[str, list[int]]) -> str:
     """What is said of engines that have fewer motions, by their names."""
-    return (
-        " "
-        f"({', '.join(f'{NAMES.get(name, name)}: {_span(numbers)} of them' for name, numbers in fewer.items())})"
-        if fewer
-        else ""
-    )
+    told = (f"{NAMES.get(name, name)}: {_span(numbers)} of them" for name, numbers in fewer.items())
+    return f" ({', '.join(told)})" if fewer else ""
 
 
 def _label(line: _Beside, setting: Setting, motions: int) -> str:

@@ -39,18 +39,20 @@ def number(value, digits: int = 3) -> str:
         return "\N{INFINITY}" if value > 0 else MINUS + "\N{INFINITY}"
     if value and not 1e-4 <= abs(value) < 1e6:
         mantissa, exponent = f"{value:.{max(digits - 2, 0)}e}".split("e")
-        return f"{mantissa.replace('-', MINUS)}{THIN}×{THIN}10{str(int(exponent)).translate(_SUPERSCRIPTS)}"
+        power = str(int(exponent)).translate(_SUPERSCRIPTS)
+        return f"{mantissa.replace('-', MINUS)}{THIN}×{THIN}10{power}"
     text = f"{value:.{digits}g}" if abs(value) < 10**digits else f"{value:.0f}"
     return text.replace("-", MINUS)
 
 
 def fixed(value, decimals: int = 2) -> str:
-    """Number to a fixed count of decimals, so that a column lines up; a dash where there is none."""
+    """Number to a fixed count of decimals, so that a column lines up; a dash where there is
+    none.
+    """
     if value is None or not math.isfinite(value):
         return DASH
-    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace(
-        "-", MINUS
-    )  # + 0.0: what rounds to nothing has no sign
+    # + 0.0: what rounds to nothing has no sign
+    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
 
 
 def percent(share) -> str:
@@ -71,17 +73,17 @@ def p_value(p) -> str:
 
 
 def p_clause(p) -> str:
-    """ "p = 0.03" or "p < 0.001"."""
+    """A p-value in words, "p = 0.03" or "p < 0.001"."""
     return f"p{THIN}{p_value(p)}" if p < 0.001 else f"p{THIN}={THIN}{p_value(p)}"
 
 
 def interval(low, high, form=fixed) -> str:
-    """ "[low, high]"."""
+    """An interval as "[low, high]"."""
     return f"[{form(low)}, {form(high)}]"
 
 
 def percent_interval(low, high) -> str:
-    """ "[34.8, 52.6]" of two shares, in per cent."""
+    """Interval of two shares [-] in per cent, such as "[34.8, 52.6]"."""
     return DASH if low is None else interval(100 * low, 100 * high, lambda value: fixed(value, 1))
 
 
@@ -102,7 +104,7 @@ def typeset(text: str):
 
 
 def count(n: int, noun: str) -> str:
-    """ "1 motion", "3 motions"; "1 analysis", "3 analyses"."""
+    """A number with its noun, such as "1 motion" or "3 analyses"."""
     plural = {"analysis": "analyses", "history": "histories"}.get(noun, noun + "s")
     return f"{n} {noun if n == 1 else plural}"
 

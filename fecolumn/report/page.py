@@ -15,7 +15,14 @@ from fecolumn.report.claim import MARGIN, SUPPORTED, Claim, ClaimList
 from fecolumn.report.cost import cost_claims
 from fecolumn.report.distribution_claims import distribution_claims
 from fecolumn.report.distributions import TARGET_NOTE, distributions
-from fecolumn.report.document import Column, Paragraph, Section, Table, numbered, referenced
+from fecolumn.report.document import (
+    PageColumn,
+    PageSection,
+    PageTable,
+    Paragraph,
+    numbered,
+    referenced,
+)
 from fecolumn.report.explorer import explorer
 from fecolumn.report.fragility import fragility
 from fecolumn.report.gallery import Gallery
@@ -26,7 +33,7 @@ from fecolumn.report.individual_claims import individual_claims
 from fecolumn.report.intensity import Intensities
 from fecolumn.report.models import models
 from fecolumn.report.notation import axis_name, count, percent, typeset
-from fecolumn.report.pair import Pair, read_pairs
+from fecolumn.report.pair import ComparedPair, read_pairs
 from fecolumn.report.podium import podium
 from fecolumn.report.power import power
 from fecolumn.report.provenance import provenance
@@ -71,7 +78,7 @@ def write_report(folder, output=None, files=("pdf", "png")) -> Path:
         sections = _sections(sweep, Gallery(draft / "figures", has_claims(sweep), tuple(files)))
         for section in sections:
             for block in section.blocks:
-                if isinstance(block, (Table, ClaimList)):
+                if isinstance(block, (PageTable, ClaimList)):
                     block.write_csv(draft / "tables")
         write_bytes(draft / "index.html", _html(sweep, sections).encode())
     return target / "index.html"
@@ -82,7 +89,7 @@ def has_claims(sweep: Sweep) -> bool:
     return DT in sweep.varied and ALPHA in sweep.varied
 
 
-def claims_of(sweep: Sweep, pairs: list[Pair]) -> list[Claim]:
+def claims_of(sweep: Sweep, pairs: list[ComparedPair]) -> list[Claim]:
     """The paper's claims (a) to (d) put to the study."""
     return [
         *individual_claims(sweep, (DT, ALPHA)),
@@ -91,7 +98,7 @@ def claims_of(sweep: Sweep, pairs: list[Pair]) -> list[Claim]:
     ]
 
 
-def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
+def _sections(sweep: Sweep, gallery: Gallery) -> list[PageSection]:
     pairs = read_pairs(sweep)
     claims = claims_of(sweep, pairs) if gallery.paper else []
     intensities, histories = Intensities(sweep.folder), read_histories(sweep)
@@ -114,7 +121,7 @@ def _sections(sweep: Sweep, gallery: Gallery) -> list[Section]:
     return [part for part in parts if part]
 
 
-def _claims_section(sweep: Sweep, claims: list[Claim]) -> Section:
+def _claims_section(sweep: Sweep, claims: list[Claim]) -> PageSection:
     text = (
         "Katsamakas and Vassiliou (COMPDYN) ran 115 bidirectional motions at three "
         "time steps and five values of α, and found (a) that "
@@ -125,12 +132,12 @@ def _claims_section(sweep: Sweep, claims: list[Claim]) -> Section:
         "study by a rule stated beforehand; “supported” says that this study shows the "
         "same, “undecided” that it cannot tell."
     )
-    table = Table(
+    table = PageTable(
         "verdicts",
         (
-            Column("claim", "claim", text=True),
-            Column("paper", "the paper’s finding", text=True),
-            Column(
+            PageColumn("claim", "claim", text=True),
+            PageColumn("paper", "the paper’s finding", text=True),
+            PageColumn(
                 "verdict",
                 "here",
                 lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"),
@@ -140,13 +147,13 @@ def _claims_section(sweep: Sweep, claims: list[Claim]) -> Section:
         [(claim.key, claim.paper, claim.verdict) for claim in claims],
         "The paper’s findings and this study’s verdicts.",
     )
-    return Section(
+    return PageSection(
         "The paper’s findings",
         [Paragraph(text), power(sweep, MARGIN, ", those of the paper"), table, ClaimList(claims)],
     )
 
 
-def _html(sweep: Sweep, sections: list[Section]) -> str:
+def _html(sweep: Sweep, sections: list[PageSection]) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
 
@@ -180,7 +187,7 @@ def _byline(sweep: Sweep) -> str:
     )
 
 
-def _abstract(sweep: Sweep, sections: list[Section]) -> str:
+def _abstract(sweep: Sweep, sections: list[PageSection]) -> str:
     done, failed, total = (
         sum(row["state"] == DONE for row in sweep.rows),
         sum(row["state"] == FAILED for row in sweep.rows),

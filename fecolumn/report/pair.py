@@ -1,4 +1,6 @@
-"""Pairs of settings that differ in one axis alone, compared as distributions and motion by motion."""
+"""Pairs of settings that differ in one axis alone, compared as distributions and motion by
+motion.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ FINE_STEPS, WITH_COARSE_STEP = "time steps of 1 ms and below", "with a time step
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class ComparedPair:
     """Two settings that differ in one axis.
 
     Attributes
@@ -54,7 +56,7 @@ class Pair:
     p_lost: str
 
 
-def read_pairs(sweep: Sweep) -> list[Pair]:
+def read_pairs(sweep: Sweep) -> list[ComparedPair]:
     """Every pair that differs in one axis, or where these are too many, the extreme levels of each
     line.
     """
@@ -80,7 +82,7 @@ def read_pairs(sweep: Sweep) -> list[Pair]:
         members = [place for place, name in enumerate(families) if name == family]
         corrected |= dict(zip(members, holm([found[place][1].paired_p for place in members])))
     return [
-        Pair(
+        ComparedPair(
             line.axis,
             *line.levels,
             line.others,

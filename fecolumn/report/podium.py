@@ -6,10 +6,10 @@ import numpy as np
 
 from fecolumn.post.podium_figure import podium_figure
 from fecolumn.report.claim import Claim, ClaimList
-from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import count, fixed, p_value, percent
-from fecolumn.report.podium_claims import Building, compared, podium_claims
+from fecolumn.report.podium_claims import BuildingLaws, compared, podium_claims
 from fecolumn.report.sweep import Sweep, common_motions
 from fecolumn.rocking.podium_impact import CAV, CRV
 
@@ -19,7 +19,7 @@ _TILT, _SHEAR = "tilt over alpha [-]", "base shear over V_st [-]"  # of a summar
 _DEFAULTS = {STOREYS: 3, PROFILE: "shear"}
 
 
-def podium(sweep: Sweep, gallery: Gallery) -> Section | None:
+def podium(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     """The section; None where the study does not vary the law of a podium's impact, or varies more
     than its building.
     """
@@ -63,7 +63,7 @@ def podium(sweep: Sweep, gallery: Gallery) -> Section | None:
         _table(buildings),
         *_verdicts(claims),
     ]
-    return Section("Two laws of impact", blocks)
+    return PageSection("Two laws of impact", blocks)
 
 
 def responses(sweep: Sweep) -> dict[tuple[str, int, str], dict[str, np.ndarray]]:
@@ -109,19 +109,19 @@ def _thousandths(value) -> str:
     return fixed(value, 3)
 
 
-def _table(buildings: list[Building]) -> Table:
+def _table(buildings: list[BuildingLaws]) -> PageTable:
     columns = (
-        Column("profile", "profile", text=True),
-        Column("storeys", "storeys"),
-        Column("motions", "motions"),
-        Column("still", "start no rocking", percent),
-        Column("overturned_crv", "over\N{SOFT HYPHEN}turned, CRV", percent),
-        Column("overturned_cav", "over\N{SOFT HYPHEN}turned, CAV", percent),
-        Column("distance_tilt", "D, tilt", _thousandths),
-        Column("p_tilt", "p", p_value),
-        Column("distance_shear", "D, shear", _thousandths),
-        Column("p_shear", "p", p_value),
-        Column("median_ratio", "median shear, CAV over CRV", _thousandths),
+        PageColumn("profile", "profile", text=True),
+        PageColumn("storeys", "storeys"),
+        PageColumn("motions", "motions"),
+        PageColumn("still", "start no rocking", percent),
+        PageColumn("overturned_crv", "over\N{SOFT HYPHEN}turned, CRV", percent),
+        PageColumn("overturned_cav", "over\N{SOFT HYPHEN}turned, CAV", percent),
+        PageColumn("distance_tilt", "D, tilt", _thousandths),
+        PageColumn("p_tilt", "p", p_value),
+        PageColumn("distance_shear", "D, shear", _thousandths),
+        PageColumn("p_shear", "p", p_value),
+        PageColumn("median_ratio", "median shear, CAV over CRV", _thousandths),
     )
     rows = [
         (
@@ -136,7 +136,7 @@ def _table(buildings: list[Building]) -> Table:
         )
         for one in buildings
     ]
-    return Table(
+    return PageTable(
         "laws",
         columns,
         rows,
@@ -147,13 +147,13 @@ def _table(buildings: list[Building]) -> Table:
 
 def _verdicts(claims: list[Claim]) -> list:
     columns = (
-        Column("claim", "claim", text=True),
-        Column("paper", "the paper’s finding", text=True),
-        Column(
+        PageColumn("claim", "claim", text=True),
+        PageColumn("paper", "the paper’s finding", text=True),
+        PageColumn(
             "verdict", "here", lambda verdict: verdict.replace(" ", "\N{NO-BREAK SPACE}"), text=True
         ),
     )
-    table = Table(
+    table = PageTable(
         "verdicts",
         columns,
         [(claim.key, claim.paper, claim.verdict) for claim in claims],

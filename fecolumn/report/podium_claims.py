@@ -28,7 +28,7 @@ _RESAMPLES = 499
 
 
 @dataclass(frozen=True, slots=True)
-class Building:
+class BuildingLaws:
     """Both laws side by side for one building.
 
     Attributes
@@ -75,7 +75,7 @@ class Building:
     drawn: np.ndarray
 
 
-def building(profile: str, storeys: int, crv, cav, resamples: int = 1999) -> Building:
+def building_laws(profile: str, storeys: int, crv, cav, resamples: int = 1999) -> BuildingLaws:
     """Both laws compared; crv, cav: "tilt" over alpha, inf where overturned, and "shear" over V_st,
     (motions,) each.
     """
@@ -89,7 +89,7 @@ def building(profile: str, storeys: int, crv, cav, resamples: int = 1999) -> Bui
     drawn = np.array(
         [_sizes(a[some], b[some], shears[0][some], shears[1][some]) for some in draws]
     ).T
-    return Building(
+    return BuildingLaws(
         profile,
         storeys,
         len(a),
@@ -126,11 +126,11 @@ def _outside(a, b) -> float:
     return float(((other < low) | (other > high)).mean())
 
 
-def compared(found, resamples: int = 1999) -> list[Building]:
+def compared(found, resamples: int = 1999) -> list[BuildingLaws]:
     """All buildings of what was found, by (profile, storeys, law)."""
     keys = dict.fromkeys((profile, n) for profile, n, _ in found)
     return [
-        building(profile, n, found[profile, n, CRV], found[profile, n, CAV], resamples)
+        building_laws(profile, n, found[profile, n, CRV], found[profile, n, CAV], resamples)
         for profile, n in keys
     ]
 

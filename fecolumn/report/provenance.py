@@ -9,7 +9,7 @@ import re
 from pathlib import Path
 
 from fecolumn.files import Unreadable, read_json
-from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.report.notation import axis_name, level_text, number
 from fecolumn.report.sweep import Sweep
 from fecolumn.study.mixture import codes, listed
@@ -33,8 +33,9 @@ _DIGEST = re.compile("[0-9a-f]{40,}")
 _KNOWN = ("id", "axes", "state", "reason", "wall_s", "version", "summary", "started", "log")
 
 
-def provenance(sweep: Sweep) -> Section:
+def provenance(sweep: Sweep) -> PageSection:
     """The section: the study, its motions, its case, programs, machine."""
+    runs = [run for setting in sweep.done for run in setting.runs.values()]
     rows = [
         ("Study", sweep.title),
         ("Study id", _identity(sweep.folder)),
@@ -55,8 +56,7 @@ def provenance(sweep: Sweep) -> Section:
         *_dates(sweep),
         (
             "Wall time of all analyses",
-            f"{number(sum(run.get('wall_s') or 0.0 for setting in sweep.done for run in setting.runs.values()) / 3600)} "
-            "h",
+            f"{number(sum(run.get('wall_s') or 0.0 for run in runs) / 3600)} h",
         ),
         ("Reported by", ", ".join(f"{name} {version}" for name, version in _versions())),
         (
@@ -65,24 +65,24 @@ def provenance(sweep: Sweep) -> Section:
         ),
     ]
     blocks = [
-        Table(
+        PageTable(
             "provenance",
-            (Column("what", "what", text=True), Column("value", "value", text=True)),
+            (PageColumn("what", "what", text=True), PageColumn("value", "value", text=True)),
             rows,
             "Where the figures come from.",
         )
     ]
     if sweep.case:
         blocks.append(
-            Table(
+            PageTable(
                 "case",
-                (Column("key", "key", text=True), Column("value", "value", text=True)),
+                (PageColumn("key", "key", text=True), PageColumn("value", "value", text=True)),
                 list(_flat(sweep)),
                 "The case that all analyses share, SI units as the keys say; axes are left out.",
                 folded=True,
             )
         )
-    return Section(
+    return PageSection(
         "Provenance",
         [
             Paragraph(
@@ -113,7 +113,7 @@ def _motions(sweep: Sweep) -> str:
     }
     named = [
         f"{axis_name(key)}: "
-        f"{', '.join(_short(one) for one in (values if len(values) < 7 else [values[0], values[-1]]))}"
+        + ", ".join(_short(one) for one in (values if len(values) < 7 else [values[0], values[-1]]))
         + (f" and {len(values) - 2} between" if len(values) >= 7 else "")
         for key, values in sources.items()
         if values

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from fecolumn.post.axis_text import axis_text, level_number
-from fecolumn.post.interval_figure import Estimate, Scale, interval_figure
-from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.post.interval_figure import IntervalRow, Scale, interval_figure
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import (
     axis_name,
@@ -20,7 +20,7 @@ from fecolumn.report.sweep import Sweep
 from fecolumn.study.alpha import ALPHA
 
 
-def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
+def sensitivity_section(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     """The section; None where no parameter was varied over common motions."""
     ranks = ranking(sweep)
     if not ranks:
@@ -56,7 +56,7 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
         (
             Scale("largest distance of the CDF", (0, None)),
             [
-                Estimate(
+                IntervalRow(
                     name,
                     r.effect.distance,
                     r.effect.distance_low,
@@ -69,7 +69,7 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
         (
             Scale(f"change of {sweep.p_lost.replace('P(', '$P$(')} [%]", level=0.0),
             [
-                Estimate(
+                IntervalRow(
                     name,
                     100 * r.effect.change,
                     100 * r.effect.change_low,
@@ -107,19 +107,19 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
         )
         for r in ranks
     ]
-    columns = (
-        Column("axis from to", "parameter", _span, text=True),
-        Column("settings", "settings"),
-        Column("n", "motions"),
-        Column("distance", "distance", fixed),
-        Column("distance_low distance_high", "95 %", interval),
-        Column("chance", "chance", fixed),
-        Column(
+    heads = (
+        PageColumn("axis from to", "parameter", _span, text=True),
+        PageColumn("settings", "settings"),
+        PageColumn("n", "motions"),
+        PageColumn("distance", "distance", fixed),
+        PageColumn("distance_low distance_high", "95 %", interval),
+        PageColumn("chance", "chance", fixed),
+        PageColumn(
             "change_p_lost", f"change of {sweep.p_lost} [%]", lambda share: fixed(100 * share, 1)
         ),
-        Column("change_low change_high", "95 % [%]", percent_interval),
+        PageColumn("change_low change_high", "95 % [%]", percent_interval),
     )
-    return Section(
+    return PageSection(
         "Sensitivity",
         [
             Paragraph(text),
@@ -129,9 +129,9 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> Section | None:
                 else []
             ),
             figure,
-            Table(
+            PageTable(
                 "ranking",
-                columns,
+                heads,
                 rows,
                 "Parameters ranked by the largest distance of the CDF between their "
                 "extreme levels (of a sampled "

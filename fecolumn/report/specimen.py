@@ -8,14 +8,14 @@ import numpy as np
 
 from fecolumn.post.specimen_figure import specimen_figure
 from fecolumn.post.specimen_outline import specimen_outline
-from fecolumn.report.document import Paragraph, Section
+from fecolumn.report.document import PageSection, Paragraph
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.intensity import NOT_FOUND, Intensities
 from fecolumn.report.notation import count, fixed, sentence, setting_text
 from fecolumn.report.sweep import Sweep
 
 
-def specimen(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Section | None:
+def specimen(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageSection | None:
     """The section; None where neither the specimen's shape nor a motion is to be found."""
     varied = {axis.partition(".")[0] for axis in sweep.varied} & {"column", "cap", "flange", "base"}
     outline = specimen_outline(sweep.case) if sweep.case else None
@@ -42,7 +42,7 @@ def specimen(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Sectio
         )
         if there
     ]
-    return Section(
+    return PageSection(
         "Specimen and motions",
         [
             Paragraph(text),

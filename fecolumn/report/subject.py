@@ -7,8 +7,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """noun: what overturns. article: the noun as it is introduced. top: what u_max is the
-    displacement of.
+    """What a report calls the thing that may overturn.
+
+    Attributes
+    ----------
+    noun
+        what overturns.
+    article
+        the noun as it is introduced.
+    top
+        what u_max is the displacement of.
     """
 
     noun: str

@@ -80,6 +80,7 @@ class Line:
 
     @property
     def levels(self) -> list:
+        """Values of the axis, one for each setting."""
         return [setting.values[self.axis] for setting in self.settings]
 
 
@@ -125,6 +126,7 @@ class Sweep:
 
     @cached_property
     def motions(self) -> list[str]:
+        """Names of all motions, each once, in the order of the settings."""
         return list(dict.fromkeys(motion for setting in self.settings for motion in setting.runs))
 
     @cached_property

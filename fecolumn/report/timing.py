@@ -8,7 +8,7 @@ from fecolumn.post.axis_text import axis_text
 from fecolumn.post.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.report.cost import second_cost
 from fecolumn.report.distributions import axis_columns
-from fecolumn.report.document import Column, Paragraph, Section, Table
+from fecolumn.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.notation import axis_name, number, sentence
 from fecolumn.report.sweep import DT, Setting, Sweep
@@ -17,7 +17,7 @@ from fecolumn.study.alpha import ALPHA
 _CURVES, _FOLD = 7, 40
 
 
-def timing(sweep: Sweep, gallery: Gallery) -> Section | None:
+def timing(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     """The section; None where no analysis states its time."""
     medians = [_median(setting) for setting in sweep.done]
     if not np.isfinite(medians).any():
@@ -39,14 +39,16 @@ def timing(sweep: Sweep, gallery: Gallery) -> Section | None:
     ]
     columns = (
         *axis_columns(sweep.varied),
-        Column("n", "n"),
-        Column("wall_s_per_s", "cost [s/s]", number),
-        Column("ratio", "ratio", number),
-        Column("ms_per_step", "step [ms]", number),
-        Column("steps", "steps", lambda value: f"{value:.0f}"),
-        Column("iterations_per_step", "itera\N{SOFT HYPHEN}tions a step", number),
-        Column("contact_iterations_per_step", "contact itera\N{SOFT HYPHEN}tions a step", number),
-        Column("wall_h", "total [h]", number),
+        PageColumn("n", "n"),
+        PageColumn("wall_s_per_s", "cost [s/s]", number),
+        PageColumn("ratio", "ratio", number),
+        PageColumn("ms_per_step", "step [ms]", number),
+        PageColumn("steps", "steps", lambda value: f"{value:.0f}"),
+        PageColumn("iterations_per_step", "itera\N{SOFT HYPHEN}tions a step", number),
+        PageColumn(
+            "contact_iterations_per_step", "contact itera\N{SOFT HYPHEN}tions a step", number
+        ),
+        PageColumn("wall_h", "total [h]", number),
     )
     # a model in closed form has no iterations
     stated = [
@@ -70,11 +72,11 @@ def timing(sweep: Sweep, gallery: Gallery) -> Section | None:
     ]
     if figure := _figure(sweep, gallery):
         blocks.append(figure)
-    return Section(
+    return PageSection(
         "Cost",
         blocks
         + [
-            Table(
+            PageTable(
                 "timing",
                 columns,
                 rows,

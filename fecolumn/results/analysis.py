@@ -87,7 +87,7 @@ class AnalysisResult:
 
     @property
     def time(self) -> np.ndarray:
-        """(n,) [s]"""
+        """Times (n,) [s] of the samples."""
         return self["time"]
 
     @property
@@ -169,7 +169,7 @@ class AnalysisResult:
         return render(self.folder, Wish(**wishes), quiet=True)
 
     def compare(self, other: AnalysisResult, tolerance: float = 0.05):
-        """This analysis against another as of `fecolumn compare`; a `results.parting.Parting`.
+        """Compare with another analysis as `fecolumn compare` does; a `results.parting.Parting`.
 
         Parameters
         ----------
@@ -194,8 +194,8 @@ class AnalysisResult:
 
     def _repr_html_(self) -> str:
         rows = "".join(
-            "<tr><th "
-            f"style='text-align:left'>{words}</th><td>{_cell(self.summary[key], factor, unit)}</td></tr>"
+            f"<tr><th style='text-align:left'>{words}</th>"
+            f"<td>{_cell(self.summary[key], factor, unit)}</td></tr>"
             for key, words, factor, unit in _SHOWN
             if self.summary.get(key) is not None
         )
@@ -213,28 +213,30 @@ class AnalysisPlots:
 
     def top(self) -> Picture:
         """Displacement of the top against time, below the ground motion."""
-        from fecolumn.post.history_figures import History, read_ending
+        from fecolumn.post.history_figures import HistoryCurves, read_ending
         from fecolumn.post.top_figure import top_figure
 
         return Picture(
             lambda path: top_figure(
-                History.read(self.folder / "history.h5"), read_ending(self.folder), path
+                HistoryCurves.read(self.folder / "history.h5"), read_ending(self.folder), path
             )
         )
 
     def path(self) -> Picture:
         """Path of the top in plan."""
-        from fecolumn.post.history_figures import History, read_ending
+        from fecolumn.post.history_figures import HistoryCurves, read_ending
         from fecolumn.post.path_figure import path_figure
 
         return Picture(
             lambda path: path_figure(
-                History.read(self.folder / "history.h5"), read_ending(self.folder), path
+                HistoryCurves.read(self.folder / "history.h5"), read_ending(self.folder), path
             )
         )
 
     def interfaces(self, *names: str) -> Picture:
-        """Of a structure: tilt, uplift, slide and normal force at interfaces, of all unless named."""
+        """Of a structure: tilt, uplift, slide and normal force at interfaces, of all unless
+        named.
+        """
         from fecolumn.post.structure_figures import interface_figure, interface_names
 
         columns = AnalysisResult(self.folder).history
@@ -260,9 +262,11 @@ class AnalysisPlots:
     def energy(self) -> Picture:
         """The energy ledger against time."""
         from fecolumn.post.energy_figure import energy_figure
-        from fecolumn.post.history_figures import History
+        from fecolumn.post.history_figures import HistoryCurves
 
-        return Picture(lambda path: energy_figure(History.read(self.folder / "history.h5"), path))
+        return Picture(
+            lambda path: energy_figure(HistoryCurves.read(self.folder / "history.h5"), path)
+        )
 
 
 def _cell(value, factor, unit: str) -> str:

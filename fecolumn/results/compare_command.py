@@ -244,12 +244,11 @@ def _labels(a: AnalysisResult, b: AnalysisResult, found: Parting) -> tuple[str, 
         for _, *values in keys
         for value in values
     ):
-        return tuple(
-            f"{letter}: " + ", ".join(axis_text(key, values[k]) for key, *values in keys)
-            for k, letter in enumerate("AB")
+        told_a, told_b = (
+            ", ".join(axis_text(key, values[place]) for key, *values in keys) for place in (0, 1)
         )
-    if a.case.title != b.case.title:
-        return tuple(
-            f"{letter}: {one.case.title or one.folder.name}" for letter, one in (("A", a), ("B", b))
-        )
-    return tuple(f"{letter}: {one.folder.name}" for letter, one in (("A", a), ("B", b)))
+    elif a.case.title != b.case.title:
+        told_a, told_b = (one.case.title or one.folder.name for one in (a, b))
+    else:
+        told_a, told_b = a.folder.name, b.folder.name
+    return f"A: {told_a}", f"B: {told_b}"

@@ -6,19 +6,19 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.case import Case, finished
 from fecolumn.content import content
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.post.column_scene import column_scene, ends_of
-from fecolumn.render.joints import motion
-from fecolumn.render.pose import poses
 from fecolumn.render.quantity import Quantity
 from fecolumn.render.strips import LIFTED
-from fecolumn.results.analysis import AnalysisResult
 from fecolumn.schema import InputError, stated
+from fecolumn.structures.case import StructureCase
+
+if TYPE_CHECKING:
+    from fecolumn.results.analysis import AnalysisResult
 
 #: Difference at which two histories have parted, over the larger of their peaks [-]: a twentieth is
 #: seen in a figure
@@ -32,7 +32,7 @@ QUANTITIES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class QuantityPair:
     """One quantity of both analyses on common times.
 
     Attributes
@@ -58,7 +58,9 @@ class Pair:
     judged: bool = True
 
     @classmethod
-    def of(cls, a: np.ndarray, b: np.ndarray, tolerance: float, judged: bool = True) -> Pair:
+    def of(
+        cls, a: np.ndarray, b: np.ndarray, tolerance: float, judged: bool = True
+    ) -> QuantityPair:
         """The pair of (n, k) arrays, or (n,) as such of one column."""
         a, b = (values.reshape(len(values), -1) for values in (a, b))
         peak = max(float(np.linalg.norm(values, axis=1).max()) for values in (a, b))
@@ -71,7 +73,8 @@ class Pair:
     @property
     def peaks(self) -> tuple[float, float]:
         """Largest magnitude of a and of b."""
-        return tuple(float(np.linalg.norm(values, axis=1).max()) for values in (self.a, self.b))
+        a, b = (float(np.linalg.norm(values, axis=1).max()) for values in (self.a, self.b))
+        return a, b
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,8 +98,8 @@ class Parting:
 
     time: np.ndarray
     tolerance: float
-    quantities: dict[str, Pair]
-    energy: dict[str, Pair]
+    quantities: dict[str, QuantityPair]
+    energy: dict[str, QuantityPair]
     keys: list[tuple[str, object, object]]
 
     @property
@@ -139,12 +142,9 @@ def parting(a: AnalysisResult, b: AnalysisResult, tolerance: float = TOLERANCE) 
     heights, lifted = zip(*(_uplift(case, history) for case, history in zip(cases, histories)))
     lifts = any(lifted)
 
-    def pair(values, judged=True) -> Pair:
-        return Pair.of(
-            *(_at(time, history["time"], one) for history, one in zip(histories, values)),
-            tolerance,
-            judged,
-        )
+    def pair(values, judged=True) -> QuantityPair:
+        first, second = (_at(time, history["time"], one) for history, one in zip(histories, values))
+        return QuantityPair.of(first, second, tolerance, judged)
 
     quantities = {
         "top": pair([history["u_top"][:, :2] for history in histories]),
@@ -168,23 +168,13 @@ def _at(time: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 def _case(result: AnalysisResult):
-    return (
-        finished(result.case, result.folder / "case.json")
-        if isinstance(result.case, Case)
-        else result.case
-    )
+    return result.case
 
 
 def _uplift(case, history) -> tuple[np.ndarray, bool]:
     """Uplift (n,) [m], and whether anything lifts off at all: of a structure the largest of its
     interfaces; 0 of a model whose history has none.
     """
-    if isinstance(case, Case):
-        scene = column_scene(case)
-        foot = scene.contacts[0]
-        height, _ = motion(scene, foot, (poses(history, *ends_of(scene)),))
-        width = np.ptp(scene.points[foot.points], axis=0).max()
-        return height, bool(height.max() > LIFTED * width)
     rises, tilts = (
         [
             values
@@ -198,7 +188,7 @@ def _uplift(case, history) -> tuple[np.ndarray, bool]:
     return height, bool(np.max(tilts) > LIFTED if tilts else np.max(history["tilt"]) > LIFTED)
 
 
-def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:
+def differing_keys(a: StructureCase, b: StructureCase) -> list[tuple[str, object, object]]:
     """Keys of two cases that differ, and their values; files of the same content are the same."""
     tables = [_flat(stated(dataclasses.asdict(case))) for case in (a, b)]
     found = []
@@ -209,7 +199,7 @@ def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:
             and values[0] != values[1]
             and not (
                 all(isinstance(value, str) for value in values)
-                and content(values[0]) == content(values[1])
+                and content(str(values[0])) == content(str(values[1]))
             )
         ):
             found.append((key, *values))
@@ -220,7 +210,7 @@ def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:
     return [row for row in found if row[0] not in defaults]
 
 
-def _at_default(a: Case, b: Case, section: str) -> list[str]:
+def _at_default(a: StructureCase, b: StructureCase, section: str) -> list[str]:
     """Keys at their default of a section that one of two cases lacks: they tell nothing."""
     there = getattr(a, section, None) or getattr(b, section, None)
     return (
@@ -236,7 +226,7 @@ def _at_default(a: Case, b: Case, section: str) -> list[str]:
 
 def _flat(tables: dict, before: str = "") -> dict:
     """Tables as one, by dotted key."""
-    flat = {}
+    flat: dict = {}
     for key, value in tables.items():
         flat.update(
             _flat(value, f"{before}{key}.")
@@ -246,7 +236,7 @@ def _flat(tables: dict, before: str = "") -> dict:
     return flat
 
 
-def quantity_of(name: str, pair: Pair) -> Quantity:
+def quantity_of(name: str, pair: QuantityPair) -> Quantity:
     """How a quantity is written: its unit with a prefix that suits the peak."""
     words, unit, _ = QUANTITIES[name]
     return Quantity.of(words, unit, pair.peak)

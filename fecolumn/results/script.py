@@ -37,7 +37,7 @@ def run_study(file, folder, workers: int = 1, quiet: bool = False) -> StudyResul
     import io
 
     from fecolumn.study.plan import read_plan
-    from fecolumn.study.run import run_study as work_off
+    from fecolumn.study.run import complete_study as work_off
     from fecolumn.study.table import write_figure, write_tables
 
     plan = read_plan(file)

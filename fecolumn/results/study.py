@@ -1,4 +1,6 @@
-"""A study: its analyses as a table, the distributions of its settings, its figures and its report."""
+"""A study: its analyses as a table, the distributions of its settings, its figures and its
+report.
+"""
 
 from __future__ import annotations
 

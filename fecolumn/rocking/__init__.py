@@ -3,6 +3,6 @@
 `model` says what a model is, and holds their names; each model is a module of its own.
 """
 
-from fecolumn.rocking.model import MODELS, Response, model_class
+from fecolumn.rocking.model import MODELS, ModelResponse, model_class
 
-__all__ = ["MODELS", "Response", "model_class"]
+__all__ = ["MODELS", "ModelResponse", "model_class"]

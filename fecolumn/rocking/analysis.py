@@ -14,8 +14,9 @@ from fecolumn.analysis import CHECKPOINT, Analysis, energy_closure
 from fecolumn.atomic import write_json
 from fecolumn.ending import AT_REST, OVERTURNED, REST_SHARE, STILL_ROCKING, Ending
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.model import Response, model_class
-from fecolumn.rocking.table_case import TableCase
+from fecolumn.rocking.model import ModelResponse
+from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
+from fecolumn.structures.case import StructureCase
 from fecolumn.summary import NAME
 
 
@@ -28,11 +29,10 @@ class ModelAnalysis(Analysis):
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
         self.file = file
-        self.model = (
-            case.model(file)
-            if isinstance(case, TableCase)
-            else model_class(case.integration.engine).of_case(case, file)
-        )
+        if isinstance(case, StructureCase):
+            self.model, self.start = model_of_bodies(case, file), start_of_bodies(case, file)
+        else:
+            self.model, self.start = case.model(file), case.initial
         self.model.respond(
             GroundMotion(np.zeros((2, 3)), 1e-3, "", "")
         )  # compiles what is missing on this machine
@@ -45,7 +45,7 @@ class ModelAnalysis(Analysis):
 
     def run(self, stop) -> dict:
         """The whole response; its summary. `stop` is not asked."""
-        dt, initial = self.case.integration.dt_s, self.case.initial
+        dt, initial = self.case.integration.dt_s, self.start
         samples = (
             np.zeros((2, 3)) if self.motion is None else self.motion.acceleration[: self.steps + 1]
         )
@@ -81,7 +81,7 @@ class ModelAnalysis(Analysis):
         self.stepping_s = time.perf_counter() - self.began
         return self._summary(response, ending)
 
-    def _energy(self, response: Response, rows: int) -> dict[str, np.ndarray]:
+    def _energy(self, response: ModelResponse, rows: int) -> dict[str, np.ndarray]:
         """All terms of the ledger; those that a model has not are 0."""
         from fecolumn.dynamics.energy import TERMS
 
@@ -89,7 +89,7 @@ class ModelAnalysis(Analysis):
             name: response.energy.get(name, np.zeros(len(response.time)))[:rows] for name in TERMS
         }
 
-    def _end(self, response: Response) -> tuple[int, Ending]:
+    def _end(self, response: ModelResponse) -> tuple[int, Ending]:
         """Rows of the response that are of the analysis, and how it ends."""
         cap, last = self.case.overturn.displacement_m, min(self.steps + 1, len(response.time))
         capped = (
@@ -133,7 +133,7 @@ class ModelAnalysis(Analysis):
         )
         return last, Ending(outcome, f"end of the analysed time, {response.time[last - 1]:.3f} s")
 
-    def _summary(self, response: Response, ending: Ending) -> dict:
+    def _summary(self, response: ModelResponse, ending: Ending) -> dict:
         rows, plan, overturned = (
             self.history.arrays(),
             self.case.integration,

@@ -12,9 +12,9 @@ from typing import ClassVar
 import numpy as np
 
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.column import rigid_column
+from fecolumn.rocking.column import RigidColumn, rigid_column
 from fecolumn.rocking.impact import body_restitution, one_sided_restitution
-from fecolumn.rocking.model import Response
+from fecolumn.rocking.model import ModelResponse
 from fecolumn.rocking.plane import Plane, respond
 from fecolumn.rocking.restraint import Restraint
 from fecolumn.schema import InputError, Section, parameter
@@ -132,7 +132,7 @@ class BlockSection(Section):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Block:
+class RockingBlock:
     """A rigid body that rocks in the planes of x and y, each as if the other did not move.
 
     Attributes
@@ -147,7 +147,7 @@ class Block:
     planes: tuple[Plane, ...]
 
     @classmethod
-    def of_section(cls, section: BlockSection, file) -> Block:
+    def of_section(cls, section: BlockSection, file) -> RockingBlock:
         """Block of its table.
 
         Raises
@@ -195,7 +195,7 @@ class Block:
         return block
 
     @classmethod
-    def of_case(cls, case, file) -> Block:
+    def of_case(cls, case, file) -> RockingBlock:
         """The column of a case on its foot, with its mass, centre and inertia; its restitution by
         the plastic impact, or contact.restitution where that is given.
 
@@ -204,34 +204,44 @@ class Block:
         InputError
             the column does not stand on its foot.
         """
-        column = rigid_column(case)
+        friction, kept = case.contact.friction_coefficient, case.contact.restitution or None
+        return cls.of_body(rigid_column(case), friction, file, kept)
+
+    @classmethod
+    def of_body(cls, body: RigidColumn, friction: float, file, restitution=None) -> RockingBlock:
+        """A body on its foot, with its mass, centre and inertia; its restitution by the plastic
+        impact unless given.
+
+        Raises
+        ------
+        InputError
+            the body does not stand on its foot.
+        """
         planes = []
         for axis in (0, 1):
             edges = (
-                column.half_foot[axis] - column.offset[axis],
-                column.half_foot[axis] + column.offset[axis],
+                body.half_foot[axis] - body.offset[axis],
+                body.half_foot[axis] + body.offset[axis],
             )
             if min(edges) <= 0:
                 raise InputError(
                     file,
                     "column",
                     None,
-                    f"its centre of mass stands {column.offset[axis]:.3g} m from the "
-                    f"middle of the foot, whose half is {column.half_foot[axis]:.3g} m",
+                    f"its centre of mass stands {body.offset[axis]:.3g} m from the "
+                    f"middle of the foot, whose half is {body.half_foot[axis]:.3g} m",
                 )
-            central = column.inertia[1 - axis]
-            kept = case.contact.restitution or None
             planes.append(
                 body_plane(
                     axis,
-                    column.mass,
+                    body.mass,
                     edges,
-                    column.height,
-                    central,
-                    column.top,
-                    (column.half_foot[axis],) * 2,
-                    restitution=kept,
-                    friction=case.contact.friction_coefficient,
+                    body.height,
+                    body.inertia[1 - axis],
+                    body.top,
+                    (body.half_foot[axis],) * 2,
+                    restitution=restitution,
+                    friction=friction,
                 )
             )
         return cls(tuple(planes))
@@ -260,7 +270,7 @@ class Block:
         tilt: float = 0.0,
         tilt_rate: float = 0.0,
         direction: float = 0.0,
-    ) -> Response:
+    ) -> ModelResponse:
         """As of Model."""
         return respond(self.planes, motion, free_s, every_s, tilt, tilt_rate, direction)
 

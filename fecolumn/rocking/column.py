@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case import Case
+from fecolumn.short_form import ShortForm
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class RigidColumn:
     round: bool
 
 
-def rigid_column(case: Case) -> RigidColumn:
+def rigid_column(case: ShortForm) -> RigidColumn:
     """Column of a case from closed forms; of its own mesh, by that mesh's volume.
 
     Raises

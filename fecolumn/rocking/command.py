@@ -108,7 +108,7 @@ def _spectrum(args, folder) -> None:
     )
     overturning_figure(rows, rocker.alpha[0], folder / "overturning")
     slenderness_figure(folder / "slenderness")
-    lowest = {}
+    lowest: dict = {}
     for shape, frequency, band in rows:
         lowest.setdefault((shape, frequency), band)
     p = rocker.p2[0] ** 0.5
@@ -119,8 +119,8 @@ def _spectrum(args, folder) -> None:
     for (shape, frequency), band in lowest.items():
         if frequency in (1.0, 2.0, 4.0, 6.0, 8.0):
             print(
-                f"{shape:<22}{frequency:>7g}{2 * math.pi / (frequency * p):>9.3g}{band.low:>19.4f}{band.low * math.tan(rocker.alpha[0]):>9.3g} "
-                f" {band.impacts}"
+                f"{shape:<22}{frequency:>7g}{2 * math.pi / (frequency * p):>9.3g}"
+                f"{band.low:>19.4f}{band.low * math.tan(rocker.alpha[0]):>9.3g}  {band.impacts}"
             )
 
 
@@ -154,9 +154,8 @@ def _run(args, folder) -> None:
         [],
         CountProgress(len(case.sources), "motions", quiet=len(case.sources) < 2),
     )
-    case.model.respond(
-        case.response(case.sources[0] if case.sources else None)[0]
-    )  # compiles what is missing on this machine
+    # compiles what is missing on this machine
+    case.model.respond(case.response(case.sources[0] if case.sources else None)[0])
     began = time.process_time()
     for number, source in enumerate(case.sources or (None,), 1):
         motion, response = case.response(source)
@@ -241,8 +240,9 @@ def _table(responses, folder, spent: float) -> None:
     if len(responses) <= 12:
         print(f"\n{'motion':<34}{'outcome':>11}{'u_max [mm]':>12}{'tilt [rad]':>12}{'impacts':>9}")
         for line in lines[1:]:
+            largest = f"{'' if line[1] == 'safe' else '> '}{float(line[2]):.4g}"
             print(
-                f"{line[0][:33]:<34}{line[1]:>11}{'> ' * (line[1] != 'safe') + f'{float(line[2]):.4g}':>12}{float(line[3]):>12.4g}{line[4]:>9}"
+                f"{line[0][:33]:<34}{line[1]:>11}{largest:>12}{float(line[3]):>12.4g}{line[4]:>9}"
             )
     u_max = np.array([response.u_max for _, response in responses])
     overturned = np.array([response.overturned for _, response in responses])

@@ -17,7 +17,7 @@ import numpy as np
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.block import described, outline
 from fecolumn.rocking.impact import frame_restitution
-from fecolumn.rocking.model import Response
+from fecolumn.rocking.model import ModelResponse
 from fecolumn.rocking.plane import Plane, respond
 from fecolumn.rocking.restraint import Restraint
 from fecolumn.rocking.swing import GRAVITY
@@ -83,7 +83,7 @@ class FrameSection(Section):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Frame:
+class RockingFrame:
     """A rocking frame in the plane of x.
 
     Attributes
@@ -111,7 +111,7 @@ class Frame:
     plane: Plane
 
     @classmethod
-    def of_section(cls, section: FrameSection, file) -> Frame:
+    def of_section(cls, section: FrameSection, file) -> RockingFrame:
         """Frame of its table.
 
         Raises
@@ -153,9 +153,9 @@ class Frame:
         beam_mass: float,
         *,
         restitution: float | None = None,
-        restraint: Restraint = Restraint(),
+        restraint: Restraint | None = None,
         friction: float = math.inf,
-    ) -> Frame:
+    ) -> RockingFrame:
         """Frame of columns of slenderness alpha [rad] and half diagonal R [m]; arguments as of
         Frame and Plane.
         """
@@ -180,13 +180,13 @@ class Frame:
             (kept, kept),
             2 * h,
             (2 * b, 2 * b),
-            (restraint, restraint),
+            (restraint or Restraint(),) * 2,
             friction,
         )
         return cls(columns, column_mass, beam_mass, slenderness, half_diagonal, plane)
 
     @classmethod
-    def of_case(cls, case, file) -> Frame:
+    def of_case(cls, case, file) -> RockingFrame:
         """None: a case has one column and no beam."""
         raise InputError(
             file,
@@ -256,7 +256,7 @@ class Frame:
         tilt: float = 0.0,
         tilt_rate: float = 0.0,
         direction: float = 0.0,
-    ) -> Response:
+    ) -> ModelResponse:
         """As of Model; the ground's motion along y does nothing."""
         return respond((self.plane,), motion, free_s, every_s, tilt, tilt_rate, direction)
 

@@ -26,7 +26,7 @@ _CLOSE = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Joint:
+class StraightJoint:
     """Straight contact between two blocks.
 
     Attributes
@@ -97,7 +97,7 @@ class Wall:
 
     boxes: np.ndarray
     weights: np.ndarray
-    joints: tuple[Joint, ...]
+    joints: tuple[StraightJoint, ...]
     loads: np.ndarray
 
     @property
@@ -125,12 +125,14 @@ def wall_of_boxes(boxes, unit_weight: float, depth: float = 1.0) -> Wall:
     for i, (left, bottom, right, top) in enumerate(boxes):
         if bottom < ground + near:
             joints.append(
-                Joint(i, -1, np.array([[left, bottom], [right, bottom]]), np.array([0.0, 1.0]))
+                StraightJoint(
+                    i, -1, np.array([[left, bottom], [right, bottom]]), np.array([0.0, 1.0])
+                )
             )
         for j, (x0, y0, x1, y1) in enumerate(boxes):
             if abs(bottom - y1) < near and min(right, x1) - max(left, x0) > near:
                 joints.append(
-                    Joint(
+                    StraightJoint(
                         i,
                         j,
                         np.array([[max(left, x0), bottom], [min(right, x1), bottom]]),
@@ -139,7 +141,7 @@ def wall_of_boxes(boxes, unit_weight: float, depth: float = 1.0) -> Wall:
                 )
             if abs(left - x1) < near and min(top, y1) - max(bottom, y0) > near:
                 joints.append(
-                    Joint(
+                    StraightJoint(
                         i,
                         j,
                         np.array([[left, max(bottom, y0)], [left, min(top, y1)]]),
@@ -292,20 +294,15 @@ def _programme(wall: Wall, slope, kept, near=None):
     equal = coo_matrix((values, (rows, columns)), shape=(3 * blocks, size)).tocsr()
     right = np.zeros(3 * blocks)
     right[1::3] = wall.weights / scale
-    number, ones = np.arange(joints), np.ones(joints)
-    first, second, shear, distance = (
-        3 * number,
-        3 * number + 1,
-        3 * number + 2,
-        3 * joints + 1 + number,
-    )
+    every, ones = np.arange(joints), np.ones(joints)
+    first, second, shear, distance = 3 * every, 3 * every + 1, 3 * every + 2, 3 * joints + 1 + every
 
     def limit(*terms):
         """Rows of sum of (coefficients, columns)."""
         return coo_matrix(
             (
                 np.concatenate([coefficients for coefficients, _ in terms]),
-                (np.tile(number, len(terms)), np.concatenate([at for _, at in terms])),
+                (np.tile(every, len(terms)), np.concatenate([at for _, at in terms])),
             ),
             shape=(joints, size),
         )
@@ -320,7 +317,12 @@ def _programme(wall: Wall, slope, kept, near=None):
     ).tocsr()
     near = np.zeros(joints) if near is None else near
     most = np.concatenate([kept, kept, near, -near]) / scale
-    bounds = [(0, None), (0, None), (None, None)] * joints + [(None, None)] + [(0, None)] * joints
+    free, positive = (None, None), (0.0, None)
+    bounds: list[tuple[float | None, float | None]] = [
+        *[positive, positive, free] * joints,
+        free,
+        *[positive] * joints,
+    ]
     cost = np.zeros(size)
     cost[3 * joints] = -1
     found = linprog(

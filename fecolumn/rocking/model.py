@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import importlib
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from fecolumn.schema import InputError
 
@@ -39,7 +39,7 @@ SAFE, OVERTURNED = "safe", "overturned"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Response:
+class ModelResponse:
     """How a model moved in one motion, relative to its base.
 
     Attributes
@@ -136,7 +136,7 @@ class Model(Protocol):
         tilt: float = 0.0,
         tilt_rate: float = 0.0,
         direction: float = 0.0,
-    ) -> Response:
+    ) -> ModelResponse:
         """Response to a motion, all of its components, from rest or from a tilt.
 
         Parameters
@@ -155,7 +155,7 @@ class Model(Protocol):
         """
 
 
-def model_class(name: str) -> type:
+def model_class(name: str) -> Any:
     """Class of a model of MODELS."""
     module, _, attribute = MODELS[name].partition(":")
     return getattr(importlib.import_module(f"fecolumn.rocking.{module}"), attribute)

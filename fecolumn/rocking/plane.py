@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.model import Response
+from fecolumn.rocking.model import ModelResponse
 from fecolumn.rocking.restraint import Restraint
 from fecolumn.rocking.rocker import Rocker
 from fecolumn.rocking.swing import (
@@ -251,7 +251,7 @@ def respond(
     tilt: float,
     rate: float,
     direction: float,
-) -> Response:
+) -> ModelResponse:
     """Response of structures that rock in planes of their own, each as if the other did not move;
     arguments as of Model.respond.
 
@@ -270,7 +270,8 @@ def respond(
     found = [one if len(one.states) == rows else _held(one, rows, motion.dt) for one in found]
     ground = np.zeros((rows, 3))
     ground[: min(rows, len(motion.acceleration))] = motion.acceleration[:rows]
-    notes, peaks, u_top, tilts = [], {}, np.zeros((rows, 3)), np.zeros(rows)
+    peaks: dict[str, float] = {}
+    notes, u_top, tilts = [], np.zeros((rows, 3)), np.zeros(rows)
     for one in found:
         states, axis = one.states, one.plane.axis
         moved = one.plane.moved(np.abs(states[:, TILT]), states[:, EDGE])
@@ -280,7 +281,7 @@ def respond(
     steps = max(1, round(every_s / motion.dt)) if every_s else 1
     kept = np.unique(np.append(np.arange(0, rows, steps), rows - 1))
     energies = [one.energy for one in found]
-    return Response(
+    return ModelResponse(
         time=max(found, key=lambda one: one.states[-1, TIME]).states[kept, TIME],
         coordinates={f"theta_{'xy'[one.plane.axis]}": one.states[kept, TILT] for one in found},
         units={f"theta_{'xy'[one.plane.axis]}": "rad" for one in found},

@@ -13,9 +13,9 @@ import numpy as np
 from fecolumn.case import GRAVITY
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.block import outline
-from fecolumn.rocking.model import Response
+from fecolumn.rocking.model import ModelResponse
 from fecolumn.rocking.podium_impact import CRV, LAWS, podium_restitution
-from fecolumn.rocking.storeys import PROFILES, Storeys, storeys
+from fecolumn.rocking.storeys import PROFILES, ElasticBuilding, storeys
 from fecolumn.schema import InputError, Section, parameter
 
 _SHARE = 30  # steps in the period of the highest mode
@@ -106,7 +106,7 @@ class Podium:
     half_diagonal: float
     columns_mass: float
     beam_mass: float
-    building: Storeys
+    building: ElasticBuilding
     law: str = CRV
     inertia: float = 4 / 3
 
@@ -237,7 +237,7 @@ class Podium:
         tilt: float = 0.0,
         tilt_rate: float = 0.0,
         direction: float = 0.0,
-    ) -> Response:
+    ) -> ModelResponse:
         """As of Model; along x alone.
 
         The top is the roof; `peaks` have the base shear and the shear of every storey.
@@ -289,7 +289,7 @@ class Podium:
             "base shear over V_st [-]": float(shears[0] / self.static_shear),
             **{f"shear of storey {number} [N]": float(one) for number, one in enumerate(shears, 1)},
         }
-        return Response(
+        return ModelResponse(
             time=rows[:, TIME],
             coordinates={
                 "theta": theta,

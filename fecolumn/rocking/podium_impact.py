@@ -12,8 +12,10 @@ horizontally is not determined by rigid bodies; the law says it:
 
 Per N m_c R^2, with I = I_O/(m_c R^2), gamma = m_b/(N m_c), eta = M/m_b and s = sin alpha:
 
-    before  I - 2 s^2 + 4 gamma (1 - 2 s^2) - 4 gamma eta s^2  [+ 4 gamma eta (1 - s^2) for CRV]     times theta' before
-    after   I + 4 gamma + 4 gamma eta s^2                      [+ 4 gamma eta (1 - s^2) for CRV]     times theta' after.
+    before  theta' times I - 2 s^2 + 4 gamma (1 - 2 s^2) - 4 gamma eta s^2  [+ B],
+    after   theta' times I + 4 gamma + 4 gamma eta s^2                      [+ B],
+
+with B = 4 gamma eta (1 - s^2) for CRV alone.
 """
 
 from __future__ import annotations

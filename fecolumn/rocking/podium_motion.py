@@ -5,11 +5,11 @@ of the floors' displacements relative to the ground, with its rate. With s the s
 = alpha - s theta, beam u = 2 R s (sin alpha - sin beta), v = 2 R (cos beta - cos alpha),
 mass-normalised modes and Gamma_j their participation, Lagrange's equations are
 
-    (I + 4 gamma + 4 eta gamma sin^2 beta) R theta'' = s 2 eta gamma R sin(2 beta) theta'^2 - s (1 +
-        2 gamma + 2 eta gamma) (g + a_z) sin beta
-                                                        - (1 + 2 gamma) a_x cos beta + 2 eta gamma
-                                                            cos(beta) V/M
-    y_j'' = -Gamma_j a_x - f_j,   f_j = omega_j^2 (y_j - Gamma_j u) + 2 xi_j omega_j (y_j' - Gamma_j u'),   V = sum Gamma_j f_j.
+    (I + 4 gamma + 4 eta gamma sin^2 beta) R theta''
+        = s 2 eta gamma R sin(2 beta) theta'^2 - s (1 + 2 gamma + 2 eta gamma) (g + a_z) sin beta
+          - (1 + 2 gamma) a_x cos beta + 2 eta gamma cos(beta) V/M,
+    y_j'' = -Gamma_j a_x - f_j,   V = sum Gamma_j f_j,
+    f_j = omega_j^2 (y_j - Gamma_j u) + 2 xi_j omega_j (y_j' - Gamma_j u').
 
 While it stands u = 0; it lifts off where |-(1 + 2 gamma) a_x + 2 eta gamma V/M| > (1 + 2 gamma + 2
 eta gamma) (g + a_z) tan alpha. While it stands the modes are stepped exactly, below a straight
@@ -222,9 +222,8 @@ def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, ti
     peak, loss = abs(tilt), 0.0
     pieces = max(1, math.ceil(dt / step - 1e-9))
     full = dt / pieces
-    exact = (
-        modes[1].max() < 1.0
-    )  # of damping ratios: the step of a standing podium is that of underdamped modes
+    # of damping ratios: the step of a standing podium is that of underdamped modes
+    exact = modes[1].max() < 1.0
     free = np.zeros((3, n))
     if exact:
         for j in range(n):
@@ -354,9 +353,8 @@ def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, ti
                         loss += sum(_energy(x, side, base, modes, n)) - before
                         impacts.append((sample - 1) * dt + piece * full + elapsed)
                         shear = _rates(x, side, base, modes, n, a1, z1, last)
-                    for i in range(
-                        size
-                    ):  # the ground's motion is continuous: the next step begins with these rates
+                    # the ground's motion is continuous: the next step begins with these rates
+                    for i in range(size):
                         first[i] = last[i]
                     peak = max(peak, abs(x[0]))
                     total[:] = 0.0

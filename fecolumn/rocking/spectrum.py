@@ -68,7 +68,8 @@ def rocking_spectrum(
 
     Returns
     -------
-    (n_periods,) or (n_slendernesses, n_periods) max |theta| / alpha; 0 where the block stands still, inf where it overturns.
+    (n_periods,) or (n_slendernesses, n_periods) max |theta| / alpha; 0 where the block stands
+    still, inf where it overturns.
 
     Raises
     ------

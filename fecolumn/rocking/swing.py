@@ -5,7 +5,8 @@ It leans by phi >= 0 about its edge on side s = +1 or -1; theta = s phi is its t
 towards +x. With M its mass, I_s its inertia, and R_s and alpha_s the distance of its centre of mass
 from the edge and the angle of that line to the vertical at phi = 0,
 
-    phi'' = -p_s^2 { (1 + a_z/g) sin(alpha_s - phi) + s a_x/g cos(alpha_s - phi) } - U_s'(phi)/I_s,     p_s^2 = M g R_s/I_s  (Housner 1963)
+    phi'' = -p_s^2 { (1 + a_z/g) sin(alpha_s - phi) + s a_x/g cos(alpha_s - phi) } - U_s'(phi)/I_s,
+    p_s^2 = M g R_s/I_s  (Housner 1963).
 
 U_s: potential of springs, tendons and a thrust. A point of the structure at height y, at the
 horizontal distance c inside the edge, moves by u = y sin phi + c (1 - cos phi) towards s; a tendon
@@ -376,9 +377,8 @@ def _rock(ground, length, total, dt, scale, par, tilt, rate, states, impacts, ou
                         par, k, s, phi, rate, x, z, dx, dz, left
                     )
                     if next_phi >= 0.0:
-                        if (
-                            rate > 0.0 and next_rate < 0.0
-                        ):  # the turning point, of the cubic through both ends
+                        # the turning point, of the cubic through both ends
+                        if rate > 0.0 and next_rate < 0.0:
                             at = rate / (rate - next_rate)
                             top = (
                                 phi * (1 + 2 * at) * (1 - at) ** 2

@@ -1,8 +1,8 @@
 """The case of a rocking model by its own table, such as [podium]: one analysis of `fecolumn run`,
 or of a study.
 
-    [podium]                      [motion]                 [integration]
-    column_mass_kg = 2500         source = "lick:12"       dt_s = 0.005        # engine follows from the table
+    [podium]                   [motion]               [integration]
+    column_mass_kg = 2500      source = "lick:12"     dt_s = 0.005    # the table gives the engine
     ...
 
 The same file may describe the structure in [bodies], too. integration.engine then says which of
@@ -95,7 +95,7 @@ class TableCase:
         return model_class(self.integration.engine).of_section(getattr(self, self.table), file)
 
     def replace(self, changes: dict | None = None, **sections) -> TableCase:
-        """This case with other values by dotted key, such as {"podium.impact": "CAV"}, checked as a
+        """Case with other values by dotted key, such as {"podium.impact": "CAV"}, checked as a
         file's would be; see `Case.replace`.
         """
         tables = stated(dataclasses.asdict(self))
@@ -127,9 +127,8 @@ def table_case(tables: dict, file, engine: str | None = None) -> TableCase:
         if not (structure and key in OF_BODIES or key in TABLES and key != table)
         and value is not False
     }
-    if structure and isinstance(
-        tables.get("initial"), dict
-    ):  # tables by the names of bodies stand beside the model's own keys
+    # tables by the names of bodies stand beside the model's own keys
+    if structure and isinstance(tables.get("initial"), dict):
         tables["initial"] = {
             key: value
             for key, value in tables["initial"].items()
@@ -170,7 +169,7 @@ def table_case(tables: dict, file, engine: str | None = None) -> TableCase:
     return case
 
 
-def type_of(key: str):
+def model_key_type(key: str):
     """Type of a dotted key of a model's table, such as podium.storeys, or None."""
     import typing
 

@@ -18,8 +18,8 @@ from fecolumn._compiled import interpreted
 from fecolumn.case import GRAVITY
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking import wobbling_equations as equations
-from fecolumn.rocking.column import rigid_column
-from fecolumn.rocking.model import Response
+from fecolumn.rocking.column import RigidColumn, rigid_column
+from fecolumn.rocking.model import ModelResponse
 from fecolumn.schema import InputError, Section, parameter
 
 #: Tolerance of a step's error, relative to the state: free motion then keeps its energy to 1e-10 in
@@ -145,13 +145,23 @@ class Wobbling:
         InputError
             the foot is not round, or the column not alike around its axis.
         """
-        column = rigid_column(case)
+        return cls.of_body(rigid_column(case), case.contact.friction_coefficient, file)
+
+    @classmethod
+    def of_body(cls, column: RigidColumn, friction: float, file) -> Wobbling:
+        """A body on its round foot, with its mass, centre and inertia.
+
+        Raises
+        ------
+        InputError
+            the foot is not round, or the body not alike around its axis.
+        """
         if not column.round:
             raise InputError(
                 file,
                 "integration.engine",
                 cls.TABLE,
-                "needs a round foot: column.shape must be tube or solid",
+                "needs a round foot: a tube or a solid cylinder",
             )
         across, radius = (column.inertia[0] + column.inertia[1]) / 2, column.half_foot[0]
         if (
@@ -162,7 +172,7 @@ class Wobbling:
                 file,
                 "cap",
                 None,
-                f"the inertias of the column about x and y, {column.inertia[0]:.3g} and "
+                f"the inertias of the body about x and y, {column.inertia[0]:.3g} and "
                 f"{column.inertia[1]:.3g} kg m2, must differ by "
                 f'{2 * _ROUND:.0%} at most for integration.engine = "{cls.TABLE}", '
                 "which takes it for round",
@@ -181,7 +191,7 @@ class Wobbling:
                 GRAVITY,
             ]
         )
-        return cls(body, friction=case.contact.friction_coefficient)
+        return cls(body, friction=friction)
 
     @property
     def slenderness(self) -> float:
@@ -190,7 +200,9 @@ class Wobbling:
 
     @property
     def critical_tilt(self) -> float:
-        """Tilt at which nothing rights it any more [rad]; a right angle where a tendon always does."""
+        """Tilt at which nothing rights it any more [rad]; a right angle where a tendon
+        always does.
+        """
         from scipy.optimize import brentq
 
         return (
@@ -232,7 +244,7 @@ class Wobbling:
         tilt_rate: float = 0.0,
         direction: float = 0.0,
         tolerance: float = TOLERANCE,
-    ) -> Response:
+    ) -> ModelResponse:
         """As of Model; `impact_times` are those of passing upright in a plane or nearly so."""
         from fecolumn.rocking.wobbling_motion import (
             LIFTED,
@@ -259,7 +271,7 @@ class Wobbling:
         total = kinetic + strain + gravity
         theta, phi = rows[:, 1], rows[:, 2]
         along, up = self.moved(theta)
-        return Response(
+        return ModelResponse(
             time=rows[:, TIME],
             coordinates={"theta": theta, "phi": phi},
             units={"theta": "rad", "phi": "rad"},
@@ -285,9 +297,8 @@ class Wobbling:
         if not upward.any():
             return [], {}
         foot = foot[upward]
-        if not self.body[
-            4
-        ]:  # a column's tendon presses it on the ground, a frame's one is between column and slab
+        # a column's tendon presses it on the ground, a frame's one is between column and slab
+        if not self.body[4]:
             stretch = 2 * self.body[0] * np.sin(rows[upward, 1] / 2)
             pull = self.body[8] + self.body[7] * stretch
             foot = foot + pull[:, None] * np.column_stack(

@@ -4,11 +4,10 @@ Written by benchmarks.wobbling_equations with sympy 1.11.1: do not edit.
 
 Of one column with its share of the slab; arguments, in SI units:
     body: (10,) radius of rim, height of the centre of mass, height of column [m]; mass, share of
-        the slab [kg]; inertia about the centre
-        of mass across and along the axis [kg m2]; tendon's stiffness [N/m] and pull while the
-            column stands [N]; gravity [m/s2].
-    tilt, azimuth [rad]: of the axis; the foot's rim touches at the azimuth, which is where the
-        column leans.
+        the slab [kg]; inertia about the centre of mass across and along the axis [kg m2]; tendon's
+        stiffness [N/m] and pull while the column stands [N]; gravity [m/s2].
+    tilt, azimuth [rad]: of the axis; the foot's rim touches at the azimuth, to which the column
+        leans.
     tilt_rate [rad/s]; spin [kg m2/s]: momentum of the azimuth, inertia[1] times its rate.
     ground_x, ground_y, ground_z: acceleration of the ground [m/s2].
 """
@@ -109,8 +108,9 @@ def rates(body, tilt, azimuth, tilt_rate, spin, ground_x, ground_y, ground_z):
 
 @njit(alone=True)
 def force(body, tilt, tilt_rate, spin, push, across_push, ground_z):
-    """Of the ground on the foot towards the azimuth, across it and up [N]; push, across_push: the
-    ground's acceleration along the same.
+    """Force of the ground on the foot [N]: towards the azimuth, across it, up.
+
+    push, across_push: ground's acceleration [m/s2] to the azimuth and across it.
     """
     radius = body[0]
     centre = body[1]
@@ -280,8 +280,8 @@ def potential(body, tilt):
 
 @njit(alone=True)
 def moments(body, tilt):
-    """What tilting asks: d/d tilt of weight's height and of horizontal lever [kg m], and of the
-    tendon's energy [N m].
+    """Derivatives by the tilt of mass times height and times lever of the weight [kg m],
+    and of the tendon's energy [N m].
     """
     radius = body[0]
     centre = body[1]

@@ -17,7 +17,7 @@ import numpy as np
 
 from fecolumn._compiled import interpreted
 from fecolumn.rocking import wobbling_equations as equations
-from fecolumn.rocking.frame import Frame
+from fecolumn.rocking.frame import RockingFrame
 from fecolumn.rocking.restraint import Restraint
 from fecolumn.rocking.wobbling import Wobbling, bore, cylinder_body, round_outline
 from fecolumn.schema import InputError, Section, parameter
@@ -119,7 +119,7 @@ class WobblingFrame(Wobbling):
         )
 
     @property
-    def planar(self) -> Frame:
+    def planar(self) -> RockingFrame:
         """The frame of slender columns in a plane, whose static laws are these, too; its impacts
         lose nothing.
         """
@@ -127,7 +127,7 @@ class WobblingFrame(Wobbling):
         restraint = Restraint(
             tendons=((self.columns * stiffness, self.columns * pull, 2 * radius),)
         )
-        return Frame.of(
+        return RockingFrame.of(
             self.columns,
             self.slenderness,
             math.hypot(radius, centre),

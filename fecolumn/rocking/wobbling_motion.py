@@ -117,9 +117,8 @@ def _pass(body, y, restitution):
     """
     along, across = inertia(body, y[0])
     twice = along * y[2] ** 2 + y[3] ** 2 / across
-    closest = (
-        abs(y[3]) / math.sqrt(twice * across) if twice > 0 else 0.0
-    )  # over the tilt: the sine of how far from the point the line passes
+    # over the tilt: the sine of how far from the point the line passes
+    closest = abs(y[3]) / math.sqrt(twice * across) if twice > 0 else 0.0
     if closest * y[0] < _PLANAR * CLOSEST:
         # what is left of the spin would turn the plane near upright, and the turn would grow from
         # swing to swing

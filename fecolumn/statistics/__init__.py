@@ -1,0 +1,1 @@
+"""Distribution functions, two-sample tests, fragility curves and regressions of peaks."""

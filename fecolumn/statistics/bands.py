@@ -1,5 +1,4 @@
-"""Confidence bands of distributions and of probabilities: pointwise, simultaneous, and by
-resampling.
+"""Confidence bands of distributions and of probabilities: pointwise and simultaneous.
 
 A pointwise band holds the true F with the stated confidence at one u chosen beforehand, a
 simultaneous one at all u together. A curve of another ensemble may leave a pointwise band somewhere
@@ -10,11 +9,18 @@ from __future__ import annotations
 
 import math
 from statistics import NormalDist
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+if TYPE_CHECKING:
+    from fecolumn.statistics.ecdf import Ecdf
+from numpy.typing import ArrayLike, NDArray
 
-def greenwood(cdf, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+
+def greenwood(
+    cdf: ArrayLike, n: int, confidence: float = 0.95
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Pointwise band F +- z sqrt(F (1 - F) / n), clipped to [0, 1] (Greenwood 1926; what MATLAB's
     `ecdf` draws).
 
@@ -40,10 +46,10 @@ def greenwood(cdf, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.nda
     return np.maximum(cdf - reach, 0.0), np.minimum(cdf + reach, 1.0)
 
 
-def wilson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
-    """Score interval of a probability after k of n runs (Wilson 1927, J.
+def wilson(k: ArrayLike, n: int, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Score interval of a probability after k of n runs, close to its level on average.
 
-    Am. Stat. Assoc. 22); close to its level on average.
+    Wilson (1927), Journal of the American Statistical Association 22.
 
     Parameters
     ----------
@@ -65,7 +71,9 @@ def wilson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]
     return np.where(k == 0, 0.0, lower), np.where(k == n, 1.0, upper)
 
 
-def clopper_pearson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+def clopper_pearson(
+    k: ArrayLike, n: int, confidence: float = 0.95
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Exact interval of a probability after k of n runs, never below its level, wider than
     Wilson's.
 
@@ -80,7 +88,7 @@ def clopper_pearson(k, n: int, confidence: float = 0.95) -> tuple[np.ndarray, np
     return lower, upper
 
 
-def dkw(ecdf, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+def dkw(ecdf: Ecdf, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
     """Simultaneous band F +- `dkw_distance`, clipped to [0, 1].
 
     Parameters
@@ -98,7 +106,7 @@ def dkw(ecdf, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
     return np.maximum(ecdf.cdf - reach, 0.0), np.minimum(ecdf.cdf + reach, 1.0)
 
 
-def dkw_distance(n, confidence: float = 0.95):
+def dkw_distance(n: ArrayLike, confidence: float = 0.95) -> Any:
     """Largest distance sup |F_n - F| at a confidence: sqrt(ln(2 / (1 - confidence)) / (2 n)).
 
     Dvoretzky, Kiefer & Wolfowitz (1956) with the constant of Massart (1990, Ann. Probab. 18); holds
@@ -109,53 +117,12 @@ def dkw_distance(n, confidence: float = 0.95):
     return np.sqrt(math.log(2 / (1 - confidence)) / (2 * np.asarray(n, float)))[()]
 
 
-def bootstrap_band(
-    u_max, overturned, grid, confidence: float = 0.95, resamples: int = 2000, seed: int = 0
-) -> tuple[np.ndarray, np.ndarray]:
-    """Pointwise percentile band of F by drawing runs anew with replacement (Efron 1979, Ann.
-
-    Stat. 7).
-
-    Close to Greenwood's band and, like it, of no width beyond the extreme runs.
-
-    Parameters
-    ----------
-    u_max
-        (n,) [m]; ignored where the run overturned.
-    overturned
-        (n,) True where the column overturned.
-    grid
-        (m,) rising displacements at which F is wanted [m].
-    confidence
-        level, in (0, 1).
-    resamples
-        number of samples drawn.
-    seed
-        of the generator.
-
-    Returns
-    -------
-    lower, upper: (m,) each.
-    """
-    from fecolumn.statistics.ecdf import censored
-
-    u, grid = censored(u_max, overturned), np.asarray(grid, float)
-    if grid.ndim != 1 or (np.diff(grid) < 0).any():
-        raise ValueError("grid must be a rising list of displacements")
-    shares = np.bincount(np.searchsorted(grid, u), minlength=grid.size + 1) / u.size
-    drawn = np.random.default_rng(seed).multinomial(u.size, shares, size=resamples)
-    cdfs = np.cumsum(drawn[:, :-1], axis=1) / u.size
-    tail = (1 - confidence) / 2
-    lower, upper = np.quantile(cdfs, (tail, 1 - tail), axis=0)
-    return lower, upper
-
-
 def normal_quantile(confidence: float) -> float:
     """Half-width of the two-sided interval of a standard normal variable: 1.96 for 0.95."""
     return NormalDist().inv_cdf((1 + confidence) / 2)
 
 
-def _counts(k, n: int) -> np.ndarray:
+def _counts(k: ArrayLike, n: int) -> NDArray[Any]:
     k = np.asarray(k, float)
     if n < 1 or (k < 0).any() or (k > n).any():
         raise ValueError(f"k = {k}, n = {n}: counts must lie in [0, n], n at least 1")

@@ -5,17 +5,26 @@ no maximum are refused.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 _MAX_ITERATIONS, _TOLERANCE = 100, 1e-10
+
+
+#: Of parameters c (p,): ln L, its gradient (p,) and minus its Hessian (p, p)
+Likelihood = Callable[[NDArray[Any]], tuple[float, NDArray[Any], NDArray[Any]]]
 
 
 class DegenerateData(ValueError):
     """No curve can be fitted, as the likelihood has no maximum; the message says why."""
 
 
-def fit_binary(x: np.ndarray, yes: np.ndarray, link: str, groups=None):
+def fit_binary(
+    x: NDArray[Any], yes: NDArray[Any], link: str, groups: ArrayLike | None = None
+) -> tuple[Any, NDArray[Any], int | None]:
     """Fit c of P(yes) = link(x c) by Newton's method.
 
     With `groups` the covariance of c is that of runs that hang together within a group: H^-1 (sum
@@ -47,7 +56,8 @@ def fit_binary(x: np.ndarray, yes: np.ndarray, link: str, groups=None):
     from statsmodels.discrete.discrete_model import Logit, Probit
 
     refuse_degenerate(x, yes)
-    options, count, factor = {}, None, 1.0
+    options: dict[str, Any] = {}
+    count, factor = None, 1.0
     if groups is not None:
         labels, group = np.unique(np.asarray(groups), return_inverse=True)
         if group.shape != yes.shape:
@@ -71,8 +81,10 @@ def fit_binary(x: np.ndarray, yes: np.ndarray, link: str, groups=None):
 
 
 def maximize(
-    function, start: np.ndarray, inside=lambda c: True
-) -> tuple[np.ndarray, np.ndarray, float]:
+    function: Likelihood,
+    start: NDArray[Any],
+    inside: Callable[[NDArray[Any]], bool] = lambda c: True,
+) -> tuple[NDArray[Any], NDArray[Any], float]:
     """Maximum of a concave function by damped Newton steps: (c, inverse of -Hessian, value).
 
     Parameters
@@ -102,7 +114,7 @@ def maximize(
     raise DegenerateData("the likelihood rises without end: the data all but part into yes and no")
 
 
-def refuse_degenerate(x: np.ndarray, yes: np.ndarray) -> None:
+def refuse_degenerate(x: NDArray[Any], yes: NDArray[Any]) -> None:
     """Raise DegenerateData where the likelihood has no finite maximum."""
     k, n = int(yes.sum()), yes.size
     if k in (0, n):
@@ -125,7 +137,7 @@ def refuse_degenerate(x: np.ndarray, yes: np.ndarray) -> None:
         )
 
 
-def _separated(x: np.ndarray, yes: np.ndarray) -> bool:
+def _separated(x: NDArray[Any], yes: NDArray[Any]) -> bool:
     """Whether some c has x c >= 0 for all yes and <= 0 for all no, not all of them 0 (Konis 2007,
     linear programme).
     """

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from numpy.typing import ArrayLike
+
 from fecolumn.statistics.correlation import correlation
 from fecolumn.statistics.ecdf import censored, percentile
 from fecolumn.statistics.flips import contingency, flips, mcnemar
@@ -75,10 +77,10 @@ class Comparison:
 
 
 def compare(
-    u_a,
-    overturned_a,
-    u_b,
-    overturned_b,
+    u_a: ArrayLike,
+    overturned_a: ArrayLike,
+    u_b: ArrayLike,
+    overturned_b: ArrayLike,
     *,
     paired: bool,
     cap_m: float | None = None,
@@ -130,8 +132,8 @@ def compare(
         median_b,
         median_error(median_a, median_b),
         correlation(u_a, overturned_a, u_b, overturned_b, cap_m) if paired else None,
-        flips(table) if paired else None,
-        mcnemar(table) if paired else None,
+        None if table is None else flips(table),
+        None if table is None else mcnemar(table),
         float((a == math.inf).mean()),
         float((b == math.inf).mean()),
     )

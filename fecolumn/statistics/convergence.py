@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.statistics.bands import dkw_distance
 from fecolumn.statistics.ecdf import censored
@@ -34,16 +36,16 @@ class CdfConvergence:
         (m,) bound of the distance of F_n from the true F at 95 % (Massart 1990).
     """
 
-    sizes: np.ndarray
-    median: np.ndarray
-    upper_95: np.ndarray
-    expected_median: np.ndarray
-    expected_95: np.ndarray
-    dkw_95: np.ndarray
+    sizes: NDArray[Any]
+    median: NDArray[Any]
+    upper_95: NDArray[Any]
+    expected_median: NDArray[Any]
+    expected_95: NDArray[Any]
+    dkw_95: NDArray[Any]
 
 
 def cdf_convergence(
-    u_max, overturned, sizes, resamples: int = 1000, seed: int = 0
+    u_max: ArrayLike, overturned: ArrayLike, sizes: ArrayLike, resamples: int = 1000, seed: int = 0
 ) -> CdfConvergence:
     """Convergence of the CDF with the number of motions.
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.statistics.ecdf import censored, largest_peak
 
 
-def correlation(u_a, over_a, u_b, over_b, cap_m: float | None = None) -> float:
+def correlation(
+    u_a: ArrayLike, over_a: ArrayLike, u_b: ArrayLike, over_b: ArrayLike, cap_m: float | None = None
+) -> float:
     """Pearson's R with overturned runs and larger displacements set to the cap, as Katsamakas &
     Vassiliou do with 250 mm.
 

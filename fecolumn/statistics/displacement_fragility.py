@@ -5,8 +5,10 @@ displacement.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import log_ndtr, ndtr
 
 from fecolumn.statistics.bands import normal_quantile
@@ -37,19 +39,19 @@ class DisplacementFragility:
         displacement at which overturned runs are censored [m].
     """
 
-    coefficients: np.ndarray
+    coefficients: NDArray[Any]
     sigma: float
-    covariance: np.ndarray
+    covariance: NDArray[Any]
     loglik: float
     n: int
     overturned: int
     cap_m: float
 
-    def median_m(self, im) -> np.ndarray:
+    def median_m(self, im: ArrayLike) -> NDArray[Any]:
         """Median of u_max [m] at im (m, k), or (m,) of one measure."""
-        return np.exp(log_columns(im, len(self.coefficients) - 1) @ self.coefficients)
+        return np.asarray(np.exp(log_columns(im, len(self.coefficients) - 1) @ self.coefficients))
 
-    def exceedance(self, u_m: float, im, confidence: float = 0.95) -> Probability:
+    def exceedance(self, u_m: float, im: ArrayLike, confidence: float = 0.95) -> Probability:
         """P(u_max > u_m | im), with its band by the delta method on the scale of Phi's argument.
 
         Raises
@@ -71,7 +73,9 @@ class DisplacementFragility:
         return Probability(ndtr(eta), ndtr(eta - reach), ndtr(eta + reach))
 
 
-def displacement(im, u_max, overturned, cap_m: float | None = None) -> DisplacementFragility:
+def displacement(
+    im: ArrayLike, u_max: ArrayLike, overturned: ArrayLike, cap_m: float | None = None
+) -> DisplacementFragility:
     """Lognormal regression of u_max on intensity, overturned runs censored at the right (Tobin
     1958, Econometrica 26).
 
@@ -112,7 +116,7 @@ def displacement(im, u_max, overturned, cap_m: float | None = None) -> Displacem
     y = np.log(np.where(overturned, cap_m, u))
     z = np.column_stack([x, -y])
 
-    def likelihood(q):
+    def likelihood(q: NDArray[Any]) -> tuple[float, NDArray[Any], NDArray[Any]]:
         gamma, beyond = q[-1], z @ q  # beyond = (c x - y) / sigma
         log_p, slope, weight = -0.5 * beyond**2 - 0.5 * np.log(2 * np.pi), -beyond, np.ones(y.size)
         tail = beyond[overturned]
@@ -122,14 +126,14 @@ def displacement(im, u_max, overturned, cap_m: float | None = None) -> Displacem
         gradient, information = z.T @ slope, z.T @ (weight[:, None] * z)
         gradient[-1] += len(stood) / gamma
         information[-1, -1] += len(stood) / gamma**2
-        return log_p.sum() + len(stood) * np.log(gamma), gradient, information
+        return float(log_p.sum() + len(stood) * np.log(gamma)), gradient, information
 
     start = np.linalg.lstsq(x, y, rcond=None)[0]
     scatter = np.std(y - x @ start)
     if not scatter > 1e-9:
         raise DegenerateData("displacements follow the intensities without scatter: sigma is 0")
     q, covariance, loglik = maximize(
-        likelihood, np.append(start, 1.0) / scatter, inside=lambda q: q[-1] > 0
+        likelihood, np.append(start, 1.0) / scatter, inside=lambda q: bool(q[-1] > 0)
     )
     gamma = q[-1]
     to_shape = np.eye(p + 1) / gamma

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.statistics.bands import greenwood, normal_quantile
 
@@ -28,15 +30,15 @@ class Ecdf:
         number of overturned runs; F ends at 1 - overturned / n.
     """
 
-    x: np.ndarray
-    cdf: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
+    x: NDArray[Any]
+    cdf: NDArray[Any]
+    lower: NDArray[Any]
+    upper: NDArray[Any]
     n: int
     overturned: int
 
 
-def ecdf(u_max, overturned, confidence: float = 0.95) -> Ecdf:
+def ecdf(u_max: ArrayLike, overturned: ArrayLike, confidence: float = 0.95) -> Ecdf:
     """Distribution of u_max, overturned runs censored at the right.
 
     An overturned run says only that its peak lies beyond every peak of a run that stood. Then
@@ -65,7 +67,7 @@ def ecdf(u_max, overturned, confidence: float = 0.95) -> Ecdf:
     return Ecdf(x, cdf, *greenwood(cdf, n, confidence), n, n - standing.size)
 
 
-def percentile(u_max, overturned, fraction: float) -> float:
+def percentile(u_max: ArrayLike, overturned: ArrayLike, fraction: float) -> float:
     """Smallest u with F(u) >= fraction, from a sample with overturned runs; inf where that run
     overturned.
 
@@ -102,7 +104,7 @@ def proportion_interval(
     return float(interval.low), float(interval.high)
 
 
-def censored(u_max, overturned) -> np.ndarray:
+def censored(u_max: ArrayLike, overturned: ArrayLike) -> NDArray[Any]:
     """The sample for rank statistics, (n,): u_max, and inf where the run overturned.
 
     All overturned runs are ties beyond every run that stood.
@@ -116,7 +118,7 @@ def censored(u_max, overturned) -> np.ndarray:
     return np.where(np.asarray(overturned, bool), math.inf, np.asarray(u_max, float))
 
 
-def largest_peak(*samples) -> float:
+def largest_peak(*samples: tuple[ArrayLike, ArrayLike]) -> float:
     """Largest peak [m] of the runs that stood, over samples of (u_max, overturned); nan where none
     stood.
 
@@ -126,7 +128,7 @@ def largest_peak(*samples) -> float:
     return float(max(peaks, default=math.nan))
 
 
-def _standing(u_max, overturned) -> tuple[np.ndarray, int]:
+def _standing(u_max: ArrayLike, overturned: ArrayLike) -> tuple[NDArray[Any], int]:
     """Peaks of the runs that stood, and the size of the whole sample."""
     u_max, overturned = np.asarray(u_max, float), np.asarray(overturned, bool)
     if u_max.ndim != 1 or u_max.shape != overturned.shape or u_max.size == 0:

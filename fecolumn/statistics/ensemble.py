@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.statistics.ecdf import percentile, proportion_interval
 
@@ -46,7 +47,13 @@ class EnsembleSummary:
     slid_off: int = 0
 
 
-def summarize(u_max, overturned, energy_closure_rel, s_per_step, slid_off=False) -> EnsembleSummary:
+def summarize(
+    u_max: ArrayLike,
+    overturned: ArrayLike,
+    energy_closure_rel: ArrayLike,
+    s_per_step: ArrayLike,
+    slid_off: ArrayLike = False,
+) -> EnsembleSummary:
     """Row of an ensemble of n runs.
 
     Parameters
@@ -77,6 +84,6 @@ def summarize(u_max, overturned, energy_closure_rel, s_per_step, slid_off=False)
         u50,
         u84,
         float(np.max(np.abs(energy_closure_rel))),
-        float(np.mean(s_per_step)),
+        float(np.asarray(s_per_step, float).mean()),
         int(slid_off.sum()),
     )

@@ -5,8 +5,10 @@ is not "equal".
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.statistics.ecdf import normal_quantile
 
@@ -16,7 +18,11 @@ _LEVEL = 0.05  # of significance, the usual one
 
 
 def distance_bound(
-    u_a, overturned_a, u_b, overturned_b, confidence: float = 0.95
+    u_a: ArrayLike,
+    overturned_a: ArrayLike,
+    u_b: ArrayLike,
+    overturned_b: ArrayLike,
+    confidence: float = 0.95,
 ) -> tuple[float, float]:
     """Largest distance of the two distributions, and the distance the data exclude at `confidence`.
 
@@ -53,7 +59,7 @@ def distance_bound(
     return float(np.abs(difference.mean(axis=0)).max()), upper_bound(difference, confidence)
 
 
-def upper_bound(difference, confidence: float) -> float:
+def upper_bound(difference: ArrayLike, confidence: float) -> float:
     """Distance that n motions exclude at `confidence`, see `distance_bound`; difference (n, points)
     as of `paired_error`.
     """
@@ -65,7 +71,7 @@ def upper_bound(difference, confidence: float) -> float:
     )
 
 
-def paired_error(difference) -> tuple[np.ndarray, np.ndarray]:
+def paired_error(difference: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
     """Centre and standard error of the mean difference of two paired proportions.
 
     Two motions are added to those seen, half a one to each of the four outcomes (Agresti & Min

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.schema import InputError
 from fecolumn.statistics.csv_table import read_csv
@@ -30,11 +32,11 @@ class Maxima:
     """
 
     motions: tuple[str, ...]
-    u_max: np.ndarray
-    overturned: np.ndarray
+    u_max: NDArray[Any]
+    overturned: NDArray[Any]
 
 
-def read_maxima(path) -> Maxima:
+def read_maxima(path: Path | str) -> Maxima:
     """Maxima of a CSV file with a header: motion, u_max_mm (or u_max_cm, u_max_m), overturned;
     other columns are ignored.
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 
-def contingency(overturned_a, overturned_b) -> np.ndarray:
+def contingency(overturned_a: ArrayLike, overturned_b: ArrayLike) -> NDArray[Any]:
     """Motions by outcome, (2, 2) int: [[both stand, b alone overturns], [a alone overturns, both
     overturn]].
 
@@ -28,13 +31,13 @@ def contingency(overturned_a, overturned_b) -> np.ndarray:
     return np.bincount(2 * a + b, minlength=4).reshape(2, 2)
 
 
-def flips(table) -> int:
+def flips(table: ArrayLike) -> int:
     """Motions that overturn in one setting alone, from `contingency`."""
     table = np.asarray(table)
     return int(table[0, 1] + table[1, 0])
 
 
-def mcnemar(table) -> float:
+def mcnemar(table: ArrayLike) -> float:
     """p-value of "as many flips one way as the other", so that P(overturn) is the same in both
     settings.
 

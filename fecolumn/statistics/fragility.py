@@ -10,9 +10,12 @@ intensity at which each motion first overturns the column.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit, ndtr, stdtrit
 
 from fecolumn.statistics.bands import normal_quantile
@@ -35,9 +38,9 @@ __all__ = [
 class Probability:
     """Probability with its pointwise band, arrays of one shape."""
 
-    p: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
+    p: NDArray[Any]
+    lower: NDArray[Any]
+    upper: NDArray[Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +69,7 @@ class Fragility:
 
     median: float
     beta: float
-    covariance: np.ndarray
+    covariance: NDArray[Any]
     loglik: float
     n: int
     overturned: int
@@ -74,7 +77,7 @@ class Fragility:
     fit: object = field(default=None, repr=False, compare=False)
 
     @property
-    def parameters(self) -> np.ndarray:
+    def parameters(self) -> NDArray[Any]:
         """(median, beta)."""
         return np.array([self.median, self.beta])
 
@@ -88,7 +91,7 @@ class Fragility:
         reach = math.exp(self._quantile(confidence) * math.sqrt(self.covariance[1, 1]) / self.beta)
         return self.beta / reach, self.beta * reach
 
-    def probability(self, im, confidence: float = 0.95) -> Probability:
+    def probability(self, im: ArrayLike, confidence: float = 0.95) -> Probability:
         """P(overturn) at intensities im (any shape), its band by the delta method on the scale of
         Phi's argument.
         """
@@ -122,8 +125,8 @@ class LogitFragility:
         as of Fragility.
     """
 
-    coefficients: np.ndarray
-    covariance: np.ndarray
+    coefficients: NDArray[Any]
+    covariance: NDArray[Any]
     loglik: float
     n: int
     overturned: int
@@ -131,11 +134,11 @@ class LogitFragility:
     fit: object = field(default=None, repr=False, compare=False)
 
     @property
-    def parameters(self) -> np.ndarray:
+    def parameters(self) -> NDArray[Any]:
         """The coefficients."""
         return self.coefficients
 
-    def probability(self, im, confidence: float = 0.95) -> Probability:
+    def probability(self, im: ArrayLike, confidence: float = 0.95) -> Probability:
         """P(overturn) at im (m, k), or (m,) of one measure, with its band by the delta method on
         the scale of the logit.
         """
@@ -164,16 +167,17 @@ class Bootstrap:
         that the interval is too narrow.
     """
 
-    parameters: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
+    parameters: NDArray[Any]
+    lower: NDArray[Any]
+    upper: NDArray[Any]
     refused: int
 
 
-def lognormal(im, overturned, groups=None) -> Fragility:
-    """Lognormal fragility by maximum likelihood (Shinozuka et al. 2000, J.
+def lognormal(im: ArrayLike, overturned: ArrayLike, groups: ArrayLike | None = None) -> Fragility:
+    """Lognormal fragility by maximum likelihood.
 
-    Eng. Mech. 126; Baker 2015, Earthq. Spectra 31).
+    Shinozuka et al. (2000), Journal of Engineering Mechanics 126; Baker (2015), Earthquake Spectra
+    31.
 
     Serves multiple stripes, incremental analyses and unscaled motions alike, each run being one yes
     or no.
@@ -218,7 +222,7 @@ def lognormal(im, overturned, groups=None) -> Fragility:
     )
 
 
-def logit(im, overturned, groups=None) -> LogitFragility:
+def logit(im: ArrayLike, overturned: ArrayLike, groups: ArrayLike | None = None) -> LogitFragility:
     """Logistic regression on the logarithms of one or more intensity measures.
 
     Parameters
@@ -250,10 +254,10 @@ def logit(im, overturned, groups=None) -> LogitFragility:
 
 
 def bootstrap(
-    im,
-    overturned,
-    fit=lognormal,
-    groups=None,
+    im: ArrayLike,
+    overturned: ArrayLike,
+    fit: Callable[[ArrayLike, ArrayLike], Fragility | LogitFragility] = lognormal,
+    groups: ArrayLike | None = None,
     confidence: float = 0.95,
     resamples: int = 500,
     seed: int = 0,
@@ -303,12 +307,11 @@ def bootstrap(
             "maximum: the data do not bound the curve"
         )
     tail, parameters = (1 - confidence) / 2, np.array(fitted)
-    return Bootstrap(
-        parameters, *np.quantile(parameters, (tail, 1 - tail), axis=0), resamples - len(fitted)
-    )
+    lower, upper = np.quantile(parameters, (tail, 1 - tail), axis=0)
+    return Bootstrap(parameters, lower, upper, resamples - len(fitted))
 
 
-def log_columns(im, k: int | None = None) -> np.ndarray:
+def log_columns(im: ArrayLike, k: int | None = None) -> NDArray[Any]:
     """Matrix (n, k + 1) of a column of ones and ln im; im is (n, k), or (n,) of one measure.
 
     Raises
@@ -327,7 +330,7 @@ def log_columns(im, k: int | None = None) -> np.ndarray:
     return np.column_stack([np.ones(len(im)), np.log(im)])
 
 
-def _data(im, overturned: np.ndarray) -> np.ndarray:
+def _data(im: ArrayLike, overturned: NDArray[Any]) -> NDArray[Any]:
     x = log_columns(im)
     if overturned.ndim != 1 or len(x) != overturned.size:
         raise ValueError(
@@ -336,6 +339,6 @@ def _data(im, overturned: np.ndarray) -> np.ndarray:
     return x
 
 
-def _deviation(gradient: np.ndarray, covariance: np.ndarray) -> np.ndarray:
+def _deviation(gradient: NDArray[Any], covariance: NDArray[Any]) -> NDArray[Any]:
     """Standard deviation of a linear form of the parameters, its gradient along the last axis."""
-    return np.sqrt(np.einsum("...i,ij,...j->...", gradient, covariance, gradient))
+    return np.asarray(np.sqrt(np.einsum("...i,ij,...j->...", gradient, covariance, gradient)))

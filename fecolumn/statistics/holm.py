@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 
-def holm(p) -> np.ndarray:
+def holm(p: ArrayLike) -> NDArray[Any]:
     """Adjusted p values (n,) of n tests: to reject where they are below a level keeps the chance of
     any false rejection below it.
 

@@ -14,8 +14,10 @@ an intensity.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import log_ndtr
 
 from fecolumn.statistics.binary_regression import DegenerateData, maximize
@@ -41,9 +43,9 @@ class IncrementalCurve:
     """
 
     motion: str
-    im: np.ndarray
-    u_max: np.ndarray
-    overturned: np.ndarray
+    im: NDArray[Any]
+    u_max: NDArray[Any]
+    overturned: NDArray[Any]
 
     @property
     def first(self) -> tuple[float, float]:
@@ -62,7 +64,7 @@ class IncrementalCurve:
             (~self.overturned[int(np.argmax(self.overturned)) :]).any() and self.overturned.any()
         )
 
-    def u_at(self, im) -> np.ndarray:
+    def u_at(self, im: ArrayLike) -> NDArray[Any]:
         """u_max [m] at intensities (m,): straight between the runs and from rest at 0; inf beyond
         the first overturning, nan where not known.
 
@@ -79,7 +81,9 @@ class IncrementalCurve:
         )
 
 
-def incremental_curves(motion, im, u_max, overturned) -> list[IncrementalCurve]:
+def incremental_curves(
+    motion: ArrayLike, im: ArrayLike, u_max: ArrayLike, overturned: ArrayLike
+) -> list[IncrementalCurve]:
     """Curves of all motions from (n,) runs in any order: names, positive intensities, u_max [m],
     and whether the column overturned.
 
@@ -106,7 +110,9 @@ def incremental_curves(motion, im, u_max, overturned) -> list[IncrementalCurve]:
     return curves
 
 
-def fractile_curves(curves: list[IncrementalCurve], grid, shares=FRACTILES) -> np.ndarray:
+def fractile_curves(
+    curves: list[IncrementalCurve], grid: ArrayLike, shares: ArrayLike = FRACTILES
+) -> NDArray[Any]:
     """Fractiles of u_max given the intensity, (len(shares), m) [m]: inf where that share of the
     motions does not stand, nan where not all motions are known.
 
@@ -125,7 +131,7 @@ def fractile_curves(curves: list[IncrementalCurve], grid, shares=FRACTILES) -> n
     return np.where(np.isnan(u).any(axis=0), np.nan, u[rank])
 
 
-def first_overturning(lower, upper) -> Fragility:
+def first_overturning(lower: ArrayLike, upper: ArrayLike) -> Fragility:
     """Lognormal distribution of the intensity of first overturning, by maximum likelihood of what
     is known of each motion.
 
@@ -168,7 +174,7 @@ def first_overturning(lower, upper) -> Fragility:
     with np.errstate(divide="ignore"):
         y_low, y_high = np.log(lower), np.log(upper)
 
-    def likelihood(q):
+    def likelihood(q: NDArray[Any]) -> tuple[float, NDArray[Any], NDArray[Any]]:
         high, low = _end(q, y_high), _end(q, y_low)
         log_p = _log_between(low, high)
         # densities over the probability of the interval; none at an end that lies at infinity
@@ -185,7 +191,7 @@ def first_overturning(lower, upper) -> Fragility:
             - cross
             - cross.T
         )
-        return log_p.sum(), gradient, information
+        return float(log_p.sum()), gradient, information
 
     middle = np.where(
         np.isinf(y_high),
@@ -194,7 +200,7 @@ def first_overturning(lower, upper) -> Fragility:
     )
     beta = max(float(middle.std()), 0.1)
     q, covariance, loglik = maximize(
-        likelihood, np.array([1.0, middle.mean()]) / beta, inside=lambda q: q[0] > 0
+        likelihood, np.array([1.0, middle.mean()]) / beta, inside=lambda q: bool(q[0] > 0)
     )
     to_shape = np.array([[-q[1] / q[0] ** 2, 1 / q[0]], [-1 / q[0] ** 2, 0.0]])
     return Fragility(
@@ -208,20 +214,20 @@ def first_overturning(lower, upper) -> Fragility:
     )
 
 
-def _end(q, y):
+def _end(q: NDArray[Any], y: NDArray[Any]) -> NDArray[Any]:
     """(y - ln median) / beta with q = (1, ln median) / beta; infinite ends stay."""
     return np.where(np.isfinite(y), q[0] * np.where(np.isfinite(y), y, 0) - q[1], y)
 
 
-def _rows(y):
+def _rows(y: NDArray[Any]) -> NDArray[Any]:
     """Derivatives (n, 2) of `_end` by q, 0 at infinite ends."""
     finite = np.isfinite(y)
     return np.column_stack([np.where(finite, y, 0), -1.0 * finite])
 
 
-def _log_between(low, high):
+def _log_between(low: NDArray[Any], high: NDArray[Any]) -> NDArray[Any]:
     """ln(Phi(high) - Phi(low)), from the tail in which both are small."""
     flip = low > 0
     low, high = np.where(flip, -high, low), np.where(flip, -low, high)
     top = log_ndtr(high)
-    return top + np.log1p(-np.exp(log_ndtr(low) - top))
+    return np.asarray(top + np.log1p(-np.exp(log_ndtr(low) - top)))

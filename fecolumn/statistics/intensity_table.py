@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.schema import InputError
 from fecolumn.statistics.csv_table import read_csv
@@ -32,12 +34,12 @@ class IntensityTable:
         itself.
     """
 
-    measures: dict[str, np.ndarray]
-    overturned: np.ndarray
-    records: np.ndarray | None
+    measures: dict[str, NDArray[Any]]
+    overturned: NDArray[Any]
+    records: NDArray[Any] | None
 
 
-def read_intensity_table(path, wanted: tuple[str, ...] = ()) -> IntensityTable:
+def read_intensity_table(path: Path | str, wanted: tuple[str, ...] = ()) -> IntensityTable:
     """Runs of a CSV file with a header: overturned (1 or 0, true or false, yes or no), and columns
     of intensity measures.
 

@@ -12,9 +12,12 @@ there is no horizon, and the rate means little.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 _DECADE = 10.0
 
@@ -41,15 +44,15 @@ class Spread:
         times in which the spread lies between `size` and `share` of the peak [s].
     """
 
-    times: np.ndarray
-    spread: np.ndarray
+    times: NDArray[Any]
+    spread: NDArray[Any]
     peak: float
     rate: float
     interval: tuple[float, float]
     window: tuple[float, float]
 
 
-def spread(paths, times, share: float = 0.1, size: float = 0.0) -> Spread:
+def spread(paths: ArrayLike, times: ArrayLike, share: float = 0.1, size: float = 0.0) -> Spread:
     """Spread of perturbed runs of one motion over time, and its rate of growth.
 
     Perturbations of different sizes belong in different calls: the largest alone would be seen.
@@ -94,7 +97,7 @@ def spread(paths, times, share: float = 0.1, size: float = 0.0) -> Spread:
     return Spread(times, distance, peak, rate, _jackknife(rate, left_out), window)
 
 
-def horizon(distance, times, peak: float, share: float = 0.1) -> float:
+def horizon(distance: ArrayLike, times: ArrayLike, peak: float, share: float = 0.1) -> float:
     """Time at which the spread first passes a share of the peak [s]; inf where it never does.
 
     Parameters
@@ -114,7 +117,7 @@ def horizon(distance, times, peak: float, share: float = 0.1) -> float:
     return float(np.asarray(times, float)[passed[0]]) if passed.size else math.inf
 
 
-def time_gained(sizes, horizons) -> tuple[float, float, float]:
+def time_gained(sizes: ArrayLike, horizons: ArrayLike) -> tuple[float, float, float]:
     """Horizon gained by a tenfold smaller perturbation [s], with its 95 % interval: (gain, low,
     high).
 
@@ -140,7 +143,7 @@ def time_gained(sizes, horizons) -> tuple[float, float, float]:
     return float(line.slope), float(line.slope - reach), float(line.slope + reach)
 
 
-def aligned(runs) -> tuple[np.ndarray, np.ndarray]:
+def aligned(runs: Iterable[tuple[ArrayLike, ArrayLike]]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Runs of different length on common times: (times (steps,), paths (k, steps, d)).
 
     A run that ended earlier, because it overturned, keeps its last value: from then on its distance
@@ -157,36 +160,35 @@ def aligned(runs) -> tuple[np.ndarray, np.ndarray]:
     ValueError
         steps that differ.
     """
-    runs = [
-        (np.asarray(times, float), np.asarray(path, float).reshape(len(times), -1))
-        for times, path in runs
-    ]
-    common = max((times for times, _ in runs), key=len)
+    known = [(np.asarray(times, float), np.asarray(path, float)) for times, path in runs]
+    common = max((times for times, _ in known), key=len)
     if len(common) > 2 and not math.isclose(
         common[-1] - common[-2], common[1] - common[0], rel_tol=1e-6
     ):
         common = common[:-1]
-    for times, _ in runs:
+    for times, _ in known:
         inner = times[:-1][: common.size]
         if not np.allclose(inner, common[: inner.size], rtol=1e-9, atol=0):
             raise ValueError("runs must have the same time step")
     return common, np.array(
         [
-            np.stack([np.interp(common, times, column) for column in path.T], axis=-1)
-            for times, path in runs
+            np.stack(
+                [np.interp(common, times, row) for row in path.reshape(len(times), -1).T], axis=-1
+            )
+            for times, path in known
         ]
     )
 
 
-def _scatter(paths: np.ndarray) -> np.ndarray:
+def _scatter(paths: NDArray[Any]) -> NDArray[Any]:
     """Root mean square distance from the mean run, (steps,)."""
     deviation = paths - paths[0]  # exactly 0 of equal runs, which their mean is not
     deviation -= deviation.mean(axis=0)
-    return np.sqrt((deviation**2).sum(axis=(0, 2)) / (len(paths) - 1))
+    return np.asarray(np.sqrt((deviation**2).sum(axis=(0, 2)) / (len(paths) - 1)))
 
 
 def _rate(
-    distance: np.ndarray, times: np.ndarray, floor: float, limit: float
+    distance: NDArray[Any], times: NDArray[Any], floor: float, limit: float
 ) -> tuple[float, tuple[float, float]]:
     """Slope of ln(running maximum) between floor and limit, and the window of times where it lies
     there.
@@ -201,7 +203,7 @@ def _rate(
     return float(np.polyfit(times[inside], np.log(grown[inside]), 1)[0]), window
 
 
-def _jackknife(rate: float, left_out: np.ndarray) -> tuple[float, float]:
+def _jackknife(rate: float, left_out: NDArray[Any]) -> tuple[float, float]:
     """95 % interval (Tukey 1958; Efron & Tibshirani 1993, chapter 11)."""
     from scipy.stats import t
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
-import numpy as np
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,22 +37,23 @@ class Sample:
 
     source: str
     title: str
-    choice: dict
+    choice: dict[str, Any]
     motions: tuple[str, ...]
-    u_max: np.ndarray
-    lost: np.ndarray
-    slid_off: np.ndarray
+    u_max: NDArray[Any]
+    lost: NDArray[Any]
+    slid_off: NDArray[Any]
     missing: int = 0
     cut: str = ""
 
-    def take(self, motions) -> Sample:
+    def take(self, motions: Iterable[str]) -> Sample:
         """The runs of some motions, in their order."""
+        motions = tuple(motions)
         places = [self.motions.index(motion) for motion in motions]
         return Sample(
             self.source,
             self.title,
             self.choice,
-            tuple(motions),
+            motions,
             self.u_max[places],
             self.lost[places],
             self.slid_off[places],

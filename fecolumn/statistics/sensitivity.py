@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.statistics.ecdf import normal_quantile
 from fecolumn.statistics.equivalence import paired_error, upper_bound
@@ -41,7 +42,12 @@ class Sensitivity:
 
 
 def sensitivity(
-    u_low, overturned_low, u_high, overturned_high, resamples: int = 1000, seed: int = 0
+    u_low: ArrayLike,
+    overturned_low: ArrayLike,
+    u_high: ArrayLike,
+    overturned_high: ArrayLike,
+    resamples: int = 1000,
+    seed: int = 0,
 ) -> Sensitivity:
     """Effect between two levels of a parameter.
 

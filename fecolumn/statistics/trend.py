@@ -1,10 +1,11 @@
-"""Does the peak of one and the same motion rise or fall along the levels of a parameter?"""
+"""Test whether the peak of one and the same motion rises or falls with a parameter."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 _RESAMPLES = 2000
 
@@ -40,7 +41,7 @@ class Trend:
     p: float
 
 
-def trend(u_max, overturned, seed: int = 0) -> Trend:
+def trend(u_max: ArrayLike, overturned: ArrayLike, seed: int = 0) -> Trend:
     """Trend along levels; overturned runs lie beyond every standing one and tie among themselves.
 
     Parameters

@@ -11,9 +11,12 @@ for Kolmogorov and Smirnov, by random permutations for the others, with a smalle
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 RESAMPLES = 9999
 _CELLS = 4_000_000  # of a matrix of permutations held at a time
@@ -47,12 +50,12 @@ class _Pooled:
 
     n: int
     m: int
-    size: np.ndarray
-    end: np.ndarray
-    a: np.ndarray
+    size: NDArray[Any]
+    end: NDArray[Any]
+    a: NDArray[Any]
 
 
-def kolmogorov_smirnov(a, b) -> TestResult:
+def kolmogorov_smirnov(a: ArrayLike, b: ArrayLike) -> TestResult:
     """Two-sample Kolmogorov-Smirnov test: D = sup |F_a - F_b|, p exact for the ties at hand.
 
     p counts the orders of the pooled sample with a difference of D or more at the end of any block
@@ -83,7 +86,9 @@ def kolmogorov_smirnov(a, b) -> TestResult:
     return TestResult(distance / (n * pooled.m), float(min(beyond, 1.0)) if distance else 1.0)
 
 
-def anderson_darling(a, b, resamples: int = RESAMPLES, seed: int = 0) -> TestResult:
+def anderson_darling(
+    a: ArrayLike, b: ArrayLike, resamples: int = RESAMPLES, seed: int = 0
+) -> TestResult:
     """Two-sample Anderson-Darling test, A^2 in its midrank version for ties (Scholz & Stephens
     1987, J. Am. Stat. Assoc. 82, eq. 7).
 
@@ -94,10 +99,12 @@ def anderson_darling(a, b, resamples: int = RESAMPLES, seed: int = 0) -> TestRes
     return _permuted(_anderson_darling, a, b, resamples, seed)
 
 
-def cramer_von_mises(a, b, resamples: int = RESAMPLES, seed: int = 0) -> TestResult:
-    """Two-sample Cramer-von Mises test, T of Anderson (1962, Ann.
+def cramer_von_mises(
+    a: ArrayLike, b: ArrayLike, resamples: int = RESAMPLES, seed: int = 0
+) -> TestResult:
+    """Two-sample Cramer-von Mises test, averaged over all orders of ties.
 
-    Math. Stat. 33), averaged over all orders of ties.
+    T of Anderson (1962), Annals of Mathematical Statistics 33.
 
     In which order overturned runs follow each other nobody knows; T is its mean over all orders, in
     closed form. Without ties it is that of `scipy.stats.cramervonmises_2samp`, whose midranks do
@@ -106,7 +113,9 @@ def cramer_von_mises(a, b, resamples: int = RESAMPLES, seed: int = 0) -> TestRes
     return _permuted(_cramer_von_mises, a, b, resamples, seed)
 
 
-def paired_kolmogorov_smirnov(a, b, resamples: int = RESAMPLES, seed: int = 0) -> TestResult:
+def paired_kolmogorov_smirnov(
+    a: ArrayLike, b: ArrayLike, resamples: int = RESAMPLES, seed: int = 0
+) -> TestResult:
     """D = sup |F_a - F_b| of two settings run with the same motions; p by swapping the settings
     within motions.
 
@@ -141,7 +150,13 @@ def paired_kolmogorov_smirnov(a, b, resamples: int = RESAMPLES, seed: int = 0) -
     return TestResult(float(observed) / a.size, float(p))
 
 
-def _permuted(statistic, a, b, resamples: int, seed: int) -> TestResult:
+def _permuted(
+    statistic: Callable[[_Pooled, NDArray[Any]], NDArray[Any]],
+    a: ArrayLike,
+    b: ArrayLike,
+    resamples: int,
+    seed: int,
+) -> TestResult:
     """p-value of a statistic that is large where the distributions differ (Phipson & Smyth 2010,
     (far + 1) / (resamples + 1)).
     """
@@ -159,12 +174,13 @@ def _permuted(statistic, a, b, resamples: int, seed: int) -> TestResult:
     return TestResult(observed, (far + 1) / (resamples + 1))
 
 
-def _distances(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
+def _distances(pooled: _Pooled, a: NDArray[Any]) -> NDArray[Any]:
     """N m sup |F_a - F_b| (k,), a whole number, for counts a (k, blocks)."""
-    return np.abs(a.astype(np.int64) * (pooled.n + pooled.m) - pooled.n * pooled.end).max(axis=1)
+    lead = np.abs(a.astype(np.int64) * (pooled.n + pooled.m) - pooled.n * pooled.end)
+    return np.asarray(lead.max(axis=1))
 
 
-def _anderson_darling(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
+def _anderson_darling(pooled: _Pooled, a: NDArray[Any]) -> NDArray[Any]:
     """A^2 (k,) for counts a (k, blocks)."""
     n, m, total = pooled.n, pooled.m, pooled.n + pooled.m
     if pooled.size.size == 1:
@@ -172,15 +188,11 @@ def _anderson_darling(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
     middle = a - 0.5 * np.diff(a, axis=1, prepend=0)
     pooled_middle = pooled.end - 0.5 * pooled.size
     weight = pooled.size / (pooled_middle * (total - pooled_middle) - total * pooled.size / 4)
-    return (
-        (total - 1)
-        / total**2
-        * (1 / n + 1 / m)
-        * ((total * middle - n * pooled_middle) ** 2 @ weight)
-    )
+    summed = np.asarray((total * middle - n * pooled_middle) ** 2 @ weight)
+    return (total - 1) / total**2 * (1 / n + 1 / m) * summed
 
 
-def _cramer_von_mises(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
+def _cramer_von_mises(pooled: _Pooled, a: NDArray[Any]) -> NDArray[Any]:
     """T (k,) for counts a (k, blocks)."""
     n, m, total, size = pooled.n, pooled.m, pooled.n + pooled.m, pooled.size
     after = a / n - (pooled.end - a) / m
@@ -195,10 +207,10 @@ def _cramer_von_mises(pooled: _Pooled, a: np.ndarray) -> np.ndarray:
     )
     share = np.diff(a, axis=1, prepend=0) / size
     scatter = share * (1 - share) * size * (size + 1) / 6 * (1 / n + 1 / m) ** 2
-    return n * m / total**2 * (line + scatter).sum(axis=1)
+    return np.asarray(n * m / total**2 * (line + scatter).sum(axis=1))
 
 
-def _pool(a, b) -> _Pooled:
+def _pool(a: ArrayLike, b: ArrayLike) -> _Pooled:
     a, b = _sample(a), _sample(b)
     values, size = np.unique(np.concatenate([a, b]), return_counts=True)
     return _Pooled(
@@ -206,11 +218,11 @@ def _pool(a, b) -> _Pooled:
         b.size,
         size,
         np.cumsum(size),
-        np.searchsorted(np.sort(a), values, side="right")[None],
+        np.asarray(np.searchsorted(np.sort(a), values, side="right"))[None],
     )
 
 
-def _sample(values) -> np.ndarray:
+def _sample(values: ArrayLike) -> NDArray[Any]:
     values = np.asarray(values, float)
     if values.ndim != 1 or not values.size or np.isnan(values).any():
         raise ValueError(
@@ -219,7 +231,7 @@ def _sample(values) -> np.ndarray:
     return values
 
 
-def _chunks(resamples: int, cells: int):
+def _chunks(resamples: int, cells: int) -> list[int]:
     """Numbers of permutations that fit in memory together, `resamples` in all."""
     size = max(1, _CELLS // cells)
     return [size] * (resamples // size) + ([resamples % size] if resamples % size else [])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -15,10 +16,11 @@ from fecolumn.ending import SLID_OFF, Ending
 from fecolumn.reduced.analysis import ReducedAnalysis
 from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.reduced.run import advance
-from fecolumn.reduced.structure import LOST
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.engine import engine_of, leans, upright
-from fecolumn.structures.model import StructureModel
+from fecolumn.structures.lost import limits_of
+from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.pads import warn_of_grounds
 from fecolumn.structures.structure import standing_of, structure_model
 
 _WHOLE = (
@@ -29,12 +31,9 @@ _WHOLE = (
 
 
 class _Whole(NamedTuple):
-    """What `ReducedAnalysis` asks of a model: degrees of freedom of the different meshes, and arms
-    of a foot that might meet an edge.
-    """
+    """What `ReducedAnalysis` asks of a model: degrees of freedom of the different meshes."""
 
     dofs: int
-    arms: np.ndarray
 
 
 class OfStructure:
@@ -43,7 +42,7 @@ class OfStructure:
     """
 
     structure: StructureModel
-    _barrier_j = None
+    _barrier_j, _off = None, None
 
     def expected(self) -> str:
         """What is analysed, in words."""
@@ -71,16 +70,20 @@ class OfStructure:
         return dict(critical_tilt_rad=min(tilts, default=None), u_critical_m=None)
 
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
-        tilts = {part.name: float(last[f"body/{part.name}/tilt"]) for part in self.structure.parts}
-        name = max(tilts, key=tilts.get)
-        return f'"{name}" has tilted by {tilts[name]:.3g} rad, limit {LOST:.3g} rad'
+        parts = self.structure.parts
+        tilts = np.array([float(last[f"body/{part.name}/tilt"]) for part in parts])
+        limits = limits_of(self.structure, standing_of(self.case, self.structure))
+        far, critical = tilts > limits.tilts, limits.standing["critical"]
+        b = int(np.argmax(np.where(far, tilts, 0.0) if far.any() else tilts - critical))
+        told = f"limit {limits.tilts[b]:.3g}" if far.any() else f"critical {critical[b]:.3g}"
+        return f'"{parts[b].name}" has tilted by {tilts[b]:.3g} rad, {told} rad'
 
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
         if fallen != FELL:
             return super().ending(fallen, rotation)
         return Ending(
             SLID_OFF,
-            f'"{self._lowest()}" has fallen past the ground, z = 0, at '
+            f'"{self._lowest()}" has fallen past the ground, z = {min(self.structure.levels):g}, at '
             f"{self.history.last()['time']:.3f} s",
         )
 
@@ -93,18 +96,13 @@ class OfStructure:
         }
         return min(heights, key=heights.get)
 
-    def finish(self, ending, dofs: int, record, factorizations: int) -> dict:
-        from fecolumn.atomic import write_json
-        from fecolumn.summary import NAME
-
-        summary = super().finish(ending, dofs, record, factorizations)
-        summary |= peaks(self.history.arrays(), self.structure)
-        if summary["slid_off"]:
-            way = self.history.last()[f"body/{self._lowest()}/displacement"]
-            summary["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
-        if self.comm.rank == 0:
-            write_json(self.folder / NAME, summary)
-        return summary
+    def results(self, ending) -> dict:
+        """Of the summary: what bodies, interfaces, storeys and links have reached."""
+        found = peaks(self.history.arrays(), self.structure)
+        if ending.outcome == SLID_OFF:
+            way = self.history.last()[f"body/{self._off or self._lowest()}/displacement"]
+            found["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
+        return found
 
 
 class StructureAnalysis(OfStructure, ReducedAnalysis):
@@ -115,10 +113,8 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
         self.structure = structure_model(case, file, self.say)
         self.fields, self.states = self._fields() if self.field_steps else None, self._states()
         different = {id(part.model): part.model.dofs for part in self.structure.parts}
-        self.base, self.model = (
-            self.structure.base,
-            _Whole(sum(different.values()), self.structure.parts[0].model.arms),
-        )
+        self.bases, self.model = self.structure.bases, _Whole(sum(different.values()))
+        warn_of_grounds(case, self.structure, file)
         if not compiled(advance):
             self.say(
                 "compiling the reduced engine, once on this machine: a minute or two; "
@@ -136,7 +132,7 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
             self.standing_j = (
                 self._standing_energy(file) if leans(self.structure) else self.engine.potential()
             )
-            self.engine.motion.whole["ground"] = self.ground(0)
+            self.engine.begin_shaking(self.grounds(0))
             self._note(self.engine.row()[None])
             self._keep()
 
@@ -145,6 +141,47 @@ class StructureAnalysis(OfStructure, ReducedAnalysis):
         from fecolumn.post.structure_scene import scene_of
 
         return scene_of(self.case, self.structure, self.folder / "case.json")
+
+    def _off_base(self, failure) -> Ending | None:
+        motion, joints = self.engine.motion, self.structure.joints
+        for joint in joints:
+            if joint.master != GROUND:
+                continue
+            part, frame = self.structure.parts[joint.slave], motion.frames[joint.slave]
+            arms = part.model.arms[part.model.surfaces[joint.slave_surface].nodes]
+            turn, ground = motion.rotation[joint.slave].T, motion.grounds[joint.ground]
+            ending = self.slid_off(
+                failure,
+                self.bases[joint.ground],
+                frame["center"] + arms @ turn - ground["place"],
+                frame["velocity"] + np.cross(frame["spin"], arms) @ turn - ground["velocity"],
+            )
+            if ending is not None:
+                self._off = part.name
+                return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
+        return None
+
+    def _load_motion(self, file):
+        from fecolumn.motions.load import load_motion
+
+        dt, first = self.case.integration.dt_s, super()._load_motion(file)
+        #: Motion of each ground, None of one at rest.
+        self.motions = [
+            load_motion(one.motion, dt, file) if one.motion else first
+            for one in self.case.grounds.values()
+        ]
+        return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
+
+    def ground(self, step: int) -> np.ndarray:
+        return self.grounds(step)[:3]
+
+    def grounds(self, step: int) -> np.ndarray:
+        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
+        found = np.zeros((len(self.motions), 3))
+        for own, motion in zip(found, self.motions):
+            if motion is not None and step < len(motion.acceleration):
+                own[:] = motion.acceleration[step]
+        return found.ravel()
 
     def _standing_energy(self, file) -> float:
         """As `reduced.analysis.standing_energy`."""

@@ -13,7 +13,7 @@ from fecolumn.dynamics.overturning import Stance, stance
 from fecolumn.schema import InputError
 from fecolumn.structures.feet import edge_points
 from fecolumn.structures.model import GROUND, StructureModel
-from fecolumn.structures.place import Standing, placed, supports_of, touching
+from fecolumn.structures.place import Standing, footing, placed, supports_of
 
 # Directions [deg] in which a body is leaned; the least energy is in that of its weakest edge
 _DIRECTIONS = (0.0, 90.0, 180.0, 270.0)
@@ -30,7 +30,7 @@ def stances(structure: StructureModel, standing: list[Standing]) -> dict[int, St
     found = {}
     for place, below in enumerate(supports_of(standing, list(structure.joints))):
         if joints := [
-            joint for _, between in below for joint in between if _is_level(standing, joint)
+            joint for _, between in below for joint in between if is_level(standing, joint)
         ]:
             model = standing[place].model
             one = _stance_of(
@@ -41,7 +41,7 @@ def stances(structure: StructureModel, standing: list[Standing]) -> dict[int, St
     return found
 
 
-def _is_level(standing: list[Standing], joint) -> bool:
+def is_level(standing: list[Standing], joint) -> bool:
     """Whether a body stands on the faces of a joint, rather than beside them."""
     return abs(standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]) > math.sqrt(0.5)
 
@@ -68,11 +68,11 @@ def _footing(standing: list[Standing], joint) -> np.ndarray:
     """Points (n, 3) [m] where the bodies of a joint touch, over which the upper one tips; of a dome
     on its edge.
     """
-    slave = standing[joint.slave]
-    arms = slave.model.arms[slave.model.surfaces[joint.slave_surface].nodes]
     if joint.ball and joint.ball.is_dome:
+        slave = standing[joint.slave]
+        arms = slave.model.arms[slave.model.surfaces[joint.slave_surface].nodes]
         return slave.center + arms[0] + edge_points(joint.ball)
-    return slave.center + arms[touching(standing, joint)]
+    return footing(standing, joint)
 
 
 def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
@@ -130,7 +130,7 @@ def _together(standing: list[Standing], joints: list) -> list[Stance]:
             for below, between in supports[upper]
             if below == GROUND or below not in moved
             for joint in between
-            if _is_level(standing, joint)
+            if is_level(standing, joint)
         ]
         if under and (one := _stance_of(sorted(moved), under, standing, np.eye(3), 0.0)):
             found.append(one)

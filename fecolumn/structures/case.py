@@ -12,7 +12,7 @@ import dataclasses
 import hashlib
 import json
 import typing
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from fecolumn.case import (
@@ -33,12 +33,24 @@ from fecolumn.content import content
 from fecolumn.files import is_file
 from fecolumn.paths import OF_BODIES as FILES
 from fecolumn.schema import InputError, build, meant, merge, nested, stated
-from fecolumn.structures.keys import GROUND, KINDS, Interface, LinkKeys, Mesh, Placed, Storeys
+from fecolumn.short_form import ALIKE, ShortForm, full_tables, in_short_form, short_form
+from fecolumn.structures.check_grounds import check_grounds
+from fecolumn.structures.keys import (
+    GROUND,
+    KINDS,
+    Ground,
+    Interface,
+    LinkKeys,
+    Mesh,
+    Placed,
+    Storeys,
+)
 
 #: Tables of tables by name, and the class of each.
 NAMED = {
     "bodies": Placed,
     "materials": Material,
+    "grounds": Ground,
     "interfaces": Interface,
     "links": LinkKeys,
     "initial": Initial,
@@ -54,8 +66,6 @@ COMMON = {
 }
 # of which no number depends
 _IDLE = ("output", "mesh")
-#: What holds where a structure's case says nothing else: a step takes all modes of all bodies.
-DEFAULTS = {"integration": {"engine": "reduced", "n_modes": 30}}
 # Characters of a name that stand for something else in dotted keys, and in names of copies and
 # marks
 _TAKEN = set(".\"'[]/ ")
@@ -81,6 +91,24 @@ class StructureCase:
     observed: str = ""
     motion: Motion | None = None
     mesh: Mesh = Mesh()
+    grounds: dict[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
+    short: ShortForm | None = field(default=None, compare=False, repr=False)
+
+    def __post_init__(self):
+        """Refuse sections of another kind; a section that is not that of the short form makes a
+        case of the full one.
+
+        Raises
+        ------
+        InputError
+            names the section.
+        """
+        for name, kind in COMMON.items():
+            value = getattr(self, name)
+            if not isinstance(value, kind) and not (name == "motion" and value is None):
+                raise InputError("case", name, value, f"must be a {kind.__name__}")
+        if self.short and any(getattr(self, name) != getattr(self.short, name) for name in ALIKE):
+            object.__setattr__(self, "short", None)
 
     @property
     def id(self) -> str:
@@ -94,6 +122,9 @@ class StructureCase:
         tables |= {
             name: section_table(name, getattr(self, name)) for name in COMMON if name not in _IDLE
         }
+        if self.grounds == {GROUND: Ground()}:
+            # as of cases that are older than grounds
+            del tables["grounds"]
         text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
 
@@ -131,17 +162,75 @@ class StructureCase:
         raise KeyError(name)
 
     def replace(self, changes: dict | None = None, **sections) -> StructureCase:
-        """This case with other values by dotted key, such as {"bodies.slab.length_m": 3.0}, checked
-        as a file's would be; see `Case.replace`.
+        """This case with other values, checked as a file's would be; sizes that followed a column
+        follow the new one.
+
+        Parameters
+        ----------
+        changes
+            values by dotted key, such as {"contact.friction_coefficient": 0.5}, of the short form
+            where the case was stated in it; None removes a section that may be absent.
+        sections
+            the same by section, such as contact={"friction_coefficient": 0.5}; title="...".
+
+        Raises
+        ------
+        InputError
+            unknown key, value out of range, parts that do not fit.
         """
-        tables = self.tables()
-        for key, value in {**(changes or {}), **sections}.items():
-            tables = merge(tables, nested(key, value))
+        changes = {**(changes or {}), **sections}
+        full = self.short is None or any(_is_full(key, value) for key, value in changes.items())
+        tables = self.tables() if full else self.short.tables(opened=True)
+        for key, value in changes.items():
+            if value is None:
+                tables.pop(key, None)
+            else:
+                tables = merge(tables, nested(key, value))
         return structure_from_tables(stated(tables), "case")
 
-    def tables(self) -> dict:
-        """The case as the tables of its file."""
-        return stated(dataclasses.asdict(self))
+    def tables(self, defaults: bool = True) -> dict:
+        """The case as the tables of its file, in the full form, with keys at their `defaults` or
+        without.
+        """
+        found = {}
+        for one in dataclasses.fields(self):
+            value = getattr(self, one.name)
+            if one.name in NAMED:
+                value = {key: _stated(section, defaults) for key, section in value.items()}
+            elif dataclasses.is_dataclass(value):
+                value = _stated(value, defaults)
+            if one.name != "short" and value not in (None, {}, ""):
+                found[one.name] = value
+        return found
+
+    def as_stated(self) -> dict:
+        """The case as the tables of its file, in the form that it was stated in."""
+        return self.short.tables() if self.short else self.tables()
+
+
+def _stated(section, defaults: bool) -> dict:
+    """The table of a section: without keys that are left open, or that are not stated as they
+    stand at their defaults.
+    """
+    found = {}
+    for one in dataclasses.fields(section):
+        value = getattr(section, one.name)
+        if value is None or not defaults and one.name != "kind" and value == one.default:
+            continue
+        found[one.name] = _stated(value, defaults) if dataclasses.is_dataclass(value) else value
+    return found
+
+
+def _is_full(key: str, value) -> bool:
+    """Whether a dotted key, or a table of this name, is of the full form alone."""
+    first, _, rest = key.partition(".")
+    if first == "initial":
+        return (
+            "." in rest
+            or isinstance(value, dict)
+            and any(isinstance(v, dict) for v in value.values())
+        )
+    return first in NAMED or first in ("joints", "observed")
 
 
 def identity(section) -> dict:
@@ -162,7 +251,13 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
         every unknown or missing key, wrong type and value out of range, told at once; or parts that
         do not fit.
     """
-    tables, errors, found = merge(DEFAULTS, stated(tables)), [], {}
+    if "column" in tables:
+        return _of_short_form(tables, file)
+    tables, errors, found = stated(tables), [], {}
+    tables = _with_joints(tables, file)
+    if not tables.get("grounds"):
+        tables = tables | {"grounds": {GROUND: {}}}
+    grounds = set(tables["grounds"]) if isinstance(tables["grounds"], dict) else {GROUND}
     for key in tables:
         if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
             errors.append(
@@ -175,7 +270,7 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
                 )
             )
     for name, kind in NAMED.items():
-        found[name] = _named(name, kind, tables.get(name, {}), file, errors)
+        found[name] = _named(name, kind, tables.get(name, {}), grounds, file, errors)
     for name, kind in COMMON.items():
         table = tables.get(name, False)
         try:
@@ -196,8 +291,37 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
     return case
 
 
-def _named(name: str, kind, tables, file, errors: list) -> dict:
-    """Sections by name of one table of tables."""
+def _of_short_form(tables: dict, file) -> StructureCase:
+    """Case of TOML tables with [column]; messages name the keys of the short form."""
+    form = short_form(tables, file)
+    try:
+        case = structure_from_tables(full_tables(form), file)
+    except InputError as error:
+        raise InputError.of_several(
+            [
+                InputError(one.file, in_short_form(one.key), one.value, one.allowed)
+                for one in error.all
+            ]
+        ) from None
+    return dataclasses.replace(case, short=form)
+
+
+def _with_joints(tables: dict, file) -> dict:
+    """Tables with [joints] under the name of earlier versions, [interfaces]."""
+    if "joints" not in tables:
+        return tables
+    joints, older = tables["joints"], tables.get("interfaces", {})
+    if not isinstance(joints, dict):
+        raise InputError(file, "joints", joints, "must hold tables by name, such as [joints.NAME]")
+    if twice := set(joints) & set(older):
+        key = f"joints.{min(twice)}"
+        raise InputError(file, key, None, "stands in [interfaces], too: give it once")
+    others = {name: table for name, table in tables.items() if name != "joints"}
+    return others | {"interfaces": older | joints}
+
+
+def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
+    """Sections by name of one table of tables; grounds: names that no body can have."""
     if not isinstance(tables, dict):
         errors.append(
             InputError(file, name, tables, f"must hold tables by name, such as [{name}.NAME]")
@@ -213,26 +337,26 @@ def _named(name: str, kind, tables, file, errors: list) -> dict:
                     file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
                 )
             if name != "initial" and (
-                set(key) & _TAKEN or not key or name == "bodies" and key == GROUND
+                set(key) & _TAKEN or not key or name == "bodies" and key in grounds
             ):
                 raise InputError(
                     file,
                     f"{name}.{key}",
                     None,
-                    f'must be named by another word: not "{GROUND}", without blanks, '
+                    "must be named by another word: not that of a ground, without blanks, "
                     "dots, slashes and quotes",
                 )
             found[key] = _built(
                 _kind_of(name, key, table, kind, file), table, file, f"{name}.{key}."
             )
             if name == "interfaces":
-                found[key] = _between(found[key], file, f"{name}.{key}.")
+                found[key] = _between(found[key], grounds, file, f"{name}.{key}.")
         except InputError as error:
             errors.append(error)
     return found
 
 
-def _between(interface: Interface, file, prefix: str) -> Interface:
+def _between(interface: Interface, grounds: set, file, prefix: str) -> Interface:
     """The interface with its two bodies as slave and on."""
     if interface.between:
         if interface.slave or interface.on:
@@ -250,13 +374,13 @@ def _between(interface: Interface, file, prefix: str) -> Interface:
                 list(interface.between),
                 'must be two names, such as ["drum", "capital"]',
             )
-        bodies = sorted(interface.between, key=lambda one: one == GROUND)
-        if bodies[0] == GROUND:
+        bodies = sorted(interface.between, key=lambda one: one in grounds)
+        if bodies[0] in grounds:
             raise InputError(
                 file,
                 prefix + "between",
                 list(interface.between),
-                "must name a body: the ground does not touch itself",
+                "must name a body: grounds do not touch one another",
             )
         return dataclasses.replace(interface, between=(), slave=bodies[0], on=bodies[1])
     for key in ("slave", "on"):
@@ -289,6 +413,8 @@ def _kind_of(name: str, key: str, table: dict, kind, file):
 def _built(kind, table, file, prefix):
     """A section with its relative paths taken from the folder of `file`."""
     section, folder = build(kind, table, file, prefix), Path(file).resolve().parent
+    if kind is Ground and section.motion:
+        return dataclasses.replace(section, motion=located("motion", section.motion, file))
     files = {key: getattr(section, key) for key in FILES.get(table.get("kind", ""), ())}
     for key, path in files.items():
         if not is_file(path if Path(path).is_absolute() else str(folder / path)):
@@ -327,14 +453,14 @@ def check(case: StructureCase, file) -> None:
         _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
         _check_name(case, f"links.{name}.to", link.to, refuse)
         check_link(f"links.{name}", link, refuse)
-        if link.to != GROUND and len(case.meant_by(link.to)[1]) > 1:
+        if link.to not in case.grounds and len(case.meant_by(link.to)[1]) > 1:
             refuse(
                 f"links.{name}.to",
                 link.to,
                 f'must be one of its copies, such as "{case.names_of(link.to)[0]}"',
             )
         if (
-            link.to != GROUND
+            link.to not in case.grounds
             and (own := case.meant_by(link.body))[0] == (other := case.meant_by(link.to))[0]
             and other[1][0] in own[1]
         ):
@@ -372,21 +498,23 @@ def check(case: StructureCase, file) -> None:
                 f'integration.engine = "reduced" with modes, of which {2 * body.floors} '
                 "are all",
             )
+    check_grounds(case, refuse)
     _check_integration(case, refuse)
 
 
 def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
-    if ground and name == GROUND:
+    if ground and name in case.grounds:
         return
     try:
         case.meant_by(name)
     except KeyError:
         known = (
-            [GROUND] * ground
+            list(case.grounds) * ground
             + list(case.bodies)
             + [copy for body in case.bodies for copy in case.names_of(body) if copy != body]
         )
-        refuse(key, name, f"no such body{meant(name, known)}; known: {', '.join(known)}")
+        what = "body or ground" if ground else "body"
+        refuse(key, name, f"no such {what}{meant(name, known)}; known: {', '.join(known)}")
 
 
 def _check_integration(case, refuse) -> None:
@@ -401,16 +529,10 @@ def _check_integration(case, refuse) -> None:
                         'must be left out with integration.engine = "full": feet that '
                         "are not flat are computed by the reduced and the rigid engine",
                     )
-    if plan.engine not in ("full", "reduced", "rigid"):
-        refuse(
-            "integration.engine",
-            plan.engine,
-            "must be full, reduced or rigid for a structure of [bodies]",
-        )
     for section, key, needed in (
         ("integration", "kinematics", "corotated"),
         ("contact", "impact", "plastic"),
-        ("contact", "rolling_resistance", 0.0),
+        *([("contact", "rolling_resistance", 0.0)] if plan.engine == "full" else []),
     ):
         if (value := getattr(getattr(case, section), key)) != needed:
             refuse(f"{section}.{key}", value, f"must be {needed} for a structure of [bodies]")

@@ -12,9 +12,8 @@ from scipy.spatial import cKDTree
 from fecolumn.case import GRAVITY
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
 from fecolumn.schema import InputError
-from fecolumn.structures import keys
 from fecolumn.structures.model import GROUND
-from fecolumn.structures.place import touching
+from fecolumn.structures.place import footing
 
 #: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
 MOST_POINTS = 1000
@@ -92,14 +91,15 @@ def check_layout(case, layout, file) -> None:
         )
         for (name, _), place in zip(copies, places)
     ]
+    lowest = min(ground.level_m for ground in case.grounds.values())
     for i, one in enumerate(copies):
-        if boxes[i][0][2] < -_DEPTH * np.ptp(boxes[i], axis=0).max():
+        if boxes[i][0][2] < lowest - _DEPTH * np.ptp(boxes[i], axis=0).max():
             raise InputError(
                 file,
                 f"bodies.{one[0]}",
                 None,
-                f'"{case.names_of(one[0])[one[1]]}" reaches {-boxes[i][0][2]:.4g} m '
-                "below the ground, z = 0",
+                f'"{case.names_of(one[0])[one[1]]}" reaches {lowest - boxes[i][0][2]:.4g} m '
+                f"below the ground, z = {lowest:g}",
             )
         for j in range(i):
             other = copies[j]
@@ -176,10 +176,10 @@ def _to_surface(drawing, point) -> float:
 
 
 def check_joints(joints, standing, file) -> None:
-    """Refuse slaves that hardly have a node on their master."""
+    """Refuse slaves that hardly have a place at which they stand on their master."""
     count = Counter()
     for joint in joints:
-        count[frozenset((joint.slave, joint.master))] += len(touching(standing, joint))
+        count[frozenset((joint.slave, joint.master))] += len(footing(standing, joint))
     for joint in joints:
         if count[frozenset((joint.slave, joint.master))] < (
             1 if joint.ball and joint.ball.is_dome else 3
@@ -202,7 +202,7 @@ def check_links(case, extents: dict, file) -> None:
         for number in numbers:
             origin = np.array(case.bodies[body].places[number])
             ends = [("point_m", body, number, origin + link.point_m)]
-            if link.to != keys.GROUND:  # there anywhere: the ground may have a mast or a wall
+            if link.to not in case.grounds:  # there anywhere: the ground may have a mast or a wall
                 other, (other_number,) = case.meant_by(link.to)
                 ends.append(("to_point_m", other, other_number, origin + link.to_point_m))
             for end, of, copy, place in ends:
@@ -243,12 +243,8 @@ def check_rest(case, structure, standing, file) -> None:
     for joint in structure.joints:
         slave = standing[joint.slave]
         surface = slave.model.surfaces[joint.slave_surface]
-        for row in touching(standing, joint):
-            point = (
-                slave.center
-                + slave.model.arms[surface.nodes[row]]
-                + (joint.ball.radius * surface.normal if joint.ball else 0.0)
-            )
+        for place in footing(standing, joint):
+            point = place + (joint.ball.radius * surface.normal if joint.ball else 0.0)
             for angle in (
                 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS if joint.friction else [None]
             ):

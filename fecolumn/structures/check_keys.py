@@ -85,13 +85,12 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
             "is of a body with rigid = true; this one deforms",
         )
     if isinstance(body, Meshed):
-        for name in ("element_size_m", "coarse_size_m"):
-            if (value := getattr(body, name)) is not None:
-                refuse(
-                    f"{key}.{name}",
-                    value,
-                    'says nothing of a body of kind = "mesh", whose elements are in its file',
-                )
+        if body.coarse_size_m is not None:
+            refuse(
+                f"{key}.coarse_size_m",
+                body.coarse_size_m,
+                'says nothing of a body of kind = "mesh", whose elements are in its file',
+            )
         return
     if body.coarse_size_m is not None and body.coarse_size_m < (body.element_size_m or 0.0):
         refuse(

@@ -18,7 +18,9 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
         from fecolumn.dynamics.hht import HHT
         from fecolumn.dynamics.structure import structure_system
         from fecolumn.structures.elements import structure_of_elements
+        from fecolumn.structures.lost import limits_of
         from fecolumn.structures.observer import StructureObserver
+        from fecolumn.structures.structure import standing_of
 
         case, plan = self.case, self.case.integration
         self.structure, self.meshed = structure_of_elements(case, self.comm, file)
@@ -38,8 +40,9 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
         except ValueError as error:
             name, _, told = str(error).partition(": ")
             raise InputError(file, name, None, told) from None
+        limits = limits_of(self.standing, standing_of(case, self.standing))
         return system, StructureObserver(
-            system, self.meshed, self.standing, case.overturn.displacement_m
+            system, self.meshed, self.standing, limits, case.overturn.displacement_m
         )
 
     @property
@@ -52,11 +55,12 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
         return released(self.system, self.structure.parts, None if self.leans else standing)
 
     def drawn(self):
+        from fecolumn.post.structure_scene import scene_of
         from fecolumn.structures.fields import StructureFields
 
-        return StructureFields(
-            self.system.column, self.meshed, self.standing, self.system.interface.points
-        )
+        scene = scene_of(self.case, self.standing, self.folder / "case.json")
+        points = self.system.interface.points
+        return StructureFields(scene, self.system.bodies, self.meshed, self.standing, points)
 
     def foot(self) -> tuple[np.ndarray, np.ndarray]:
         places = self.system.interface.node_positions(self.state.x, self.state.rotation)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fecolumn.case import Cap, Flange
+from fecolumn.case import Cap, Flange, Motion
 from fecolumn.schema import Section, parameter
 
-#: Word for what stands below all: a rigid flat at z = 0 that moves with the ground motion.
+#: Name of the ground of a case that states none: a rigid flat at z = 0.
 GROUND = "ground"
 
 
@@ -140,6 +140,27 @@ class Footed(Solid):
         high=50,
         since="0.6",
     )
+    fine_height_m: float | None = parameter(
+        None,
+        doc="height of a finely meshed lower part, of element_size_m, to which a coarser upper "
+        "part is tied, of coarse_size_m: what stands on one foot alone; left out: one grid, "
+        "fine at both ends",
+        unit="m",
+        low=0,
+        high=1000,
+        since="0.8",
+    )
+    cap_size_m: float | None = parameter(
+        None,
+        doc="element size of the cap; left out: element_size_m, with fine_height_m a coarse "
+        "element, but 16 of the cap's longer side at most",
+        unit="m",
+        above=0,
+        high=10,
+        since="0.8",
+    )
+    flange: Flange | None = None
+    cap: Cap | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,8 +171,6 @@ class Tube(Footed):
     outer_diameter_m: float = parameter(doc="outer diameter", unit="m", above=0, high=100)
     wall_m: float = parameter(doc="wall thickness", unit="m", above=0, high=50)
     height_m: float = parameter(doc="height without flange and cap", unit="m", above=0, high=1000)
-    flange: Flange | None = None
-    cap: Cap | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -161,8 +180,6 @@ class Cylinder(Footed):
     kind: str = parameter("cylinder", doc="what the body is", choices=("cylinder",))
     outer_diameter_m: float = parameter(doc="diameter", unit="m", above=0, high=100)
     height_m: float = parameter(doc="height without flange and cap", unit="m", above=0, high=1000)
-    flange: Flange | None = None
-    cap: Cap | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -198,7 +215,9 @@ class Plate(Solid):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Meshed(Solid):
-    """kind = "mesh": a body of one's own mesh, with a flat foot; its size keys say nothing."""
+    """kind = "mesh": a body of one's own mesh, with a flat foot; element_size_m is the length that
+    penalty_factor refers to.
+    """
 
     kind: str = parameter("mesh", doc="what the body is", choices=("mesh",))
     mesh_file: str = parameter(
@@ -214,6 +233,15 @@ class Meshed(Solid):
         high=360,
         since="0.7",
     )
+    cap_size_m: float | None = parameter(
+        None,
+        doc="element size of the cap; left out: 16 elements along the cap's longer side",
+        unit="m",
+        above=0,
+        high=10,
+        since="0.8",
+    )
+    cap: Cap | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -328,18 +356,112 @@ KINDS = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Ground(Section):
+    """What bodies stand on, and what moves with the ground motion: a rigid flat, an elastic plate
+    held at its bottom, the same layer without edges, or a pad of springs and dashpots, such as
+    soil.
+    """
+
+    kind: str = parameter(
+        "rigid",
+        doc="rigid: a flat that does not give; plate: elastic plate with edges; unbounded: the "
+        "same layer without edges; pad: springs and dashpots per area, without edges",
+        choices=("rigid", "plate", "unbounded", "pad"),
+    )
+    level_m: float = parameter(0.0, doc="height of its top", unit="m", low=-1e4, high=1e4)
+    length_m: float | None = parameter(
+        None,
+        doc="length of a plate along x, its middle below that of all that stands on it; left "
+        "out: the feet's and three times the larger side of the largest foot",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+    width_m: float | None = parameter(
+        None, doc="width of a plate along y, likewise", unit="m", above=0, high=1000
+    )
+    thickness_m: float | None = parameter(
+        None,
+        doc="thickness of plate or layer; left out: a quarter of the smallest foot's smaller side",
+        unit="m",
+        above=0,
+        high=100,
+    )
+    slide_allowance_m: float | None = parameter(
+        None,
+        doc="finely meshed margin around each foot, on an unbounded ground with several feet how "
+        "far they may slide apart; left out: a quarter of the smallest foot's smaller side",
+        unit="m",
+        low=0,
+        high=1000,
+    )
+    youngs_modulus_pa: float = parameter(
+        200e9, doc="Young's modulus of plate or layer", unit="Pa", above=0, high=1e15
+    )
+    poissons_ratio: float = parameter(
+        0.3, doc="Poisson's ratio of plate or layer", low=0, high=0.49
+    )
+    density_kg_m3: float = parameter(
+        7850.0, doc="density of plate or layer", unit="kg/m3", above=0, high=1e5
+    )
+    element_size_m: float | None = parameter(
+        None,
+        doc="size of the elements of plate or layer below feet; left out: a twelfth of the "
+        "smallest foot's side, by its area",
+        unit="m",
+        above=0,
+        high=10,
+    )
+    coarse_size_m: float | None = parameter(
+        None,
+        doc="largest size of the elements of plate or layer; left out: six times element_size_m",
+        unit="m",
+        above=0,
+        high=10,
+    )
+    stiffness_n_m3: float = parameter(
+        0.0,
+        doc="springs across a pad per area (subgrade modulus); a pad needs it",
+        unit="N/m3",
+        low=0,
+        high=1e15,
+    )
+    shear_stiffness_n_m3: float = parameter(
+        0.0,
+        doc="springs along a pad per area; 0 takes 0.8 of stiffness_n_m3",
+        unit="N/m3",
+        low=0,
+        high=1e15,
+    )
+    damping_ratio: float = parameter(
+        0.0,
+        doc="of the dashpots of a pad: that of the vertical vibration of all that stands on it",
+        low=0,
+        high=10,
+    )
+    yield_pa: float | None = parameter(
+        None,
+        doc="pressure at which a pad yields, and settles for good; left out: never",
+        unit="Pa",
+        above=0,
+        high=1e12,
+    )
+    motion: Motion | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Interface(Section):
-    """A joint: faces of two bodies, or of a body and the ground, that coincide at the start; copies
+    """A joint: faces of two bodies, or of a body and a ground, that coincide at the start; copies
     each with each. Which body comes first decides nothing.
     """
 
     between: tuple[str, ...] = parameter(
         (),
-        doc='the two bodies that touch, or a body and "ground", as in ["drum", "capital"]; '
+        doc='the two bodies that touch, or a body and a ground, as in ["drum", "ground"]; '
         "the same body twice where copies stand on one another",
     )
     slave: str = parameter("", doc="instead of between: one of the two bodies")
-    on: str = parameter("", doc='instead of between: the other body, or "ground"')
+    on: str = parameter("", doc="instead of between: the other body, or a ground")
     friction_coefficient: float | None = parameter(
         None, doc="Coulomb friction coefficient; left out: that of [contact]", low=0, high=10
     )
@@ -357,6 +479,46 @@ class Interface(Section):
     )
     restitution: float | None = parameter(
         None, doc="velocity after over before an impact; left out: that of [contact]", low=0, high=1
+    )
+    rolling_resistance: float | None = parameter(
+        None,
+        doc="energy that a rolling rim loses per length rolled, over the contact force; left "
+        "out: that of [contact], 0 on a pad",
+        low=0,
+        high=0.1,
+        since="0.7",
+    )
+    stiffness_n_m3: float | None = parameter(
+        None,
+        doc="springs across a pad between the two, per area; left out: that of the ground, "
+        "between bodies no pad",
+        unit="N/m3",
+        above=0,
+        high=1e15,
+        since="0.7",
+    )
+    shear_stiffness_n_m3: float = parameter(
+        0.0,
+        doc="springs along the pad per area; 0 takes 0.8 of stiffness_n_m3",
+        unit="N/m3",
+        low=0,
+        high=1e15,
+        since="0.7",
+    )
+    damping_ratio: float = parameter(
+        0.0,
+        doc="of the dashpots of the pad: that of the vertical vibration on it of what it carries",
+        low=0,
+        high=10,
+        since="0.7",
+    )
+    yield_pa: float | None = parameter(
+        None,
+        doc="pressure at which the pad yields, and settles for good; left out: never",
+        unit="Pa",
+        above=0,
+        high=1e12,
+        since="0.7",
     )
     interior_points: int | None = parameter(
         None,
@@ -393,7 +555,7 @@ class LinkKeys(Section):
         low=-1e4,
         high=1e4,
     )
-    to: str = parameter(GROUND, doc='body at the other end, or "ground"')
+    to: str = parameter(GROUND, doc="body at the other end, or a ground")
     to_point_m: tuple[float, ...] = parameter(
         doc="point [x, y, z] of the other end at the start, from the middle of the foot of "
         "`body` as well, so that it holds for each copy",

@@ -24,7 +24,7 @@ class Contact:
     """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the
     copy), None of the ground.
 
-    pair, corners: as of `model.Joint`, place among the contacts and corners [m] in the drawings of
+    pair, outlines: as of `model.Joint`, place among the contacts and sides [m] in the drawings of
     the bodies, of plain lists.
     """
 
@@ -34,7 +34,7 @@ class Contact:
     master: tuple[str, int] | None
     master_surface: str | None
     pair: int = -1
-    corners: tuple = ()
+    outlines: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,12 @@ def layout_of(case, file) -> Layout:
     patches, contacts, edges = (
         {name: {} for name in case.bodies},
         [],
-        edges_of(case, drawings, meetings),
+        # the points of a pad are those of one face, however the other one lies below it
+        edges_of(
+            case,
+            drawings,
+            [one for one in meetings if case.interfaces[one.interface].stiffness_n_m3 is None],
+        ),
     )
     for body in case.bodies:
         patches[body] = _touching(case, body, drawings[body], meetings, edges)
@@ -95,18 +100,11 @@ def layout_of(case, file) -> Layout:
         contacts.append(Contact(meeting.interface, meeting.slave, slave, meeting.master, master))
     for edge in edges:
         slave = _surface_name(drawings[edge.lower[0]].faces, edge.lower_face, "edge")
-        pair = (
-            next(
-                (
-                    k
-                    for k, one in enumerate(meetings)
-                    if (one.slave, one.slave_face, one.master, one.master_face)
-                    == (edge.upper, edge.upper_face, edge.lower, edge.lower_face)
-                ),
-                -1,
-            )
-            if edge.corners
-            else -1
+        pair = next(
+            k
+            for k, one in enumerate(meetings)
+            if (one.slave, one.slave_face, one.master, one.master_face)
+            == (edge.upper, edge.upper_face, edge.lower, edge.lower_face)
         )
         contacts.append(
             Contact(
@@ -116,7 +114,7 @@ def layout_of(case, file) -> Layout:
                 edge.upper,
                 _surface_name(drawings[edge.upper[0]].faces, edge.upper_face, "master"),
                 pair,
-                edge.corners,
+                edge.outlines,
             )
         )
     return Layout(drawings, patches, tuple(contacts))
@@ -179,16 +177,7 @@ def _touching(
         drawn, name = one.faces[face], _surface_name(one.faces, face, "slave")
         if name == "foot" and getattr(one.body, "foot_radius_m", None):
             drawn = dataclasses.replace(drawn, corners=lifted(one.body, drawn.corners))
-        # of a joint with two sides the nodes below are no points of their own until the slave has
-        # slid
-        avoided = [
-            edge.avoided
-            for edge in edges
-            if not edge.corners and edge.upper[0] == body and edge.upper_face == face
-        ]
-        found[name] = slave_patch(
-            drawn, one.order, interior, np.concatenate(avoided) if avoided else None
-        )
+        found[name] = slave_patch(drawn, one.order, interior)
     for face in sorted({edge.lower_face for edge in edges if edge.lower[0] == body}):
         points = [
             edge.points for edge in edges if edge.lower[0] == body and edge.lower_face == face

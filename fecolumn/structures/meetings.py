@@ -9,7 +9,6 @@ import numpy as np
 from fecolumn.schema import InputError
 from fecolumn.structures.faces import SAME_PLANE, Face, over, triangles_of
 from fecolumn.structures.feet import ball_of
-from fecolumn.structures.keys import GROUND
 from fecolumn.structures.patches import plane_box
 
 # Over the slave's width: what faces a body across a smaller gap was meant to touch it
@@ -54,7 +53,8 @@ def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
 def _of_interface(case, name: str, faces, file) -> list[Meeting]:
     interface = case.interfaces[name]
     slaves = _copies(case, interface.slave)
-    masters = [None] if interface.on == GROUND else _copies(case, interface.on)
+    ground = case.grounds.get(interface.on)
+    masters = _copies(case, interface.on) if ground is None else [None]
     found, near, far = [], [], []
     for slave in slaves:
         for master in masters:
@@ -159,7 +159,7 @@ def _of_pair(
         width = min(box[1] - box[0], box[3] - box[2])
         if master is None:
             if face.normal[2] < -1 + _OPPOSITE:
-                gap = place[2] - face.offset
+                gap = place[2] - face.offset - case.grounds[case.interfaces[name].on].level_m
                 if abs(gap) <= SAME_PLANE * width:
                     found.append(Meeting(name, slave, number, None, -1))
                 else:

@@ -15,6 +15,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fecolumn.contact.pad import Pad
+
 #: Master of a joint and end of a link that is no body.
 GROUND = -1
 
@@ -177,10 +179,12 @@ class Joint:
     Coulomb's coefficient. law: (k, 3) [m/N] compliance of the contact law at each point, zero for a
     rigid interface. round: whether the slave's outer outline is a round rim, on which it rolls.
     restitution: velocity after over before an impact. ball: of a slave whose foot is not flat.
-    pair, corners: of a joint with the roles exchanged, by which a joint has two sides: place of the
-    joint that it belongs to, -1 of
-        others; (n, 3), (m, 3) [m] corners of the outlines of the slave's and the master's face from
-            the centres of mass,
+    ground: place of the ground among those of the case, of a joint with one. rolling: coefficient
+    of the rim's resistance, see `contact.rolling`; pad: what lies between, see
+    `contact.pad`, None where nothing does.
+    pair, outlines: of a joint with the roles exchanged, by which a joint has two sides: place of
+        the joint that it belongs to, -1 of others; (n, 2, 3), (m, 2, 3) [m] ends of the sides of
+        the outlines of the slave's and the master's face from the centres of mass,
         counter-clockwise seen from outside.
     """
 
@@ -195,7 +199,10 @@ class Joint:
     restitution: float
     ball: Ball | None = None
     pair: int = -1
-    corners: tuple[np.ndarray, ...] = ()
+    outlines: tuple[np.ndarray, ...] = ()
+    rolling: float = 0.0
+    pad: Pad | None = None
+    ground: int = 0
 
 
 @dataclass(frozen=True)
@@ -217,7 +224,7 @@ class Link:
     side before the spring acts. pushes, pulls: whether it takes compression, tension. yield_n [N]:
     force at which it yields, breaking_n [N]: at which it breaks for good, of one that
         yields at the elongation at which it would have that force had it not; both infinite where
-            it never does.
+            it never does. ground: place of the ground that holds it, where b is one.
     """
 
     name: str
@@ -234,6 +241,7 @@ class Link:
     pulls: bool
     yield_n: float
     breaking_n: float
+    ground: int = 0
 
 
 @dataclass(frozen=True)
@@ -241,8 +249,8 @@ class StructureModel:
     """A structure at its start.
 
     parts, joints, links: in the order of the case; joints and links name parts by their places.
-    base: what the ground is to those that stand on it, as `contact.unbounded_base.rigid_base` makes
-    it. observed: place of the part and name of its mark whose horizontal displacement is u_top.
+    base: what the ground is to those that stand on it, as `structures.ground.bases_of` makes it;
+    more: those of further grounds; levels: heights of all grounds [m]. observed: place of the part and name of its mark whose horizontal displacement is u_top.
     """
 
     parts: tuple[Part, ...]
@@ -250,6 +258,13 @@ class StructureModel:
     links: tuple[Link, ...]
     base: object
     observed: tuple[int, str]
+    more: tuple = ()
+    levels: tuple[float, ...] = (0.0,)
+
+    @property
+    def bases(self) -> tuple:
+        """What each ground is to those that stand on it."""
+        return (self.base, *self.more)
 
     def place(self, name: str) -> int:
         """Place of the part of a name."""

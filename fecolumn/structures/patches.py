@@ -10,7 +10,6 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.footprint import footprint
-from fecolumn.contact.tolerances import EDGE
 from fecolumn.mesh.bricks import outline_edges
 from fecolumn.mesh.surface import face_points, nodal_areas
 from fecolumn.structures.faces import Face, apart_from_side
@@ -50,12 +49,9 @@ class Patch:
         )
 
 
-def slave_patch(face: Face, order: int, interior: int, avoided: np.ndarray | None = None) -> Patch:
+def slave_patch(face: Face, order: int, interior: int) -> Patch:
     """Contact points of a slave: all nodes on the outlines of its face, and about `interior`
     inside; see `contact.footprint`.
-
-    avoided: places (k, 3) [m] at which none is wanted, as a point of the master is there: of two in
-    one place no contact law says how much each carries.
     """
     whole = whole_face(face, order)
     chosen = footprint(
@@ -65,14 +61,7 @@ def slave_patch(face: Face, order: int, interior: int, avoided: np.ndarray | Non
         whole.outlines,
         interior,
     )
-    kept = np.ones(len(chosen.nodes), bool)
-    if avoided is not None:
-        size = np.ptp(whole.positions, axis=0).max()
-        kept = cKDTree(avoided).query(whole.positions[chosen.nodes])[0] > EDGE * size
-    patch = node_patch(whole, chosen.nodes[kept])
-    return replace(
-        patch, areas=chosen.areas[kept] * (chosen.areas.sum() / chosen.areas[kept].sum())
-    )
+    return replace(node_patch(whole, chosen.nodes), areas=chosen.areas)
 
 
 def node_patch(whole: Patch, nodes: np.ndarray) -> Patch:

@@ -19,6 +19,7 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.schema import InputError
 from fecolumn.structures.faces import over
 from fecolumn.structures.model import GROUND, BodyModel, Joint
+from fecolumn.structures.outlines import corners_of_overlap, inwards
 
 # Over the size of a body: places that several supports give it must agree this well
 _AGREE = 1e-6
@@ -219,12 +220,12 @@ def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray
     leans = length >= _UPRIGHT
     farthest = [
         _end_of_region(standing, joint, ahead)
-        if leans and joint.corners
+        if leans and joint.outlines
         else _farthest(standing, joint, ahead, leans)
         for joint in joints
     ]
     reached = [
-        point @ ahead if leans and joint.corners or len(touching(standing, joint)) else -math.inf
+        point @ ahead if leans and joint.outlines or len(touching(standing, joint)) else -math.inf
         for point, joint in zip(farthest, joints)
     ]
     first = int(np.argmax(np.array(reached) + 0.0)) if length >= _UPRIGHT else 0
@@ -249,6 +250,38 @@ def _farthest(standing, joint: Joint, ahead: np.ndarray, leans: bool) -> np.ndar
     return points[far >= far.max() - _EDGE * np.ptp(points, axis=0).max()].mean(axis=0)
 
 
+def _region(standing, joint: Joint):
+    """Of a joint with two sides, with the roles exchanged: the circles of its outlines or None,
+    these as sides (m, 2, 2) [m] in the plane of the slave's face, the height of that, and the
+    corners (n, 2) [m] of the region in which they overlap.
+    """
+    face = standing[joint.slave].model.surfaces[joint.slave_surface].axes
+    outlines = [
+        (sides + standing[place].center) @ face
+        for place, sides in zip((joint.slave, joint.master), joint.outlines)
+    ]
+    circles, height = [Rim.find(sides[:, 0]) for sides in outlines], outlines[0][0, 0, 2]
+    outlines = [sides[..., :2] for sides in outlines]
+    slack = SAME_OUTLINE * np.ptp(outlines[0], axis=(0, 1)).max()
+    return circles, outlines, height, corners_of_overlap(*outlines, slack)
+
+
+def footing(standing: list[Standing], joint: Joint) -> np.ndarray:
+    """Places (n, 3) [m] where the bodies of a joint touch at the start: nodes of the slave on the
+    master, and of a joint with two sides corners of the region in which both faces overlap.
+    """
+    slave = standing[joint.slave]
+    surface = slave.model.surfaces[joint.slave_surface]
+    nodes = slave.center + slave.model.arms[surface.nodes[touching(standing, joint)]]
+    if not joint.outlines:
+        return nodes
+    _, outlines, height, corners = _region(standing, joint)
+    corners = np.column_stack([corners, np.full(len(corners), height)]) @ surface.axes.T
+    known = np.concatenate([nodes, np.full((1, 3), np.inf)])
+    apart = np.linalg.norm(corners[:, None] - known, axis=2).min(axis=1)
+    return np.concatenate([nodes, corners[apart > _AGREE * np.ptp(outlines[0], axis=(0, 1)).max()]])
+
+
 def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
     """Point (3,) [m] farthest in the direction `ahead` of the region in which the faces of a joint
     with two sides overlap, of an edge its middle; joint: with the roles exchanged.
@@ -257,58 +290,27 @@ def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
     there.
     """
     face = standing[joint.slave].model.surfaces[joint.slave_surface].axes
-    outlines = [
-        (corners + standing[place].center) @ face
-        for place, corners in zip((joint.slave, joint.master), joint.corners)
-    ]
-    height, along = outlines[0][0, 2], ahead @ face[:, :2]
+    along = ahead @ face[:, :2]
     along = along / np.linalg.norm(along)
-    region = outlines[1][::-1, :2]
-    for start, end in zip(outlines[0][:, :2], np.roll(outlines[0][:, :2], -1, axis=0)):
-        region = _cut_off(region, start, end)
-    circles = [Rim.find(corners) for corners in outlines]
+    circles, outlines, height, region = _region(standing, joint)
+    size = np.ptp(outlines[0], axis=(0, 1)).max()
     found = region @ along
-    best = region[found >= found.max() - _EDGE * np.ptp(region, axis=0).max()].mean(axis=0)
+    edge = region[found >= found.max() - _EDGE * size]
+    across = edge @ [-along[1], along[0]]
+    best = (edge[across.argmin()] + edge[across.argmax()]) / 2
     for own, circle, other, other_circle in zip(outlines, circles, outlines[::-1], circles[::-1]):
         if circle is None:
             continue
-        point = own[:, :2].mean(axis=0) + circle.radius * along
+        point = own[:, 0].mean(axis=0) + circle.radius * along
         if other_circle is not None:
-            inside = np.linalg.norm(point - other[:, :2].mean(axis=0)) <= other_circle.radius * (
+            inside = np.linalg.norm(point - other[:, 0].mean(axis=0)) <= other_circle.radius * (
                 1 + SAME_OUTLINE
             )
         else:
-            inside = _within(point, other[:, :2])
+            inside = inwards(point[None], other)[0] >= 0
         if inside:
             best = point
     return face @ np.append(best, height)
-
-
-def _cut_off(polygon: np.ndarray, start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """The part (n, 2) of a convex polygon on the left of the line from start to end (Sutherland and
-    Hodgman 1974).
-    """
-    way = end - start
-    left = way[0] * (polygon[:, 1] - start[1]) - way[1] * (polygon[:, 0] - start[0])
-    left[np.abs(left) < 1e-12 * (way @ way)] = 0.0
-    kept = []
-    for k in range(len(polygon)):
-        if left[k - 1] * left[k] < 0:
-            kept.append(
-                polygon[k - 1]
-                + (polygon[k] - polygon[k - 1]) * left[k - 1] / (left[k - 1] - left[k])
-            )
-        if left[k] >= 0:
-            kept.append(polygon[k])
-    return np.array(kept).reshape(-1, 2)
-
-
-def _within(point: np.ndarray, polygon: np.ndarray) -> bool:
-    """Whether a point lies within a convex polygon (n, 2), whichever way it goes round."""
-    sides = np.roll(polygon, -1, axis=0) - polygon
-    away = point - polygon
-    left = sides[:, 0] * away[:, 1] - sides[:, 1] * away[:, 0]
-    return bool((left >= 0).all() or (left <= 0).all())
 
 
 def _moving(

@@ -16,6 +16,7 @@ from fecolumn.mesh.tie import Tie, adjust, tie
 from fecolumn.schema import InputError
 from fecolumn.structures.keys import Block, Meshed, Plate, Storeys, Tube
 from fecolumn.structures.lines import count_at_ends, count_at_spots, fine_at_ends, fine_at_spots
+from fecolumn.structures.tied import is_tied, tied_counts, tied_mesh
 
 # Elements around a round body, and along the geometric mean of a block's sides
 AROUND, ALONG = 24, 8
@@ -53,6 +54,8 @@ def shape_of(key: str, body, file, spots=()) -> Shape:
     InputError
         a mesh file that cannot be used, or parts that cannot be tied.
     """
+    if is_tied(body):
+        return Shape(*tied_mesh(key, body, file))
     if isinstance(body, Meshed):
         return _own(key, body, file)
     if isinstance(body, (Plate, Storeys)):
@@ -83,6 +86,8 @@ def counts_of(key: str, body, file, spots=()) -> tuple[int, int]:
     """Elements and nodes of the mesh that `shape_of` makes, told without making it; arguments as
     there.
     """
+    if is_tied(body):
+        return tied_counts(body)
     if isinstance(body, Meshed):
         shape = _own(key, body, file)
         return len(shape.mesh.cells), own_mesh(body.mesh_file).counts(shape.order)[0]
@@ -154,7 +159,7 @@ def _own(key: str, body: Meshed, file) -> Shape:
         own.mesh,
         (),
         1 if body.rigid else body.element_order or (2 if own.is_tetrahedral else 1),
-        own.foot_edge,
+        body.element_size_m or own.foot_edge,
     )
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from fecolumn.case import Initial
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.rim import Rim
-from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.schema import InputError
 from fecolumn.structures import model as models
 from fecolumn.structures.case import identity
@@ -23,9 +22,11 @@ from fecolumn.structures.check import (
 )
 from fecolumn.structures.check_keys import material_of
 from fecolumn.structures.feet import ball_of, hertz
-from fecolumn.structures.keys import GROUND, Matrices, Storeys
+from fecolumn.structures.ground import bases_of
+from fecolumn.structures.keys import Matrices, Storeys
 from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
+from fecolumn.structures.pads import with_pads
 from fecolumn.structures.place import Standing, loads, placed
 from fecolumn.structures.size import size_of
 from fecolumn.structures.store import (
@@ -58,7 +59,7 @@ def structure_model(case, file="case", say=lambda text: None) -> StructureModel:
     """
     found = _layout(case, file, say)
     wanted = {name: kept_body(one) for name, one in found["models"].items()}
-    return assembled(case, wanted, found, file)
+    return assembled(case, wanted, found, file, say)
 
 
 def kept_keys(case, file="case") -> dict[str, str]:
@@ -85,8 +86,10 @@ def _geometry(case) -> dict:
     keys = ("slave", "on", "interior_points", "allowance_m")
     return {
         "bodies": bodies,
+        "levels": {name: ground.level_m for name, ground in case.grounds.items()},
         "interfaces": {
-            name: [getattr(one, key) for key in keys] for name, one in case.interfaces.items()
+            name: [getattr(one, key) for key in keys] + [one.stiffness_n_m3 is not None]
+            for name, one in case.interfaces.items()
         },
         "interior": case.contact.interior_points,
     }
@@ -157,7 +160,9 @@ def _extents(layout: Layout) -> dict:
     }
 
 
-def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> StructureModel:
+def assembled(
+    case, bodies: dict[str, BodyModel], layout: dict, file, say=lambda text: None
+) -> StructureModel:
     """Structure of the reduced `bodies` by name, put together as a `layout` of `keep_models` says.
 
     Raises
@@ -176,6 +181,8 @@ def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> Structu
     ]
     check_joints(joints, standing, file)
     joints = _with_hertz(case, joints, standing, copies)
+    interfaces = [one["interface"] for one in layout["contacts"]]
+    joints = with_pads(case, joints, standing, interfaces, file)
     parts = tuple(
         Part(
             one.name,
@@ -194,17 +201,22 @@ def assembled(case, bodies: dict[str, BodyModel], layout: dict, file) -> Structu
         for (name, _), one in zip(copies, standing)
     ]
     # a dome has one node, which is no measure of it
-    ground = rigid_base(
-        np.concatenate(
-            [
-                one.center + reach
-                for one, own in zip(standing, extents)
-                for reach in (one.model.arms, own)
-            ]
-        )
+    reach = np.concatenate(
+        [
+            one.center + reach
+            for one, own in zip(standing, extents)
+            for reach in (one.model.arms, own)
+        ]
     )
+    base, *more = bases_of(case, standing, joints, reach, file, say)
     structure = StructureModel(
-        parts, tuple(joints), links, ground, _observed(case, parts, places, file)
+        parts,
+        tuple(joints),
+        links,
+        base,
+        _observed(case, parts, places, file),
+        tuple(more),
+        tuple(ground.level_m for ground in case.grounds.values()),
     )
     check_rest(case, structure, standing, file)
     return structure
@@ -255,15 +267,21 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
     keys, model, master = case.interfaces[name], bodies[body], contact["master"]
     own = {
         key: getattr(keys, key)
-        for key in ("friction_coefficient", "law", "penalty_factor", "restitution")
+        for key in (
+            "friction_coefficient",
+            "law",
+            "penalty_factor",
+            "restitution",
+            "rolling_resistance",
+        )
     }
     contact_keys = dataclasses.replace(
         case.contact, **{key: value for key, value in own.items() if value is not None}
     )
     surface = model.surfaces[contact["slave_surface"]]
-    corners = tuple(
+    outlines = tuple(
         np.array(own) - bodies[of[0]].center
-        for own, of in zip(contact["corners"], (contact["slave"], master))
+        for own, of in zip(contact["outlines"], (contact["slave"], master))
     )
     if contact_keys.law == "penalty" and body not in sizes:
         raise InputError(
@@ -284,7 +302,7 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
         and Rim.find(surface.plane(model.arms[surface.nodes])) is not None
     )
     title = case.names_of(body)[number]
-    where = GROUND if master is None else case.names_of(master[0])[master[1]]
+    where = keys.on if master is None else case.names_of(master[0])[master[1]]
     shown = f"{name}, edge" if contact["slave_surface"].endswith(", edge") else name
     return Joint(
         f"{shown}: {title} on {where}",
@@ -298,7 +316,9 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
         contact_keys.restitution,
         ball,
         contact["pair"],
-        corners,
+        outlines,
+        contact_keys.rolling_resistance,
+        ground=list(case.grounds).index(keys.on) if master is None else 0,
     )
 
 
@@ -346,7 +366,7 @@ def _links(case, name: str, places, standing: list[Standing]):
         a = places[body, number]
         origin = np.array(case.bodies[body].places[number])
         other = models.GROUND
-        if keys.to != GROUND:
+        if keys.to not in case.grounds:
             other_body, (other_number,) = case.meant_by(keys.to)
             other = places[other_body, other_number]
         end = origin + keys.to_point_m
@@ -366,6 +386,7 @@ def _links(case, name: str, places, standing: list[Standing]):
             both or keys.kind == "tendon",
             keys.yield_n or math.inf,
             keys.breaking_n or math.inf,
+            list(case.grounds).index(keys.to) if other == models.GROUND else 0,
         )
 
 

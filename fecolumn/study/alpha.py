@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 ALPHA, IMPACT = "integration.alpha_hht", "contact.impact"
 _PLASTIC = "plastic"  # a case's default
 
 
-def alpha_note(tables: dict, axes: dict) -> str:
+def alpha_note(tables: dict[str, Any], axes: dict[str, Any]) -> str:
     """That little effect of alpha is built into the scheme, where the analyses use it; "" where all
     are of the literal one.
 

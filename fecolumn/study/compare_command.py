@@ -4,14 +4,23 @@ studies, or computation and experiment.
 
 from __future__ import annotations
 
+import argparse
 import dataclasses
 import math
+from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from fecolumn.statistics.compare import Comparison
+    from fecolumn.statistics.sample import Sample
 
 ANALYSIS = "an analysis"
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn compare`."""
     form = (
         "folder of an analysis; or study folder, with a choice of settings as "
@@ -42,7 +51,7 @@ def add_arguments(parser) -> None:
     )
 
 
-def main(args) -> int:
+def main(args: argparse.Namespace) -> int:
     """Print the comparison, and write it where a folder is given; returns 0.
 
     Raises
@@ -83,7 +92,7 @@ def main(args) -> int:
     return 0
 
 
-def _are_analyses(args) -> bool:
+def _are_analyses(args: argparse.Namespace) -> bool:
     """Whether A and B are folders of analyses.
 
     Raises
@@ -147,7 +156,7 @@ def _kind(place: str) -> str:
     )
 
 
-def matched(a, b, unpaired: bool):
+def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool, list[str]]:
     """Both samples motion by motion where they have motions in common: (a, b, paired, notes for the
     reader).
     """
@@ -179,13 +188,13 @@ def matched(a, b, unpaired: bool):
     )
 
 
-def comparison_text(result, a, b, cap_mm: float) -> str:
+def comparison_text(result: Comparison, a: Sample, b: Sample, cap_mm: float) -> str:
     """The comparison for a reader, with units, intervals and evidence in words."""
     from fecolumn.ending import P_LOST, P_OVERTURN
     from fecolumn.statistics.compare import evidence
     from fecolumn.statistics.flips import contingency
 
-    def tested(name, value, p):
+    def tested(name: str, value: str, p: float) -> list[str]:
         return [name, value, _p(p), evidence(p)]
 
     slides = _slides(a, b)
@@ -206,7 +215,7 @@ def comparison_text(result, a, b, cap_mm: float) -> str:
         tested("Anderson-Darling, A2", f"{result.ad:.3f}", result.ad_p),
         tested("Cramer-von Mises, T", f"{result.cvm:.3f}", result.cvm_p),
     ]
-    if result.paired_p is not None:
+    if not (result.paired_p is None or result.mcnemar_p is None or result.correlation is None):
         table = contingency(a.lost, b.lost)
         of_both += [
             tested("same motions: D, settings swapped", f"{result.ks:.3f}", result.paired_p),
@@ -228,7 +237,7 @@ def comparison_text(result, a, b, cap_mm: float) -> str:
     return text
 
 
-def _write(folder: Path, result, a, b, paired: bool) -> list[Path]:
+def _write(folder: Path, result: Comparison, a: Sample, b: Sample, paired: bool) -> list[Path]:
     from fecolumn.atomic import write_csv
     from fecolumn.post.compare_figure import compare_figure
 
@@ -273,32 +282,35 @@ def _write(folder: Path, result, a, b, paired: bool) -> list[Path]:
     )
 
 
-def _slides(a, b) -> bool:
+def _slides(a: Sample, b: Sample) -> bool:
     """Whether a column of either sample slid off its base."""
     return bool(a.slid_off.any() or b.slid_off.any())
 
 
-def _ends(sample) -> tuple:
+def _ends(sample: Sample) -> tuple[NDArray[Any], NDArray[Any]]:
     """Whether each run overturned, and whether it slid off, as 0 and 1."""
     return (sample.lost & ~sample.slid_off).astype(int), sample.slid_off.astype(int)
 
 
-def _names(a, b) -> tuple[str, str]:
+def _names(a: Sample, b: Sample) -> tuple[str, str]:
     """Title, and chosen settings as they are typed."""
-    return tuple(
-        ", ".join([sample.title, *(f"{key} = {value}" for key, value in sample.choice.items())])
-        for sample in (a, b)
-    )
+
+    def name(sample: Sample) -> str:
+        return ", ".join(
+            [sample.title, *(f"{key} = {value}" for key, value in sample.choice.items())]
+        )
+
+    return name(a), name(b)
 
 
-def _labels(a, b) -> tuple[str, str]:
+def _labels(a: Sample, b: Sample) -> tuple[str, str]:
     """What tells a from b, for a figure: the settings that differ, or else the titles, or else the
     places.
     """
     from fecolumn.post.axis_text import axis_text
 
     if a.title == b.title and a.choice != b.choice:
-        return tuple(
+        first, second = (
             ", ".join(
                 axis_text(key, value)
                 for key, value in sample.choice.items()
@@ -307,10 +319,11 @@ def _labels(a, b) -> tuple[str, str]:
             or "all else"
             for sample, other in ((a, b), (b, a))
         )
+        return first, second
     return (a.title, b.title) if a.title != b.title else (f"A, {a.title}", f"B, {b.title}")
 
 
-def _share(lost) -> str:
+def _share(lost: NDArray[Any]) -> str:
     from fecolumn.statistics.ecdf import proportion_interval
 
     k, n = int(lost.sum()), lost.size
@@ -318,7 +331,7 @@ def _share(lost) -> str:
     return f"{100 * k / n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
 
 
-def _columns(lines) -> str:
+def _columns(lines: Iterable[Iterable[Any]]) -> str:
     """First column to the left, figures to the right, words of the fourth to the left."""
     widths = [max(map(len, column)) for column in zip(*lines)]
     return "\n".join(

@@ -5,7 +5,9 @@ its settings differ, and how sure that is.
 from __future__ import annotations
 
 import itertools
+import statistics
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +19,7 @@ from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.alpha import ALPHA, alpha_note
 from fecolumn.study.plan import Plan, member_of
 from fecolumn.study.store import DONE
-from fecolumn.study.substeps import substeps_note
+from fecolumn.study.substeps import Setting, substeps_note
 
 # of fewer no p-value can fall below 0.05: there are 2^n ways to swap two settings within n motions,
 # two of them extreme
@@ -27,13 +29,13 @@ _LEVEL = 0.05  # of significance, the usual one
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class SettingPair:
     """Two settings that differ in one axis: its key, their axis values and names, motions in both,
     distance of their CDFs, its upper bound and its paired p.
     """
 
     axis: str
-    settings: tuple[dict, dict]
+    settings: tuple[dict[str, Any], dict[str, Any]]
     names: tuple[str, str]
     n: int
     distance: float
@@ -41,7 +43,7 @@ class Pair:
     p: float
 
 
-def conclusion(plan: Plan, rows: list[dict]) -> str:
+def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
     """A few sentences on a study as far as it is done; of fewer than five motions no more than that
     steps were made in parts.
 
@@ -55,7 +57,7 @@ def conclusion(plan: Plan, rows: list[dict]) -> str:
     plan
         the study.
     rows
-        its ledger, as `run_study` returns it.
+        its ledger, as `complete_study` returns it.
     """
     settings = settings_of(plan, rows)
     parts_made = substeps_note(plan.case, settings)
@@ -70,10 +72,12 @@ def conclusion(plan: Plan, rows: list[dict]) -> str:
     return " ".join(part for part in (*parts, parts_made) if part)
 
 
-def settings_of(plan: Plan, rows) -> list[tuple[dict, dict]]:
-    """Axis values and, by motion, the summary of what is done, of each setting with anything done."""
+def settings_of(plan: Plan, rows: list[dict[str, Any]]) -> list[Setting]:
+    """Axis values and, by motion, the summary of what is done, of each setting with anything
+    done.
+    """
     states = {row["id"]: row for row in rows}
-    groups: dict[tuple, tuple[dict, dict]] = {}
+    groups: dict[tuple[Any, ...], Setting] = {}
     for analysis in plan.analyses:
         row = states.get(analysis.id)
         if row and row["state"] == DONE:
@@ -85,10 +89,10 @@ def settings_of(plan: Plan, rows) -> list[tuple[dict, dict]]:
     return list(groups.values())
 
 
-def _overturns(settings) -> str:
+def _overturns(settings: list[Setting]) -> str:
     """P(overturn) of the setting, or of those in which it is least and most."""
 
-    def said(setting):
+    def said(setting: Setting) -> str:
         values, runs = setting
         k = sum(bool(run["overturned"]) for run in runs.values())
         low, high = proportion_interval(k, len(runs))
@@ -98,8 +102,8 @@ def _overturns(settings) -> str:
             f"of {len(runs)})"
         )
 
-    def share(setting):
-        return np.mean([bool(run["overturned"]) for run in setting[1].values()])
+    def share(setting: Setting) -> float:
+        return statistics.fmean([bool(run["overturned"]) for run in setting[1].values()])
 
     ranked = sorted(settings, key=share)
     if len(settings) == 1:
@@ -115,11 +119,11 @@ def _overturns(settings) -> str:
     )
 
 
-def pairs_of(settings, confidence: float = 0.95) -> list[Pair]:
+def pairs_of(settings: list[Setting], confidence: float = 0.95) -> list[SettingPair]:
     """Settings that differ in one axis alone, over the motions done in both; confidence: of the
     bound of their distance.
     """
-    lines: dict[tuple, list] = {}
+    lines: dict[tuple[Any, ...], list[Any]] = {}
     for values, runs in settings:
         for axis in values:
             lines.setdefault(
@@ -142,15 +146,15 @@ def pairs_of(settings, confidence: float = 0.95) -> list[Pair]:
             )
             for runs in (runs_a, runs_b)
         )
-        names = tuple(
+        name_a, name_b = (
             _name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second)
         )
         p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
         found.append(
-            Pair(
+            SettingPair(
                 axis,
                 (first, second),
-                names,
+                (name_a, name_b),
                 len(common),
                 *distance_bound(u_a, over_a, u_b, over_b, confidence),
                 p,
@@ -159,11 +163,11 @@ def pairs_of(settings, confidence: float = 0.95) -> list[Pair]:
     return found
 
 
-def _peak(summary: dict) -> float:
-    return summary["u_max_m"]
+def _peak(summary: dict[str, Any]) -> float:
+    return float(summary["u_max_m"])
 
 
-def _differences(pairs: list[Pair], settings) -> str:
+def _differences(pairs: list[SettingPair], settings: list[Setting]) -> str:
     """Whether the distributions of the peak displacement differ, and by what."""
     corrected = holm([pair.p for pair in pairs])
     widest = max(
@@ -196,7 +200,7 @@ def _differences(pairs: list[Pair], settings) -> str:
     )
 
 
-def _shortfall(pairs: list[Pair]) -> str:
+def _shortfall(pairs: list[SettingPair]) -> str:
     """Warnings where motions are too few for what is said: of the weakest difference that is
     claimed, and of the equality of the rest.
     """
@@ -214,6 +218,6 @@ def _shortfall(pairs: list[Pair]) -> str:
     return " ".join(one for one in told if one)
 
 
-def _name(values: dict) -> str:
+def _name(values: dict[str, Any]) -> str:
     """Values of axes, such as "dt_s = 0.02, alpha_hht = 0"."""
     return ", ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in values.items())

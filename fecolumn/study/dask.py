@@ -8,12 +8,14 @@ import contextlib
 import logging
 import os
 import time
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from fecolumn.schema import InputError
 from fecolumn.sources import code, code_text
 from fecolumn.study.lock import hold_as_worker
-from fecolumn.study.outcome import Outcome, Task, outcomes_of_dead
+from fecolumn.study.outcome import Task, TaskOutcome, outcomes_of_dead
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, in_words, streams_kept, work_off
 
@@ -27,7 +29,7 @@ _LOOK_S = 1.0
 
 
 @contextlib.contextmanager
-def connected(address: str):
+def connected(address: str) -> Iterator[Any]:
     """A client of the scheduler at `address`, such as "tcp://node7:8786", whose workers can do
     analyses.
 
@@ -96,27 +98,40 @@ class DaskTeam:
         study file, for messages.
     """
 
-    def __init__(self, client, entry: str, folder, share, file):
+    def __init__(
+        self,
+        client: Any,
+        entry: str,
+        folder: Path | str,
+        share: tuple[int, int] | None,
+        file: Path | str,
+    ) -> None:
         self._client, self._told = client, (code(), entry, Path(folder).resolve(), share, str(file))
-        self._in_hand = {}  # future and batch by the future's key
+        #: future and batch by the future's key
+        self._in_hand: dict[str, tuple[Any, list[Task]]] = {}
         self._looked = self._seen = -float("inf")
         self._look()
 
     @property
     def at_work(self) -> bool:
+        """Whether some task's outcome has not been collected yet."""
         return bool(self._in_hand)
 
     def wants(self, depth: int) -> bool:
+        """Whether another batch may be given when every worker may have `depth` of them."""
         return len(self._in_hand) < depth * self.size
 
     def give(self, batch: list[Task]) -> None:
+        """Submit a batch to the scheduler, with absolute paths: workers run in other folders."""
+        # workers have folders of their own
         batch = [
             task._replace(folder=task.folder.resolve(), log=task.log.resolve()) for task in batch
-        ]  # workers have folders of their own
+        ]
         future = self._client.submit(_serve, batch, *self._told, pure=False)
         self._in_hand[future.key] = future, batch
 
-    def collect(self, timeout_s: float) -> list[Outcome]:
+    def collect(self, timeout_s: float) -> list[TaskOutcome]:
+        """Outcomes of the tasks that ended, after waiting at most `timeout_s` [s] for one."""
         from distributed import CancelledError, wait
 
         self._look()
@@ -136,12 +151,13 @@ class DaskTeam:
             for outcome in self._outcomes(*self._in_hand.pop(future.key))
         ]
 
-    def _outcomes(self, future, batch: list[Task]) -> list[Outcome]:
+    def _outcomes(self, future: Any, batch: list[Task]) -> list[TaskOutcome]:
         from distributed import CancelledError
         from distributed.scheduler import KilledWorker
 
         try:
-            return future.result()
+            found: list[TaskOutcome] = future.result()
+            return found
         except CancelledError:
             raise self._lost() from None
         except KilledWorker as error:
@@ -177,6 +193,7 @@ class DaskTeam:
         return StudyError(f"the scheduler {self._client.scheduler.address} is out of reach")
 
     def stop(self) -> None:
+        """Cancel all batches that have not ended."""
         with contextlib.suppress(Exception):  # a scheduler that is gone has nothing to cancel
             self._client.cancel([future for future, _ in self._in_hand.values()], force=True)
         self._in_hand = {}
@@ -186,7 +203,7 @@ class _Broken(RuntimeError):
     """The worker cannot do analyses."""
 
 
-def _problem(expected: dict[str, str], dask_worker) -> str:
+def _problem(expected: dict[str, str], dask_worker: Any) -> str:
     """What keeps a worker from doing analyses of a driver whose code is `expected`, in words; empty
     where nothing does.
     """
@@ -205,8 +222,13 @@ def _problem(expected: dict[str, str], dask_worker) -> str:
 
 
 def _serve(
-    batch: list[Task], expected: dict[str, str], entry: str, folder: Path, share, file: str
-) -> list[Outcome]:
+    batch: list[Task],
+    expected: dict[str, str],
+    entry: str,
+    folder: Path,
+    share: tuple[int, int] | None,
+    file: str,
+) -> list[TaskOutcome]:
     from distributed import get_worker
 
     worker = get_worker()

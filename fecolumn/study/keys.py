@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from fecolumn.schema import parameter
 
@@ -18,18 +19,18 @@ class StudyKeys:
         '"case.toml" for what it takes over'
     )
     title: str = parameter("", doc="title of tables and figures; left out: the file's name")
-    axes: dict = parameter(
+    axes: dict[str, Any] = parameter(
         "",
         doc="table of lists, each with each: a key of the case and its values; of "
         "motion.source, lick:* and lick:1-40 or "
         "ensemble.h5#* and ensemble.h5#1-40 are lists of motions, too",
     )
-    zip: list = parameter(
+    zip: list[Any] = parameter(
         "",
         doc="[[zip]], as often as needed: a table of lists of one length whose values go "
         "together, one factor of the product",
     )
-    latin_hypercube: dict = parameter(
+    latin_hypercube: dict[str, Any] = parameter(
         "",
         doc='table of samples, seed and ranges [low, high] or [low, high, "log"] of '
         "numbers, evenly spread at "

@@ -6,11 +6,13 @@ import json
 import os
 import sqlite3
 import time
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from fecolumn.files import is_file
 from fecolumn.schema import shown
-from fecolumn.study.outcome import DONE, FAILED, Outcome
+from fecolumn.study.outcome import DONE, FAILED, TaskOutcome
 from fecolumn.summary import fault_of
 
 PLANNED, RUNNING = "planned", "running"
@@ -27,7 +29,7 @@ CREATE TABLE IF NOT EXISTS analysis (
     motion  TEXT,               -- digest of the motion's files, or its name where it is no file
     state   TEXT NOT NULL CHECK (state IN ('planned', 'running', 'done', 'failed')),
     reason  TEXT,               -- why it failed
-    log     TEXT,               -- file with the traceback of a failure, relative to the study's folder
+    log     TEXT,               -- traceback of a failure: file, relative to the study's folder
     wall_s  REAL,               -- wall time of the worker
     started REAL,               -- seconds since the epoch
     machine TEXT,               -- name and processor of the machine it was done on
@@ -51,7 +53,7 @@ _ROW = (
 _ORDER = {DONE: 0, RUNNING: 1, FAILED: 2, PLANNED: 3}
 
 
-class Ledger:
+class StudyLedger:
     """A ledger open for its one writer.
 
     Parameters
@@ -70,19 +72,18 @@ class Ledger:
         where a damaged one is now, None where there was none.
     """
 
-    def __init__(self, file: Path, many_readers: bool):
+    def __init__(self, file: Path, many_readers: bool) -> None:
         self._committed, self._many_readers, self.put_aside = time.monotonic(), many_readers, None
         try:
             if not can_be_opened(file):
                 raise sqlite3.DatabaseError("no file")
             self._open(file)
         except sqlite3.DatabaseError as error:
-            if isinstance(
-                error, sqlite3.OperationalError
-            ):  # cannot be opened, or the disk is full: it may be as good as ever
+            # cannot be opened, or the disk is full: it may be as good as ever
+            if isinstance(error, sqlite3.OperationalError):
                 raise
             self.put_aside = file.with_name(f"{file.name}.damaged")
-            for name in files_of(file):
+            for name in ledger_files(file):
                 if os.path.lexists(name):
                     os.replace(name, f"{name}.damaged")
             self._open(file)
@@ -105,11 +106,11 @@ class Ledger:
             self._connection.close()
             raise
 
-    def plan(self, rows) -> None:
-        """Make (id, place, axes as JSON, motion) the analyses; what ran when the last writer ended
-        is planned again.
+    def plan(self, rows: Iterable[tuple[str, int, str, str | None]]) -> None:
+        """Take analyses (id, place, axes as JSON, motion) into the ledger as planned.
 
-        Whatever else the ledger says of them is kept, but for what cannot be.
+        Analyses that the ledger knows keep their state. Those that ran when the last writer ended,
+        or have no valid state, are planned again. Rows of other analyses are deleted.
         """
         run = self._connection.execute
         run("CREATE TEMP TABLE wanted (id TEXT PRIMARY KEY, place, axes, motion)")
@@ -128,7 +129,7 @@ class Ledger:
             "UPDATE analysis SET state = 'planned' WHERE state NOT IN ('planned', 'done', 'failed')"
         )
 
-    def agrees(self, outcome: Outcome) -> bool:
+    def agrees(self, outcome: TaskOutcome) -> bool:
         """Whether an analysis is recorded as done with this very summary."""
         return (
             self._connection.execute(
@@ -183,11 +184,11 @@ class Ledger:
             ).fetchone()
         return counts
 
-    def rows(self) -> list[dict]:
+    def rows(self) -> list[dict[str, Any]]:
         """As `Study.rows`."""
-        return read_rows(self._connection)
+        return ledger_rows(self._connection)
 
-    def begin(self, case_ids) -> None:
+    def begin(self, case_ids: Iterable[str]) -> None:
         """Record that analyses were handed out."""
         now = time.time()
         self._connection.executemany(
@@ -204,7 +205,7 @@ class Ledger:
             (value,),
         )
 
-    def end(self, outcome: Outcome, log: str | None = None) -> None:
+    def end(self, outcome: TaskOutcome, log: str | None = None) -> None:
         """Record the end of an analysis, DONE or FAILED."""
         failed = outcome.word == FAILED
         self._connection.execute(
@@ -250,7 +251,7 @@ class Ledger:
         self._connection.close()
 
 
-def files_of(file: Path) -> list[Path]:
+def ledger_files(file: Path) -> list[Path]:
     """A ledger's file and those in which SQLite keeps its changes."""
     return [file.with_name(file.name + ending) for ending in ("", "-wal", "-shm", "-journal")]
 
@@ -259,7 +260,7 @@ def can_be_opened(file: Path) -> bool:
     """Whether SQLite can open a ledger, or make it, without being held up by a pipe or a device in
     its place.
     """
-    return all(is_file(name) or not os.path.lexists(name) for name in files_of(file))
+    return all(is_file(name) or not os.path.lexists(name) for name in ledger_files(file))
 
 
 def open_to_read(file: Path) -> sqlite3.Connection | None:
@@ -277,9 +278,10 @@ def open_to_read(file: Path) -> sqlite3.Connection | None:
                 return None
             if "immutable" in option:
                 raise
+    return None
 
 
-def read_rows(*ledgers: sqlite3.Connection) -> list[dict]:
+def ledger_rows(*ledgers: sqlite3.Connection) -> list[dict[str, Any]]:
     """Every analysis in the order of the study file, its axes and summary as dicts; of several
     ledgers, the one that got farthest counts.
 
@@ -288,7 +290,7 @@ def read_rows(*ledgers: sqlite3.Connection) -> list[dict]:
     sqlite3.DatabaseError
         damaged.
     """
-    best: dict[str, tuple] = {}
+    best: dict[str, tuple[Any, ...]] = {}
     for ledger in ledgers:
         for place, *row in ledger.execute(f"SELECT place, {', '.join(_ROW)} FROM analysis"):
             known = best.get(row[0])

@@ -16,9 +16,10 @@ import os
 import socket
 import time
 from pathlib import Path
+from typing import IO
 
 from fecolumn.atomic import disk_full
-from fecolumn.lock import held, open_lock
+from fecolumn.lock import is_held, open_lock
 from fecolumn.schema import InputError
 
 # Another driver that only looks holds a lock for an instant
@@ -43,16 +44,16 @@ class FolderLock:
         somebody else holds it; says who.
     """
 
-    def __init__(self, folder: Path, share: tuple[int, int] | None):
-        self._files = []
+    def __init__(self, folder: Path, share: tuple[int, int] | None) -> None:
+        self._files: list[IO[str]] = []
         try:
             self._take(folder / "study.lock", shared=share is not None)
             if share:
                 self._take(folder / f"{stem(share)}.lock")
                 for other in folder.glob("study-*-of-*.lock"):
-                    if not other.name.endswith((f"-of-{share[1]}.lock", ".workers.lock")) and held(
-                        other
-                    ):
+                    if not other.name.endswith(
+                        (f"-of-{share[1]}.lock", ".workers.lock")
+                    ) and is_held(other):
                         raise BlockingIOError
             for workers in (
                 [folder / f"{stem(share)}.workers.lock"]
@@ -101,6 +102,7 @@ class FolderLock:
             lock.flush()
 
     def close(self) -> None:
+        """Release the locks."""
         while self._files:
             self._files.pop().close()
 
@@ -110,7 +112,7 @@ def stem(share: tuple[int, int] | None) -> str:
     return f"study-{share[0]}-of-{share[1]}" if share else "study"
 
 
-def hold_as_worker(folder: Path, share: tuple[int, int] | None):
+def hold_as_worker(folder: Path, share: tuple[int, int] | None) -> IO[str]:
     """The open lock that tells a later driver that this process may still write into the folder."""
     lock = open_lock(folder / f"{stem(share)}.workers.lock")
     fcntl.flock(lock, fcntl.LOCK_SH)
@@ -136,7 +138,7 @@ def _owners(folder: Path) -> str:
             text
             for file in folder.glob("study*.lock")
             if not file.name.endswith(".workers.lock")
-            and held(file)
+            and is_held(file)
             and (text := file.read_text().strip())
         )
     )

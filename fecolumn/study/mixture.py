@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
+from typing import Any
 
 from fecolumn.sources import code, code_text
 from fecolumn.study.outcome import DONE
 
 
-def codes(rows: list[dict]) -> Counter[str]:
+def codes(rows: list[dict[str, Any]]) -> Counter[str]:
     """Number of analyses that are done by the code that made them, in words; most first where it is
     listed.
 
@@ -31,7 +32,7 @@ def listed(found: Counter[str]) -> str:
     return ", ".join(f"{count} of {name}" for name, count in found.most_common())
 
 
-def other_code(rows: list[dict]) -> str:
+def other_code(rows: list[dict[str, Any]]) -> str:
     """What a driver of `fecolumn.simulation:run` says of analyses that other code has done; empty
     where there are none.
     """

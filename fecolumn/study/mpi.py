@@ -1,15 +1,19 @@
-"""Workers on many machines: the ranks of `mpirun -n N fecolumn study ...`, of which rank 0 drives."""
+"""Workers on many machines: the ranks of `mpirun -n N fecolumn study ...`, of which rank 0
+drives.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import os
-from concurrent.futures import FIRST_COMPLETED, wait
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from pathlib import Path
+from typing import IO, Any
 
 from fecolumn.schema import InputError
 from fecolumn.study.lock import hold_as_worker
-from fecolumn.study.outcome import Outcome, Task
+from fecolumn.study.outcome import Task, TaskOutcome
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, die_with_parent, in_words, work_off
 
@@ -23,7 +27,7 @@ def under_mpirun() -> bool:
 
 
 @contextlib.contextmanager
-def executor():
+def executor() -> Iterator[Any]:
     """An executor of mpi4py.futures on rank 0; None on the others, after they have served it to the
     end.
 
@@ -82,21 +86,33 @@ class MpiTeam:
         study file, for messages.
     """
 
-    def __init__(self, pool, size: int, entry: str, folder, share, file):
+    def __init__(
+        self,
+        pool: Any,
+        size: int,
+        entry: str,
+        folder: Path | str,
+        share: tuple[int, int] | None,
+        file: Path | str,
+    ) -> None:
         self.size, self._pool, self._told = size, pool, (entry, Path(folder), share, str(file))
-        self._futures = set()
+        self._futures: set[Future[list[TaskOutcome]]] = set()
 
     @property
     def at_work(self) -> bool:
+        """Whether some task's outcome has not been collected yet."""
         return bool(self._futures)
 
     def wants(self, depth: int) -> bool:
+        """Whether another batch may be given when every worker may have `depth` of them."""
         return len(self._futures) < depth * self.size
 
     def give(self, batch: list[Task]) -> None:
+        """Submit a batch to the ranks."""
         self._futures.add(self._pool.submit(_serve, batch, *self._told))
 
-    def collect(self, timeout_s: float) -> list[Outcome]:
+    def collect(self, timeout_s: float) -> list[TaskOutcome]:
+        """Outcomes of the tasks that ended, after waiting at most `timeout_s` [s] for one."""
         ended, self._futures = wait(self._futures, timeout=timeout_s, return_when=FIRST_COMPLETED)
         outcomes = []
         for future in ended:
@@ -107,6 +123,7 @@ class MpiTeam:
         return outcomes
 
     def stop(self) -> None:
+        """Cancel the batches that have not begun."""
         for future in self._futures:
             future.cancel()
 
@@ -115,10 +132,12 @@ class _Broken(RuntimeError):
     """The analysis function cannot be used."""
 
 
-_held = {}
+_held: dict[Path, IO[str]] = {}
 
 
-def _serve(batch: list[Task], entry: str, folder: Path, share, file: str) -> list[Outcome]:
+def _serve(
+    batch: list[Task], entry: str, folder: Path, share: tuple[int, int] | None, file: str
+) -> list[TaskOutcome]:
     if folder not in _held:
         _held[folder] = hold_as_worker(folder, share)
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from fecolumn.files import Unreadable
 from fecolumn.summary import read_summary
@@ -24,7 +24,7 @@ class Task(NamedTuple):
     log: Path
 
 
-class Outcome(NamedTuple):
+class TaskOutcome(NamedTuple):
     """The end of a task.
 
     Attributes
@@ -57,13 +57,13 @@ class Outcome(NamedTuple):
     slid_off: bool = False
 
 
-def finished(case_id: str, folder: Path, **more) -> Outcome | None:
+def finished_outcome(case_id: str, folder: Path, **more: Any) -> TaskOutcome | None:
     """DONE where the result folder holds a valid summary of this very analysis, else None."""
     try:
         summary = read_summary(folder, case_id)
     except Unreadable:
         return None
-    return Outcome(
+    return TaskOutcome(
         case_id,
         DONE,
         summary=json.dumps(summary),
@@ -74,23 +74,27 @@ def finished(case_id: str, folder: Path, **more) -> Outcome | None:
     )
 
 
-def outcomes_of_dead(tasks: Iterable[Task], reason: str, ready: bool = True) -> Iterator[Outcome]:
-    """Outcomes of what a dead worker had in hand, in its order: done where the result says so; the
-    next in turn has killed it.
+def outcomes_of_dead(
+    tasks: Iterable[Task], reason: str, ready: bool = True
+) -> Iterator[TaskOutcome]:
+    """Outcomes of the tasks that a dead worker had, in their order.
+
+    A task with a valid result is done. The first task without one has failed: it killed the worker.
+    The tasks after it were never begun.
 
     Parameters
     ----------
     tasks
-        in hand.
+        that the worker had.
     reason
-        how it died.
+        how the worker died.
     ready
-        whether it had begun; else none is to blame.
+        whether the worker had begun; if not, no task killed it.
     """
     blamed = not ready
     for task in tasks:
-        if done := finished(task.id, task.folder):
+        if done := finished_outcome(task.id, task.folder):
             yield done
         else:
-            yield Outcome(task.id, RETURNED if blamed else FAILED, reason)
+            yield TaskOutcome(task.id, RETURNED if blamed else FAILED, reason)
             blamed = True

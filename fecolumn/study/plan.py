@@ -7,8 +7,7 @@ runs.
     "integration.dt_s" = [0.02, 1e-3]
 
 Paths are relative to the file that states them. What neither case nor axes state is as in `fecolumn
-run`, except that a study takes integration.engine = "reduced", output.history_every_s = 0.005 and
-output.states_every_s = 0.
+run`, except that a study takes output.history_every_s = 0.005 and output.states_every_s = 0.
 """
 
 from __future__ import annotations
@@ -21,23 +20,16 @@ import math
 import typing
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from fecolumn.case import (
-    SECTIONS,
-    Case,
-    case_from_tables,
-    check_duration,
-    digest,
-    finished,
-    located,
-    section_text,
-)
+from fecolumn.case import case_from_tables, check_duration
 from fecolumn.files import is_file
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.paths import taken_over
-from fecolumn.rocking.model import TABLES
-from fecolumn.schema import InputError, build, merge, nested, read_toml, shown
-from fecolumn.study.axes import Factor, hint, read_factors
+from fecolumn.schema import InputError, merge, nested, read_toml, shown
+from fecolumn.short_form import ShortForm
+from fecolumn.structures.case import StructureCase
+from fecolumn.study.axes import AxisFactor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
 
 # Axes that make the members of an ensemble; every other axis tells one ensemble from another.
@@ -48,10 +40,9 @@ ENSEMBLE_AXES = (
     "motion.source_z",
     "motion.rotation_deg",
 )
-# What a study takes where neither its case nor its axes say otherwise: thousands of analyses are
-# the reduced engine's work, and a column rocks at a few hertz
+# What a study takes where neither its case nor its axes say otherwise: a column rocks at a few
+# hertz, and of thousands of analyses nobody looks at the states
 DEFAULTS = {
-    "integration": {"engine": "reduced"},
     "output": {"history_every_s": 0.005, "states_every_s": 0.0},
 }
 _KEYS = tuple(field.name for field in dataclasses.fields(StudyKeys))
@@ -60,22 +51,19 @@ _MOST = 1_000_000
 # Cost of a step, relative: only the order and the share of the work left are judged by it
 _COST = {"full": 500.0, "reduced": 1.0, "rigid": 0.5}
 _COST_OF_MODEL = 0.01
-# dataclass of each section
-_KINDS = {
-    name: inner
-    for name, kind in typing.get_type_hints(Case).items()
-    for inner in (kind, *typing.get_args(kind))
-    if dataclasses.is_dataclass(inner)
-}
+# Sections of a case's short form: false says that there is none
+_SECTIONS = set(typing.get_type_hints(ShortForm)) - {"title"}
 
 
-def setting_of(values: dict) -> dict:
+def setting_of(values: dict[str, Any]) -> dict[str, Any]:
     """Of an analysis' values by axis, those that name the ensemble it belongs to."""
     return {key: value for key, value in values.items() if key not in ENSEMBLE_AXES}
 
 
-def member_of(values: dict) -> tuple[str, ...]:
-    """Of an analysis' values by axis, those that tell the members of its ensemble apart, as text."""
+def member_of(values: dict[str, Any]) -> tuple[str, ...]:
+    """Of an analysis' values by axis, those that tell the members of its ensemble apart, as
+    text.
+    """
     return tuple(repr(value) for key, value in values.items() if key in ENSEMBLE_AXES)
 
 
@@ -97,7 +85,9 @@ class Analysis:
 
     __slots__ = ("case", "id", "keys", "levels", "duration_s")
 
-    def __init__(self, case: Case, case_id: str, keys: tuple[str, ...], levels: tuple):
+    def __init__(
+        self, case: StructureCase, case_id: str, keys: tuple[str, ...], levels: tuple[Any, ...]
+    ):
         self.case, self.id, self.keys, self.levels = case, case_id, keys, levels
         self.duration_s = case.integration.duration_s or 1.0
 
@@ -107,7 +97,7 @@ class Analysis:
         return dict(zip(self.keys, self.levels))
 
     @property
-    def combination(self) -> dict:
+    def combination(self) -> dict[str, Any]:
         """The values that name the ensemble this analysis belongs to."""
         return setting_of(self.values)
 
@@ -130,9 +120,9 @@ class Plan:
 
     file: Path
     title: str
-    axes: dict[str, tuple]
+    axes: dict[str, tuple[Any, ...]]
     analyses: tuple[Analysis, ...]
-    case: dict
+    case: dict[str, Any]
 
     @property
     def id(self) -> str:
@@ -167,9 +157,9 @@ def read_plan(path) -> Plan:
     own = {
         key: value
         for key, value in _case_tables(tables.get("case"), path).items()
-        if value is not False or key not in _KINDS
+        if value is not False or key not in _SECTIONS
     }
-    common, factors = merge(_defaults(own), own), read_factors(tables, path)
+    common, factors = merge(DEFAULTS, own), read_factors(tables, path)
     if (number := math.prod(len(factor.levels) for factor in factors)) > _MOST:
         raise InputError(path, "axes", None, f"make {shown(number)} analyses; at most {_MOST:,}")
     makers = _Maker(common, factors, path)
@@ -184,15 +174,7 @@ def read_plan(path) -> Plan:
     return Plan(path, tables.get("title", "") or path.stem, axes, analyses, common)
 
 
-def _defaults(case: dict) -> dict:
-    """DEFAULTS; of a rocking model's own table without bodies the engine follows from the table."""
-    alone = not {"bodies", "column"} & set(case) and any(name in case for name in TABLES)
-    return {
-        name: table for name, table in DEFAULTS.items() if not (alone and name == "integration")
-    }
-
-
-def _case_tables(case, path: Path) -> dict:
+def _case_tables(case, path: Path) -> dict[str, Any]:
     """Tables of the case all analyses share."""
     if case is None:
         raise InputError(
@@ -221,107 +203,34 @@ def _case_tables(case, path: Path) -> dict:
 
 
 class _Maker:
-    """Makes the analyses of a plan; sections of a case are built, checked and digested once for the
-    values they depend on, and shared.
-    """
+    """Makes the analyses of a plan."""
 
-    def __init__(self, common: dict, factors: list[Factor], path: Path):
+    def __init__(self, common: dict[str, Any], factors: list[AxisFactor], path: Path):
         self.common, self.factors, self.path = common, factors, path
         self.keys = tuple(key for factor in factors for key in factor.keys)
-        # section: (place of the factor, place of the value in its level, key) of the values it
-        # depends on
-        self.touched: dict[str, list] = {}
-        for place, factor in enumerate(factors):
-            for number, key in enumerate(factor.keys):
-                self.touched.setdefault(key.partition(".")[0], []).append((place, number, key))
-        self.factors_of = {
-            name: tuple({place: None for place, _, _ in values})
-            for name, values in self.touched.items()
-        }
-        self.made: dict[tuple, tuple] = {}
-        self.texts: dict[tuple, str] = {}
-        self.first = None
 
     def analysis(self, places: tuple[int, ...]) -> Analysis:
-        """The analysis at a level of each factor; an error names the study file and the key there."""
+        """The analysis at a level of each factor; an error names the study file and the key
+        there.
+        """
         levels = tuple(
             value for factor, place in zip(self.factors, places) for value in factor.levels[place]
         )
         try:
-            if (
-                "bodies" in self.common
-                or "column" not in self.common
-                and any(name in self.common for name in TABLES)
-            ):
-                case = self._of_tables(places)
-                return Analysis(case, case.id, self.keys, levels)
-            case, texts = self._case(places)
+            case = self._case(places)
         except InputError as error:
             self._refuse(error, levels)
-        return Analysis(case, digest(texts), self.keys, levels)
+        return Analysis(case, case.id, self.keys, levels)
 
-    def _of_tables(self, places):
-        """The StructureCase, or the TableCase of a rocking model, at a level of each factor."""
+    def _case(self, places: tuple[int, ...]) -> StructureCase:
+        """The case at a level of each factor."""
         case = case_from_tables(self._tables(places), self.path)
         check_duration(case, self.path)
         if case.motion:
             self._refuse_missing(case.motion)
         return case
 
-    def _case(self, places) -> tuple[Case, dict[str, str]]:
-        if self.first is None:  # the whole, for what stands in no section
-            tables = self._tables(places)
-            case = case_from_tables(tables, self.path)
-            # as they are stated: what they leave open follows from other sections, which may differ
-            stated = {
-                name: located(
-                    name,
-                    build(_KINDS[name], tables.get(name, {}), self.path, f"{name}."),
-                    self.path,
-                )
-                for name in ("column", "base", "mesh")
-            }
-            case = dataclasses.replace(case, **stated)
-            self.first = (
-                {name: getattr(case, name) for name in (*SECTIONS, "title", "output")},
-                {name: section_text(name, getattr(case, name)) for name in SECTIONS},
-            )
-            if case.motion:
-                self._refuse_missing(case.motion)
-        sections, texts = dict(self.first[0]), dict(self.first[1])
-        for name in self.touched:
-            key = name, *(places[place] for place in self.factors_of[name])
-            if key not in self.made:
-                self.made[key] = self._section(name, places)
-            sections[name], text = self.made[key]
-            if name in texts:
-                texts[name] = text
-        case = finished(Case(**sections), self.path)
-        check_duration(case, self.path)
-        for name in ("column", "base", "mesh"):
-            if (section := getattr(case, name)) is not sections[
-                name
-            ]:  # with sizes that it had left open
-                if (name, section) not in self.texts:
-                    self.texts[name, section] = section_text(name, section)
-                texts[name] = self.texts[name, section]
-        return case, texts
-
-    def _section(self, name: str, places):
-        tables = self._tables(places)
-        if name not in _KINDS:
-            return build(Case, tables, self.path).title, ""
-        if tables[name] is False:  # none of its kind, or as if the case said nothing of it
-            section = getattr(build(Case, {**self.common, name: False}, self.path), name)
-        else:
-            section = located(
-                name, build(_KINDS[name], tables[name], self.path, f"{name}."), self.path
-            )
-        if name == "motion" and section:
-            self._refuse_missing(section)
-        return section, section_text(name, section)
-
-    def _tables(self, places) -> dict:
+    def _tables(self, places) -> dict[str, Any]:
         tables = self.common
         for factor, place in zip(self.factors, places):
             for key, value in zip(factor.keys, factor.levels[place]):

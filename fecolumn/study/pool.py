@@ -11,10 +11,13 @@ import sys
 import threading
 import time
 from collections import deque
+from collections.abc import Iterator
 from multiprocessing import resource_tracker
-from multiprocessing.connection import wait
+from multiprocessing.connection import Connection, wait
+from pathlib import Path
+from typing import Any
 
-from fecolumn.study.outcome import DONE, Outcome, Task, outcomes_of_dead
+from fecolumn.study.outcome import DONE, Task, TaskOutcome, outcomes_of_dead
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, die_with_parent, in_words, work_off
 
@@ -39,21 +42,24 @@ class LocalPool:
         study file, for messages.
     """
 
-    def __init__(self, size: int, entry: str, file):
+    def __init__(self, size: int, entry: str, file: Path | str) -> None:
         self.size, self._entry, self._file = size, entry, str(file)
         self._workers: list[_Worker] = []
         self._stillborn = 0
 
     @property
     def at_work(self) -> bool:
+        """Whether some task's outcome has not been collected yet."""
         return any(worker.tasks for worker in self._workers)
 
     def wants(self, depth: int) -> bool:
+        """Whether another batch may be given when every worker may have `depth` of them."""
         return len(self._workers) < self.size or any(
             len(worker.batches) < depth for worker in self._workers
         )
 
     def give(self, batch: list[Task]) -> None:
+        """Hand a batch to a new process up to `size` of them, then to the least busy one."""
         if len(self._workers) < self.size:
             self._workers.append(_Worker(self._entry, self._file))
             worker = self._workers[-1]
@@ -61,7 +67,8 @@ class LocalPool:
             worker = min(self._workers, key=lambda one: len(one.batches))
         worker.give(batch)
 
-    def collect(self, timeout_s: float) -> list[Outcome]:
+    def collect(self, timeout_s: float) -> list[TaskOutcome]:
+        """Outcomes of the tasks that ended, after waiting at most `timeout_s` [s] for one."""
         outcomes = []
         answered = wait([worker.connection for worker in self._workers], timeout=timeout_s)
         for worker in [worker for worker in self._workers if worker.connection in answered]:
@@ -72,17 +79,18 @@ class LocalPool:
                 outcomes += self._bury(worker)
         return outcomes
 
-    def _answer(self, worker: _Worker, word) -> list[Outcome]:
+    def _answer(self, worker: _Worker, word: Any) -> list[TaskOutcome]:
         if word == READY:
             worker.ready, self._stillborn = True, 0
             return []
         if isinstance(word, tuple):
             raise StudyError(f"a worker could not start: {word[1]}")
-        for outcome in word:
+        outcomes: list[TaskOutcome] = word
+        for outcome in outcomes:
             worker.ended(outcome.id)
-        return word
+        return outcomes
 
-    def _bury(self, worker: _Worker) -> list[Outcome]:
+    def _bury(self, worker: _Worker) -> list[TaskOutcome]:
         """Outcomes of what a dead worker had in hand."""
         reason = worker.epitaph()
         worker.connection.close()
@@ -93,6 +101,7 @@ class LocalPool:
         return list(outcomes_of_dead(worker.tasks.values(), reason, worker.ready))
 
     def stop(self) -> None:
+        """Kill the processes; what they have in hand is lost."""
         for worker in self._workers:
             worker.stop()
         self._workers = []
@@ -104,15 +113,16 @@ class _Worker:
     Attributes
     ----------
     tasks
-        what it has in hand by id, in order. batches: how many tasks of each batch are left.
+        what it has in hand by id, in order.
+    batches
+        how many tasks of each batch are left.
     ready
         whether it has found its analysis function.
     """
 
-    def __init__(self, entry: str, file: str):
-        context = multiprocessing.get_context(
-            "spawn"
-        )  # a fork would copy the driver's MPI and threads
+    def __init__(self, entry: str, file: str) -> None:
+        # a fork would copy the driver's MPI and threads
+        context = multiprocessing.get_context("spawn")
         self.connection, far_end = context.Pipe()
         self.process = context.Process(target=_serve, args=(far_end, entry, file), daemon=True)
         self.tasks: dict[str, Task] = {}
@@ -140,7 +150,7 @@ class _Worker:
         """How the process ended, in words."""
         self.process.join()
         code = self.process.exitcode
-        if code >= 0:
+        if code is None or code >= 0:
             return f"worker ended with exit code {code}"
         name = signal.Signals(-code).name
         return f"worker killed by {name}" + (" (out of memory?)" if name == "SIGKILL" else "")
@@ -156,9 +166,10 @@ class _Worker:
         self.process.join()
 
 
-def _serve(connection, entry: str, file: str) -> None:
+def _serve(connection: Connection, entry: str, file: str) -> None:
     die_with_parent()
-    if multiprocessing.parent_process().pid != os.getppid():
+    parent = multiprocessing.parent_process()
+    if parent is None or parent.pid != os.getppid():
         os._exit(1)  # gone already
     try:
         import mpi4py.MPI  # noqa: F401  what an analysis needs in any case
@@ -168,7 +179,7 @@ def _serve(connection, entry: str, file: str) -> None:
         connection.send((BROKEN, f"{entry} cannot be used: {in_words(error)}"))
         return
     connection.send(READY)
-    batches = queue.SimpleQueue()
+    batches: queue.SimpleQueue[list[Task] | None] = queue.SimpleQueue()
     threading.Thread(target=_listen, args=(connection, batches), daemon=True).start()
     while (batch := batches.get()) is not None:
         told, unsaid = time.monotonic(), []
@@ -181,8 +192,10 @@ def _serve(connection, entry: str, file: str) -> None:
             connection.send(unsaid)
 
 
-def _listen(connection, batches) -> None:
-    """Take batches at once: a driver that had to wait with one could not take outcomes meanwhile."""
+def _listen(connection: Connection, batches: queue.SimpleQueue[list[Task] | None]) -> None:
+    """Take batches at once: a driver that had to wait with one could not take outcomes
+    meanwhile.
+    """
     try:
         while True:
             batches.put(connection.recv())
@@ -191,7 +204,7 @@ def _listen(connection, batches) -> None:
 
 
 @contextlib.contextmanager
-def _environment(values: dict):
+def _environment(values: dict[str, str]) -> Iterator[None]:
     """Environment a child inherits; set before it imports anything."""
     before = {name: os.environ.get(name) for name in values}
     os.environ.update(values)
@@ -203,7 +216,7 @@ def _environment(values: dict):
 
 
 @contextlib.contextmanager
-def _without_script():
+def _without_script() -> Iterator[None]:
     """Started processes do not run the caller's script anew, as multiprocessing would have them:
     they need nothing of it.
     """
@@ -219,7 +232,7 @@ def _without_script():
 
 
 @contextlib.contextmanager
-def _interrupts_held():
+def _interrupts_held() -> Iterator[None]:
     """Children inherit a blocked Ctrl-C: the driver alone answers it, and stops them."""
     # multiprocessing starts it with the first process and unblocks Ctrl-C afterwards
     resource_tracker.ensure_running()

@@ -6,13 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 _COMPILED = {"reduced", "rigid"}  # engines of compiled code
 COMPILING = "compiling the reduced engine, once on this machine"
 MODELLING = "making the reduced model of the specimen, once on this machine"
 
 
-def preparation(analyses: Iterable) -> str:
+def preparation(analyses: Iterable[Any]) -> str:
     """What keeps analyses from stepping on this machine, in words; empty where nothing does.
 
     It looks at the files of the cache alone: the driver of a study loads no engine.
@@ -27,13 +28,14 @@ def preparation(analyses: Iterable) -> str:
     import numba
 
     from fecolumn._compiled import cache_folder, compiled_folder
-    from fecolumn.lock import held
+    from fecolumn.lock import is_held
 
     if any(
-        held(lock) for name in ("model", "body") for lock in cache_folder().glob(f".{name}-*.lock")
+        is_held(lock)
+        for name in ("model", "body")
+        for lock in cache_folder().glob(f".{name}-*.lock")
     ):
         return MODELLING
-    kept = any(
-        Path(compiled_folder()).glob("*/*.advance-*.nbi")
-    )  # the one function of the engine that Python calls, see reduced.run
+    # the one function of the engine that Python calls, see reduced.run
+    kept = any(Path(compiled_folder()).glob("*/*.advance-*.nbi"))
     return "" if kept or numba.config.DISABLE_JIT else COMPILING

@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import math
 import time
+from typing import TextIO
 
 from fecolumn.progress import Bar, clock
-from fecolumn.study.outcome import DONE, FAILED, Outcome
+from fecolumn.study.outcome import DONE, FAILED, TaskOutcome
 
 
-class Progress(Bar):
+class StudyProgress(Bar):
     """Counts of a running study.
 
     The remaining time is judged by the work, not by analyses: the longest come first. Time in which
@@ -28,7 +29,7 @@ class Progress(Bar):
         terminal or file.
     """
 
-    def __init__(self, counts: dict[str, int], effort: float, workers: int, stream):
+    def __init__(self, counts: dict[str, int], effort: float, workers: int, stream: TextIO) -> None:
         super().__init__(effort, stream=stream, pause_s=1.0)
         self.overturned, self.slid_off = counts.get("overturned", 0), counts.get("slid_off", 0)
         self._analyses = sum(counts.values()) - self.overturned - self.slid_off
@@ -38,7 +39,7 @@ class Progress(Bar):
         self._shown = -math.inf
         self._preparing, self._prepared_s, self._began_s = "", 0.0, 0.0
 
-    def count(self, outcome: Outcome, effort: float) -> None:
+    def count(self, outcome: TaskOutcome, effort: float) -> None:
         """Take note of an analysis that has ended."""
         self.done += outcome.word == DONE
         self.failed += outcome.word == FAILED
@@ -107,7 +108,7 @@ class Progress(Bar):
         self.draw(self._worked, self.line(max(time.monotonic() - self._began, 1e-9)))
 
 
-def analysis_s(outcome: Outcome) -> float:
+def analysis_s(outcome: TaskOutcome) -> float:
     """Wall time of an analysis itself [s], without what it made or compiled for all: as its summary
     says, else as its worker has measured.
     """

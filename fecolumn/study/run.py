@@ -7,19 +7,21 @@ import dataclasses
 import sqlite3
 import sys
 import warnings
+from pathlib import Path
+from typing import Any, TextIO
 
 from fecolumn.atomic import disk_full
-from fecolumn.case import REST
+from fecolumn.case import REST, Motion
 from fecolumn.study.mixture import other_code
-from fecolumn.study.outcome import FULL, RETURNED
+from fecolumn.study.outcome import FULL, RETURNED, TaskOutcome
 from fecolumn.study.plan import Analysis, Plan
 from fecolumn.study.pool import LocalPool
 from fecolumn.study.preparation import preparation
-from fecolumn.study.progress import Progress, analysis_s
+from fecolumn.study.progress import StudyProgress, analysis_s
 from fecolumn.study.store import FAILED, RUNNING, Store
 from fecolumn.study.team import StudyError, Team
 
-__all__ = ["ENTRY", "StudyError", "check_motions", "run_study"]
+__all__ = ["ENTRY", "StudyError", "check_motions", "complete_study"]
 
 ENTRY = "fecolumn.simulation:run"
 
@@ -32,18 +34,17 @@ _TO_REST_S = 10.0
 _DISK_FULL = "the disk is full; free room"
 
 
-def run_study(
+def complete_study(
     plan: Plan,
-    folder,
+    folder: Path | str,
     *,
-    workers: int = 1,
+    workers: int | Team = 1,
     entry: str = ENTRY,
     retry_failed: bool = False,
-    stream=sys.stderr,
+    stream: TextIO = sys.stderr,
     share: tuple[int, int] | None = None,
-    team: Team | None = None,
     only: set[str] | None = None,
-) -> list[dict]:
+) -> list[dict[str, Any]]:
     """Do what is missing of a study, and return the ledger.
 
     An analysis that fails, or takes its worker down with it, is recorded with its reason and the
@@ -57,7 +58,8 @@ def run_study(
     folder
         where its ledger and results are or will be.
     workers
-        number of analyses at a time, each in a process of its own with one thread.
+        number of analyses at a time, each in a process of its own with one thread; or a team that
+        does the work instead, such as the ranks of MPI.
     entry
         "module:function" of the analysis, called as run(case, folder, comm=MPI.COMM_SELF, file=...,
         quiet=True); it writes folder/summary.json atomically.
@@ -68,8 +70,6 @@ def run_study(
     share
         (index, size) of a task of a job array; it does every size-th analysis only. Tasks may work
         in one folder at once.
-    team
-        who does the work, instead of processes on this machine.
     only
         ids of the analyses to do; the others stay planned.
 
@@ -93,8 +93,11 @@ def run_study(
                 store.ledger.plan_again(state=FAILED)
             if entry == ENTRY and (told := other_code(store.rows())):
                 print(told, file=stream, flush=True)
-            drive(store, team or LocalPool(workers, entry, plan.file), stream, only)
-            return store.rows()
+            if isinstance(workers, int):
+                workers = LocalPool(workers, entry, plan.file)
+            drive(store, workers, stream, only)
+            done: list[dict[str, Any]] = store.rows()
+            return done
     except sqlite3.DatabaseError as error:
         full = "full" in str(error) or "disk I/O" in str(error)
         raise StudyError(
@@ -106,14 +109,14 @@ def run_study(
         raise
 
 
-def drive(store: Store, team: Team, stream, only: set[str] | None = None) -> Progress:
+def drive(store: Store, team: Team, stream: TextIO, only: set[str] | None = None) -> StudyProgress:
     """Have a team do what is missing in a study's folder, or of the ids `only`; the counts, of
     which `stream` is told.
     """
     queue = collections.deque(
         analysis for analysis in store.missing(team.size) if only is None or analysis.id in only
     )
-    progress = Progress(
+    progress = StudyProgress(
         store.ledger.counts(), sum(a.effort for a in queue), min(team.size, len(queue)), stream
     )
     try:
@@ -139,7 +142,8 @@ def check_motions(plan: Plan) -> None:
 
     # factor and direction change neither length nor whether it can be used; the longest step is the
     # most demanding
-    longest_step, users = {}, {}
+    longest_step: dict[Motion, float] = {}
+    users: dict[Motion, list[Analysis]] = {}
     for analysis in plan.analyses:
         if motion := analysis.case.motion:
             key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
@@ -149,10 +153,10 @@ def check_motions(plan: Plan) -> None:
     for motion, dt_s in longest_step.items():
         ground = load_motion(motion, dt_s, plan.file)
         for analysis in users[motion]:
-            given, free = analysis.case.integration.duration_s, motion.free_vibration_s
-            analysis.duration_s = given or ground.duration + (
-                min(_TO_REST_S, motion.rest_ceiling_s) if free == REST else free
-            )
+            given, free = analysis.case.integration.duration_s, motion.longest_free_vibration_s
+            if motion.free_vibration_s == REST:
+                free = min(_TO_REST_S, free)
+            analysis.duration_s = given or ground.duration + free
             if given and given < ground.duration - dt_s:
                 cut.append((ground.duration, given))
     if cut:
@@ -165,9 +169,10 @@ def check_motions(plan: Plan) -> None:
 
 
 def _work_off(
-    store: Store, queue: collections.deque[Analysis], team: Team, progress: Progress
+    store: Store, queue: collections.deque[Analysis], team: Team, progress: StudyProgress
 ) -> None:
-    pace, given = _Pace(), {}
+    pace = _Pace()
+    given: dict[str, Analysis] = {}
     while queue or team.at_work:
         while queue and team.wants(2 if pace.seconds(queue[0]) < _BATCH_S else 1):
             batch = pace.batch(queue, team.size)
@@ -193,10 +198,10 @@ def _work_off(
 class _Pace:
     """How long analyses take, learnt from those that have ended; none is known before the first."""
 
-    def __init__(self):
-        self._s_per_effort = None
+    def __init__(self) -> None:
+        self._s_per_effort: float | None = None
 
-    def note(self, outcome, analysis: Analysis) -> None:
+    def note(self, outcome: TaskOutcome, analysis: Analysis) -> None:
         if outcome.started is not None:
             s = analysis_s(outcome) / analysis.effort
             self._s_per_effort = (

@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -62,7 +64,7 @@ def _chosen(text: str, part: str) -> tuple[str, object]:
         return key.strip(), value.strip()
 
 
-def _of_study(folder: str, choice: dict) -> Sample:
+def _of_study(folder: str, choice: dict[str, Any]) -> Sample:
     study = read_study(folder)
     rows = study.rows
     if not rows:
@@ -123,7 +125,7 @@ def _of_study(folder: str, choice: dict) -> Sample:
     )
 
 
-def _motion_name(axes: dict) -> str:
+def _motion_name(axes: dict[str, Any]) -> str:
     """Name of a run's motion that does not depend on where files lie: their last part, and what
     else makes the ensemble.
     """
@@ -136,13 +138,13 @@ def _motion_name(axes: dict) -> str:
     )
 
 
-def same_value(found, wanted) -> bool:
+def same_value(found: Any, wanted: Any) -> bool:
     """Whether a value of an axis is the one asked for; numbers up to rounding."""
     numbers = all(
         isinstance(value, (int, float)) and not isinstance(value, bool) for value in (found, wanted)
     )
-    return math.isclose(found, wanted, rel_tol=1e-9) if numbers else found == wanted
+    return math.isclose(found, wanted, rel_tol=1e-9) if numbers else bool(found == wanted)
 
 
-def _listed(values) -> str:
+def _listed(values: Sequence[object]) -> str:
     return ", ".join(map(str, values[:8])) + (", ..." if len(values) > 8 else "")

@@ -12,11 +12,13 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 from fecolumn.schema import InputError
 from fecolumn.statistics.equivalence import SMALL
 from fecolumn.statistics.holm import holm
-from fecolumn.study.conclusion import Pair, pairs_of, settings_of
+from fecolumn.study.conclusion import SettingPair, pairs_of, settings_of
 from fecolumn.study.plan import Plan, member_of
 
 DIFFER, ALIKE, OPEN = "differ", "alike", "open"
@@ -35,7 +37,7 @@ class Rule:
     error: float = 0.05
     most: int = 1000
 
-    def check(self, file) -> None:
+    def check(self, file: Path | str) -> None:
         """Refuse a rule that cannot be followed.
 
         Raises
@@ -59,7 +61,7 @@ class Rule:
 class Verdict:
     """What is said of a pair of settings."""
 
-    pair: Pair
+    pair: SettingPair
     word: str
 
     def text(self, rule: Rule) -> str:
@@ -118,7 +120,12 @@ def stage_analyses(plan: Plan, motions: int, verdicts: list[Verdict]) -> set[str
 
 
 def judge(
-    plan: Plan, rows: list[dict], rule: Rule, looks: list[int], motions: int, before: list[Verdict]
+    plan: Plan,
+    rows: list[dict[str, Any]],
+    rule: Rule,
+    looks: list[int],
+    motions: int,
+    before: list[Verdict],
 ) -> list[Verdict]:
     """Verdict on each pair of settings after a stage; those of `before` that are decided stay.
 

@@ -16,6 +16,7 @@ import sqlite3
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Self
 
 from fecolumn import __version__
 from fecolumn.atomic import UNFINISHED, write_json
@@ -25,14 +26,14 @@ from fecolumn.schema import InputError
 from fecolumn.study.ledger import (
     PLANNED,
     RUNNING,
-    Ledger,
+    StudyLedger,
     can_be_opened,
-    files_of,
+    ledger_files,
+    ledger_rows,
     open_to_read,
-    read_rows,
 )
 from fecolumn.study.lock import FolderLock, stem
-from fecolumn.study.outcome import DONE, FAILED, Outcome, Task, finished
+from fecolumn.study.outcome import DONE, FAILED, Task, TaskOutcome, finished_outcome
 from fecolumn.study.plan import Analysis, Plan
 
 # Files of a driver that was stopped before it had written study.json
@@ -69,7 +70,9 @@ class Store:
         the folder holds another study or something else, or another driver works in it.
     """
 
-    def __init__(self, folder, plan: Plan, entry: str, share: tuple[int, int] | None = None):
+    def __init__(
+        self, folder: Path | str, plan: Plan, entry: str, share: tuple[int, int] | None = None
+    ) -> None:
         self.folder = Path(folder)
         self.entry = entry
         identity = {"study": plan.id, "analyses": len(plan.analyses), "entry": entry}
@@ -90,7 +93,9 @@ class Store:
                     },
                 )
             self.analyses = _share(plan, share)
-            self.ledger = Ledger(self.folder / f"{stem(share)}.sqlite", many_readers=share is None)
+            self.ledger = StudyLedger(
+                self.folder / f"{stem(share)}.sqlite", many_readers=share is None
+            )
         except BaseException:
             self._lock.close()
             raise
@@ -108,10 +113,10 @@ class Store:
             self.close()
             raise
 
-    def _reconcile(self, share) -> None:
+    def _reconcile(self, share: tuple[int, int] | None) -> None:
         motions: dict[int, str] = {}
 
-        def motion(case) -> str | None:
+        def motion(case: Any) -> str | None:
             if case.motion and id(case.motion) not in motions:  # sections of the plan are shared
                 sources = (case.motion.source, case.motion.source_y, case.motion.source_z)
                 motions[id(case.motion)] = " ".join(content(source) for source in sources if source)
@@ -130,10 +135,11 @@ class Store:
             else set()
         )
         for case_id, state in self.ledger.states().items():
-            outcome = finished(case_id, self.result_folder(case_id)) if case_id in there else None
-            if outcome and not self.ledger.agrees(
-                outcome
-            ):  # not done yet by the ledger, or it says something else
+            outcome = (
+                finished_outcome(case_id, self.result_folder(case_id)) if case_id in there else None
+            )
+            # not done yet by the ledger, or it says something else
+            if outcome and not self.ledger.agrees(outcome):
                 self.ledger.end(outcome)
             elif not outcome and state == DONE:
                 self.ledger.plan_again(case_id=case_id)
@@ -150,7 +156,7 @@ class Store:
                 ) from None
         if share is None:
             for other in others:
-                for file in files_of(other):
+                for file in ledger_files(other):
                     file.unlink(missing_ok=True)
 
     def missing(self, workers: int = 1) -> list[Analysis]:
@@ -162,14 +168,16 @@ class Store:
         planned = [a for _, a in self.analyses if states[a.id] == PLANNED]
         return planned if workers == 1 else sorted(planned, key=lambda a: -a.effort)
 
-    def rows(self) -> list[dict]:
+    def rows(self) -> list[dict[str, Any]]:
         """As `Study.rows`."""
         return self.ledger.rows()
 
     def result_folder(self, case_id: str) -> Path:
+        """Folder of the results of one analysis."""
         return self.folder / "analyses" / case_id
 
     def log_file(self, case_id: str) -> Path:
+        """File with the output and traceback of one analysis."""
         return self.folder / "logs" / f"{case_id}.log"
 
     def task(self, analysis: Analysis) -> Task:
@@ -178,18 +186,19 @@ class Store:
             analysis.id, analysis.case, self.result_folder(analysis.id), self.log_file(analysis.id)
         )
 
-    def end(self, outcome: Outcome) -> None:
+    def end(self, outcome: TaskOutcome) -> None:
         """Record the end of an analysis."""
         self.ledger.end(outcome, f"logs/{outcome.id}.log")
 
     def close(self) -> None:
+        """Close the ledger and release the study's lock."""
         self.ledger.close()
         self._lock.close()
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 
@@ -214,12 +223,12 @@ class Study:
     """
 
     title: str
-    axes: dict[str, list]
-    rows: list[dict]
+    axes: dict[str, list[Any]]
+    rows: list[dict[str, Any]]
     analyses: int
 
 
-def read_study(folder) -> Study:
+def read_study(folder: Path | str) -> Study:
     """The study in a folder, read without its study file and without touching it, finished or not.
 
     Raises
@@ -245,7 +254,7 @@ def read_study(folder) -> Study:
                 )
             if ledger := open_to_read(file):
                 ledgers.append(ledger)
-        rows = read_rows(*ledgers)
+        rows = ledger_rows(*ledgers)
     except sqlite3.Error as error:
         raise InputError(
             folder,
@@ -288,7 +297,7 @@ def _share(plan: Plan, share: tuple[int, int] | None) -> list[tuple[int, Analysi
     return sorted(dealt, key=lambda item: item[0])
 
 
-def _refuse_foreign(folder: Path, identity: dict) -> None:
+def _refuse_foreign(folder: Path, identity: dict[str, Any]) -> None:
     """Refuse what this study must not touch, reading only."""
     if os.path.lexists(folder) and not folder.is_dir():
         raise InputError(
@@ -328,7 +337,7 @@ def _refuse_foreign(folder: Path, identity: dict) -> None:
         )
 
 
-def _identity(folder: Path) -> dict | None:
+def _identity(folder: Path) -> dict[str, Any] | None:
     """What study.json says: study, analyses, entry, title, axes; None where there is no such file.
 
     Raises

@@ -4,14 +4,20 @@ needs beside it.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import Any
+
 import numpy as np
 
 STEP, SUBSTEPS = "integration.dt_s", "integration.substeps"
 _ROLLING = "rolling"  # a case's default
 _CAUSES = {_ROLLING: "in which a round rim rolls fast", "impacts": "in which a point lands"}
 
+#: Axis values of a setting, and the summary of each of its analyses by motion
+Setting = tuple[dict[str, Any], dict[tuple[str, ...], dict[str, Any]]]
 
-def substeps_note(tables: dict, settings) -> str:
+
+def substeps_note(tables: dict[str, Any], settings: Iterable[Setting]) -> str:
     """That the step is not always the one that is asked for, where settings of several
     integration.dt_s made parts of steps; else "".
 
@@ -20,11 +26,11 @@ def substeps_note(tables: dict, settings) -> str:
     tables
         of a case that the analyses share, by section; what it leaves open is at its default.
     settings
-        axis values and summaries by motion, as of `conclusion.settings_of`.
+        as of `conclusion.settings_of`.
     """
     integration = tables.get("integration")
     default = integration.get("substeps", _ROLLING) if isinstance(integration, dict) else _ROLLING
-    counted: dict[str, dict] = {}
+    counted: dict[Any, dict[Any, list[Any]]] = {}
     for values, runs in settings:
         counts = counted.setdefault(values.get(SUBSTEPS, default), {}).setdefault(
             values.get(STEP), []

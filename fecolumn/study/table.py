@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 from fecolumn.atomic import write_csv
 from fecolumn.ending import P_LOST, P_OVERTURN, lost
 from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import Panel, cdf_figure
+from fecolumn.post.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.study.plan import Plan
@@ -44,7 +45,9 @@ _ANALYSES = (
 )
 
 
-def combinations(plan: Plan, rows: list[dict]) -> list[tuple[dict, list[dict], int]]:
+def combinations(
+    plan: Plan, rows: list[dict[str, Any]]
+) -> list[tuple[dict[str, Any], list[dict[str, Any]], int]]:
     """The ensembles of a study in the order of its file: axis values, summaries of what is done,
     number planned.
 
@@ -53,10 +56,10 @@ def combinations(plan: Plan, rows: list[dict]) -> list[tuple[dict, list[dict], i
     plan
         the study.
     rows
-        its ledger, as `run_study` returns it.
+        its ledger, as `complete_study` returns it.
     """
     states = {row["id"]: row for row in rows}
-    groups: dict[tuple, tuple[dict, list, list]] = {}
+    groups: dict[tuple[Any, ...], tuple[dict[str, Any], list[Any], list[Any]]] = {}
     for analysis in plan.analyses:
         values, done, planned = groups.setdefault(
             tuple(map(repr, analysis.combination.values())), (analysis.combination, [], [])
@@ -67,16 +70,18 @@ def combinations(plan: Plan, rows: list[dict]) -> list[tuple[dict, list[dict], i
     return [(values, done, len(planned)) for values, done, planned in groups.values()]
 
 
-def ensemble(summaries: list[dict]) -> EnsembleSummary:
+def ensemble(summaries: list[dict[str, Any]]) -> EnsembleSummary:
     """Row of one combination from the summaries of its analyses, at least one."""
-    columns = ("u_max_m", "overturned", "energy_closure_rel", "s_per_step")
     return summarize(
-        *([summary[column] for summary in summaries] for column in columns),
+        [summary["u_max_m"] for summary in summaries],
+        [summary["overturned"] for summary in summaries],
+        [summary["energy_closure_rel"] for summary in summaries],
+        [summary["s_per_step"] for summary in summaries],
         [bool(summary.get("slid_off")) for summary in summaries],
     )
 
 
-def write_tables(plan: Plan, rows: list[dict], folder) -> None:
+def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> None:
     """Write table.csv and analyses.csv, the same bytes for the same results, and timing.csv."""
     table, timing = [], []
     for values, done, planned in combinations(plan, rows):
@@ -110,13 +115,12 @@ def write_tables(plan: Plan, rows: list[dict], folder) -> None:
     )
 
 
-def _analysis_row(row: dict) -> list:
+def _analysis_row(row: dict[str, Any]) -> list[Any]:
     texts, summary = [row["id"], *row["axes"].values(), row["state"]], row["summary"]
     if not summary:
         return texts + [""] * len(_ANALYSES)
-    peak = (
-        "" if lost(summary) else f"{summary['u_max_m']:.6e}"
-    )  # what overturned or slid off has none
+    # what overturned or slid off has none
+    peak = "" if lost(summary) else f"{summary['u_max_m']:.6e}"
     return [
         *texts,
         peak,
@@ -129,7 +133,7 @@ def _analysis_row(row: dict) -> list:
     ]
 
 
-def table_text(plan: Plan, rows: list[dict]) -> str:
+def table_text(plan: Plan, rows: list[dict[str, Any]]) -> str:
     """The table for a reader: a line for each combination, axes of one value left out; columns that
     slid off their base are counted where there are any.
     """
@@ -179,11 +183,11 @@ def table_text(plan: Plan, rows: list[dict]) -> str:
     )
 
 
-def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
+def write_figure(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> list[Path]:
     """Write cdf.png and cdf.pdf: a line for each level of one axis, a panel for each setting of the
     others; axes of one value are left out.
     """
-    panels: dict[str, list] = {}
+    panels: dict[str, list[Any]] = {}
     levels = varied(plan)
     line = line_axis(levels)
     for values, done, _ in combinations(plan, rows):
@@ -202,7 +206,7 @@ def write_figure(plan: Plan, rows: list[dict], folder) -> list[Path]:
     )
     return cdf_figure(
         [
-            Panel(title or plan.title, tuple(lines), P_LOST if off else P_OVERTURN)
+            CdfPanel(title or plan.title, tuple(lines), P_LOST if off else P_OVERTURN)
             for title, lines in panels.items()
         ],
         Path(folder) / "cdf",
@@ -225,4 +229,4 @@ def line_axis(levels: dict[str, int]) -> str | None:
     if _LINE_AXIS in levels:
         return _LINE_AXIS
     few = [key for key in levels if levels[key] <= _LINES]
-    return max(few, key=levels.get, default=None)
+    return max(few, key=levels.__getitem__, default=None)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from fecolumn.study.outcome import Outcome, Task
+from fecolumn.study.outcome import Task, TaskOutcome
 
 
 class StudyError(RuntimeError):
@@ -27,7 +27,8 @@ class Team(Protocol):
     size: int
 
     @property
-    def at_work(self) -> bool: ...
+    def at_work(self) -> bool:
+        """Whether some task's outcome has not been collected yet."""
 
     def wants(self, depth: int) -> bool:
         """Whether another batch may be given when every worker may have `depth` of them."""
@@ -35,7 +36,7 @@ class Team(Protocol):
     def give(self, batch: list[Task]) -> None:
         """Hand out a batch; its tasks are done in order."""
 
-    def collect(self, timeout_s: float) -> list[Outcome]:
+    def collect(self, timeout_s: float) -> list[TaskOutcome]:
         """What has ended, waiting for something at most `timeout_s` [s].
 
         Raises

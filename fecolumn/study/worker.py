@@ -14,11 +14,12 @@ import signal
 import sys
 import time
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import IO, Any
 
 from fecolumn.atomic import disk_full
 from fecolumn.files import is_file
-from fecolumn.study.outcome import FAILED, FULL, Outcome, Task, finished
+from fecolumn.study.outcome import FAILED, FULL, Task, TaskOutcome, finished_outcome
 
 # One thread a worker: BLAS threads of several workers on the same cores only disturb each other.
 ONE_THREAD = dict.fromkeys(
@@ -27,13 +28,18 @@ ONE_THREAD = dict.fromkeys(
 _PR_SET_PDEATHSIG = 1  # linux/prctl.h
 
 
-def analysis_function(entry: str):
+#: Called as run(case, folder, comm=..., file=..., quiet=True)
+AnalysisFunction = Callable[..., object]
+
+
+def analysis_function(entry: str) -> AnalysisFunction:
     """The function an entry point "module:function" names."""
     module, _, function = entry.partition(":")
-    return getattr(importlib.import_module(module), function)
+    found: AnalysisFunction = getattr(importlib.import_module(module), function)
+    return found
 
 
-def work_off(batch: list[Task], run, file: str) -> Iterator[Outcome]:
+def work_off(batch: list[Task], run: AnalysisFunction, file: str) -> Iterator[TaskOutcome]:
     """Do the tasks of a batch in order; stops at a full disk.
 
     Parameters
@@ -41,7 +47,7 @@ def work_off(batch: list[Task], run, file: str) -> Iterator[Outcome]:
     batch
         what to do.
     run
-        analysis function, see `fecolumn.study.run.run_study`.
+        analysis function, see `fecolumn.study.run.complete_study`.
     file
         study file, for messages.
     """
@@ -49,10 +55,10 @@ def work_off(batch: list[Task], run, file: str) -> Iterator[Outcome]:
 
     where = machine()
     for task in batch:
-        if there := finished(task.id, task.folder):  # by another driver, or before a crash
+        if there := finished_outcome(task.id, task.folder):  # by another driver, or before a crash
             yield there
             continue
-        told = dict(started=time.time(), machine=where)
+        told: dict[str, Any] = dict(started=time.time(), machine=where)
         began = time.monotonic()
         try:
             problem, full = _analyse(task, run, MPI.COMM_SELF, file)
@@ -61,16 +67,16 @@ def work_off(batch: list[Task], run, file: str) -> Iterator[Outcome]:
         told["wall_s"] = time.monotonic() - began
         give_back_memory()
         if problem:
-            yield Outcome(task.id, FULL if full else FAILED, problem, **told)
+            yield TaskOutcome(task.id, FULL if full else FAILED, problem, **told)
             if full:
                 return
         else:
-            yield finished(task.id, task.folder, **told) or Outcome(
+            yield finished_outcome(task.id, task.folder, **told) or TaskOutcome(
                 task.id, FAILED, "ended without a summary.json of its own", **told
             )
 
 
-def _analyse(task: Task, run, comm, file: str) -> tuple[str, bool]:
+def _analyse(task: Task, run: AnalysisFunction, comm: Any, file: str) -> tuple[str, bool]:
     """Do one analysis, its words in its own log: why it failed, empty where it did not, and whether
     the disk is full.
     """
@@ -94,7 +100,7 @@ def _analyse(task: Task, run, comm, file: str) -> tuple[str, bool]:
     return problem, full
 
 
-def _try(speak) -> None:
+def _try(speak: Callable[[], object]) -> None:
     """A log that cannot be written must not hide what it was to say."""
     try:
         speak()
@@ -102,7 +108,7 @@ def _try(speak) -> None:
         pass
 
 
-def _speak_into(log) -> None:
+def _speak_into(log: IO[str]) -> None:
     """Send what Python, libraries and crashes say on standard output and error to the analysis' own
     log.
     """
@@ -113,7 +119,7 @@ def _speak_into(log) -> None:
 
 
 @contextlib.contextmanager
-def streams_kept():
+def streams_kept() -> Iterator[None]:
     """Give a process that goes on to live its standard output and error back, which `work_off`
     lends to the logs of analyses.
     """

@@ -49,8 +49,9 @@ from fecolumn.post.style import LINES
 from fecolumn.verification import FULL
 from fecolumn.verification.hht_scheme import amplification, principal
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import afloat, begin
+from fecolumn.verification.result import CaseRows, Row
+from fecolumn.verification.trial import afloat
+from fecolumn.verification.trials import begin_trial
 
 LENGTH, AREA, MODULUS, DENSITY, SPEED = 2.0, 0.2, 200e9, 7800.0, 1.5
 WAVE = np.sqrt(MODULUS / DENSITY)
@@ -65,10 +66,20 @@ BRICKS = (16, 32, 64, 128)
 class Strike:
     """One impact, over 1.25 contact times.
 
-    time, force: (m,) from the moment of contact [s], and [N]. rebound: velocity of the centre of
-    mass [m/s]. contact, damping: energy that contact and impact law, and HHT took [J]; landing: the
-    first of these in the first step of contact. foot: mass m_e of the filtered foot [kg], 0 without
-    the impact law. closure: of the ledger [J].
+    Attributes
+    ----------
+    time, force
+        (m,) from the moment of contact [s], and [N].
+    rebound
+        velocity of the centre of mass [m/s].
+    contact, damping
+        energy that contact and impact law, and HHT took [J].
+    landing
+        the first of these in the first step of contact.
+    foot
+        mass m_e of the filtered foot [kg], 0 without the impact law.
+    closure
+        of the ledger [J].
     """
 
     time: np.ndarray
@@ -113,14 +124,14 @@ def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float =
         gravity=(0, 0, -1e-6),
         filtered=impact == "plastic",
     )
-    still = np.zeros_like(system.column.X)
+    still = np.zeros_like(system.body.X)
     falling = still + [0, 0, -SPEED], still + system.gravity
-    trial = begin(
+    trial = begin_trial(
         engine,
         system,
         lambda system: afloat(system, still, *falling, height=arrival * SPEED * dt),
         impact,
-        n_modes=3 * system.column.n_nodes,
+        n_modes=3 * system.body.n_nodes,
     )
     time, force, taken = [-arrival * dt], [0.0], []
     while time[-1] < 1.25 * TIME:
@@ -130,11 +141,11 @@ def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float =
         force.append(state.forces[:, 2].sum())
         taken.append(-ledger["contact"] - ledger["impact"])
     landing = taken[np.flatnonzero(force)[0] - 1]
-    momentum = system.column.node_mass @ state.v[:, 2]
+    momentum = system.body.node_mass @ state.v[:, 2]
     return Strike(
         np.array(time),
         np.array(force),
-        momentum / system.column.total_mass,
+        momentum / system.body.total_mass,
         taken[-1],
         -ledger["algorithmic"],
         landing,
@@ -175,7 +186,7 @@ def damped(bricks: int, alpha: float) -> float:
     )
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """16 to 128 bricks; 256 as well if `long`.
 
     The reduced engine with all modes that the bar has; it knows the plastic law only.
@@ -187,9 +198,9 @@ def run(engine: str, long: bool) -> Result:
         for impact in impacts
         for alpha in ALPHAS
     }
-    result = Result(size=(7.2, 5.2))
+    result = CaseRows(size=(7.2, 5.2))
     for (impact, alpha), series in strikes.items():
-        result.rows += rows(
+        result.rows += bar_rows(
             impact, alpha, series, closure=1e-6 if engine != "total_lagrangian" else SPEED / WAVE
         )
     for alpha in ALPHAS:
@@ -202,7 +213,7 @@ def run(engine: str, long: bool) -> Result:
                 1e-5,
             )
         )
-    result.draw = lambda figure: draw(figure, strikes)
+    result.draw = lambda figure: draw_bar(figure, strikes)
     return result
 
 
@@ -215,7 +226,7 @@ def order(series: dict[int, Strike], error) -> float:
     )
 
 
-def rows(impact: str, alpha: float, series: dict[int, Strike], closure: float) -> list[Row]:
+def bar_rows(impact: str, alpha: float, series: dict[int, Strike], closure: float) -> list[Row]:
     """What the finest mesh finds, with orders over all meshes; `closure` is the tolerance of the
     ledger's.
     """
@@ -275,7 +286,7 @@ def rows(impact: str, alpha: float, series: dict[int, Strike], closure: float) -
     return found
 
 
-def draw(figure, strikes) -> None:
+def draw_bar(figure, strikes) -> None:
     """Contact force against time for meshes and alphas, and the convergence."""
     ((meshes, alphas), (literal, orders)) = figure.subplots(2, 2)
     some = strikes["plastic", 0.0]

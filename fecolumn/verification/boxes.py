@@ -9,8 +9,9 @@ import numpy as np
 from fecolumn import case
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.overturning import Limits
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
@@ -20,7 +21,7 @@ GRAVITY = np.array([0.0, 0.0, -case.GRAVITY])
 GIVES = 1e-10
 
 
-def box(length, width, height, density=2700.0, gives=GIVES, per_side=2):
+def box_model(length, width, height, density=2700.0, gives=GIVES, per_side=2):
     """A BodyModel of length x width x height [m], its foot and head touching with `per_side` x
     `per_side` nodes.
     """
@@ -86,6 +87,7 @@ def part(name, model, at, rotation=None, spin=(0.0, 0, 0), velocity=(0.0, 0, 0))
 
 
 def joint(slave, master, model, surface="foot", on="head", friction=0.7, restitution=0.0):
+    """Joint of body `slave` on body `master`, or on GROUND; `model`: the slave's BodyModel."""
     n = len(model.surfaces[surface].nodes)
     return Joint(
         f"{slave} on {master}",
@@ -106,10 +108,15 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     model = StructureModel(tuple(parts), tuple(joints), tuple(links), base, (observed, "top"))
     hht = HHT(dt, alpha)
     structure, _ = structure_of(model, hht, GRAVITY)
-    eye = view_of(model, structure, structure.bodies.body["mass"].sum() * case.GRAVITY)
+    eye = view_of(
+        model,
+        structure,
+        structure.bodies.body["mass"].sum() * case.GRAVITY,
+        Limits.of_tilt(len(model.parts)),
+    )
     return Engine(
         lambda step: structure_of(model, step, GRAVITY),
-        base,
+        (base,),
         eye,
         hht,
         lambda made: of_parts(made, parts, stands),
@@ -118,7 +125,8 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
 
 
 def stack(dt=1e-3, alpha=-0.05):
-    low, up = box(0.4, 0.4, 0.8), box(0.3, 0.3, 0.9)
+    """Engine with a box of 0.3 x 0.3 x 0.9 m on one of 0.4 x 0.4 x 0.8 m, the upper observed."""
+    low, up = box_model(0.4, 0.4, 0.8), box_model(0.3, 0.3, 0.9)
     return engine(
         [part("low", low, (0, 0, 0)), part("up", up, (0, 0, 0.8))],
         [joint(0, GROUND, low), joint(1, 0, up)],
@@ -133,7 +141,7 @@ def block_on_a_heavy_one(dt: float):
     parameter [rad/s].
     """
     breadth, height = 0.3, 0.9
-    up, low = box(breadth, breadth, height), box(1.0, 1.0, 0.5, density=2e4)
+    up, low = box_model(breadth, breadth, height), box_model(1.0, 1.0, 0.5, density=2e4)
     alpha = np.arctan(breadth / height)
     p = np.sqrt(-0.75 * GRAVITY[2] / (np.hypot(breadth, height) / 2))
     spin, toe = np.array([0, 0.5 * alpha * p, 0]), np.array([breadth / 2, 0, 0])
@@ -154,7 +162,10 @@ def frame(columns, order=None, dt=1e-3, at=(0.0, 0.0, 0.0)):
     """A slab on two or four columns; order: places of the columns, then of the slab, among the
     bodies; at: (3,) [m] where it stands.
     """
-    column, slab = box(0.2, 0.2, 1.2), box(2.4, 2.4 if columns == 4 else 0.6, 0.3, per_side=9)
+    column, slab = (
+        box_model(0.2, 0.2, 1.2),
+        box_model(2.4, 2.4 if columns == 4 else 0.6, 0.3, per_side=9),
+    )
     places = (
         [(-1, 0, 0), (1, 0, 0)]
         if columns == 2
@@ -179,8 +190,8 @@ def bent(ratio: float, dt: float, tilt: float, breadth=1.2, height=8.0):
     Returns: an Engine, the gravity energy of the upright bent less that at the start [J], the
     slenderness of a pier [rad].
     """
-    pier, span = box(breadth, breadth, height, gives=0.0), 6.0
-    cap = box(
+    pier, span = box_model(breadth, breadth, height, gives=0.0), 6.0
+    cap = box_model(
         2 * span,
         2 * breadth,
         1.5,
@@ -219,7 +230,8 @@ def bent(ratio: float, dt: float, tilt: float, breadth=1.2, height=8.0):
     )
 
 
-def pulse(amplitude, period, steps, dt=1e-3):
+def sine_pulse(amplitude, period, steps, dt=1e-3):
+    """Accelerations (steps, 3) [m/s2] of one sine of that amplitude and period [s] along x."""
     t = np.arange(1, steps + 1) * dt
     return np.column_stack(
         [amplitude * np.sin(2 * np.pi * t / period) * (t < period), np.zeros((steps, 2))]

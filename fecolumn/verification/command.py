@@ -51,7 +51,7 @@ def main(args) -> int:
     """
     from fecolumn.folder import written
     from fecolumn.schema import InputError
-    from fecolumn.verification.suite import count, tasks, verify
+    from fecolumn.verification.suite import tasks, verdict, verify
 
     pairs = tasks(args.case, args.engine or ALL_ENGINES)
     if not pairs:
@@ -65,5 +65,5 @@ def main(args) -> int:
             pairs, draft, args.long, args.jobs, show=lambda text: print(text, flush=True)
         )
     print(f"wrote {os.path.join(args.output, 'table.csv')}")
-    print(count(findings))
+    print(verdict(findings))
     return 0 if all(finding.ok for finding in findings) else 1

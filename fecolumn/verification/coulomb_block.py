@@ -22,7 +22,13 @@ class NewmarkBlock:
     Attributes
     ----------
     frequency
-        w. stop: end of slip [s]. distance: what it is off in the end [m]. path: all it slid [m].
+        w [rad/s].
+    stop
+        end of slip [s].
+    distance
+        what it is off in the end [m].
+    path
+        all it slid [m].
     """
 
     def __init__(self, amplitude: float, frequency: float, resistance: float):

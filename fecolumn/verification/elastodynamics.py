@@ -45,7 +45,7 @@ from petsc4py import PETSc
 from fecolumn.dynamics.hht import HHT
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row, order_of
 from fecolumn.verification.trial import Trial, afloat
 
 # Steel of models.block_system; strains of 3e-5 keep both kinematics linear
@@ -110,7 +110,7 @@ def error(
         gravity=(0, 0, -GRAVITY),
         order=degree,
     )
-    column = system.column
+    column = system.body
     mode, fall = np.stack(shape(column.X.T, np.sin, np.cos), axis=1), np.array([0.0, 0.0, -GRAVITY])
     still = np.zeros_like(mode)
     trial = Trial(
@@ -147,16 +147,11 @@ def distance(column, field: np.ndarray, factor: float) -> float:
     return float(np.sqrt(square / (SIDE**3 * MEAN)))
 
 
-def slope(sizes, errors) -> float:
-    """Order of convergence by least squares."""
-    return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])
-
-
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """The slower engine has coarser bricks of degree 2 and one alpha unless `long`."""
     whole = long or engine == "corotated"
     meshes = MESHES if whole else MESHES | {2: (2, 3, 4)}
-    result, spatial = Result(size=(7.2, 2.9)), {}
+    result, spatial = CaseRows(size=(7.2, 2.9)), {}
     for degree, numbers in meshes.items():
         for crooked in (0.0, CROOKED):
             errors = [
@@ -172,11 +167,11 @@ def run(engine: str, long: bool) -> Result:
             0.0,
             errors[-1],
             2 * np.pi * stiff + sizes[-1] ** 2 / 4,
-            order=slope(sizes, errors),
+            order=order_of(sizes, errors),
         )
     )
     for (degree, crooked), series in spatial.items():
-        kind, order = "crooked" if crooked else "straight", slope(*series)
+        kind, order = "crooked" if crooked else "straight", order_of(*series)
         result.rows.append(
             Row(
                 f"order in h, degree {degree}, {kind} bricks [-]",
@@ -195,15 +190,15 @@ def run(engine: str, long: bool) -> Result:
     steps = 2 * np.pi / np.array(COUNTS)
     for alpha, errors in temporal.items():
         bend = (remains / errors[-1] + 0.15 * steps[0] ** 2) / np.log(steps[0] / steps[-1])
-        order = slope(steps, errors)
+        order = order_of(steps, errors)
         result.rows.append(
             Row(f"order in dt, alpha {alpha:g} [-]", 2.0, order, bend / 2, order=order)
         )
-    result.draw = lambda figure: draw(figure, spatial, steps, temporal)
+    result.draw = lambda figure: draw_orders(figure, spatial, steps, temporal)
     return result
 
 
-def draw(figure, spatial, steps, temporal) -> None:
+def draw_orders(figure, spatial, steps, temporal) -> None:
     """Displacement errors against brick size and time step, with the orders."""
     left, right = figure.subplots(1, 2)
     for (degree, crooked), (sizes, errors) in spatial.items():
@@ -217,7 +212,7 @@ def draw(figure, spatial, steps, temporal) -> None:
             marker="s" if crooked else "o",
             markersize=3.5,
             markerfacecolor="none" if crooked else colour,
-            label=f"degree {degree}, {kind}: order {slope(sizes, errors):.2f}",
+            label=f"degree {degree}, {kind}: order {order_of(sizes, errors):.2f}",
         )
     left.set(xlabel=r"$k\,h$ [-]", ylabel="error / amplitude ($L_2$)")
     for (alpha, errors), mark, (colour, dashes) in zip(temporal.items(), "os^", LINES):
@@ -228,7 +223,7 @@ def draw(figure, spatial, steps, temporal) -> None:
             linestyle=dashes,
             marker=mark,
             markersize=3.5,
-            label=rf"$\alpha$ = {alpha:g}: order {slope(steps, errors):.2f}",
+            label=rf"$\alpha$ = {alpha:g}: order {order_of(steps, errors):.2f}",
         )
     right.set(xlabel=r"$\omega\,\Delta t$ [-]", ylabel="error after a period / amplitude ($L_2$)")
     for axes, ticks in (

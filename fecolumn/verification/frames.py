@@ -9,7 +9,8 @@ velocities v_abs - v_g. HHT's acceleration of the absolute motion is a + A_g, A_
 al a_g0, so that the two analyses are the same equations once the base is moved by the formulas of
 HHT,
 
-    x_g1 = x_g0 + dt v_g0 + dt^2 [(1/2 - be) A_g0 + be A_g1],   v_g1 = v_g0 + dt [(1 - ga) A_g0 + ga A_g1].
+    x_g1 = x_g0 + dt v_g0 + dt^2 [(1/2 - be) A_g0 + be A_g1],
+    v_g1 = v_g0 + dt [(1 - ga) A_g0 + ga A_g1].
 
 Moved on its exact path instead, the base differs from these by e_g(t), second order in dt and known
 beforehand. Energy: in the inertial frame the base works through the contact forces, W_b = sum r1 .
@@ -58,8 +59,9 @@ from fecolumn.verification.moving_base import (
     hht_path,
     on_exact_path,
 )
-from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import RigidRocking, Trial, begin, solver_drift
+from fecolumn.verification.result import CaseRows, Row
+from fecolumn.verification.trial import RigidRocking, Trial, solver_drift
+from fecolumn.verification.trials import begin_trial
 
 RIGID = {"base": {"youngs_modulus_pa": 1e15}}
 QUIET_STEPS = 50
@@ -79,12 +81,13 @@ def turned_system(turn, engine: str, **tables):
     )
 
 
-def run(engine: str, long: bool) -> Result:
-    result = Result(size=(7.2, 3.7))
+def run(engine: str, long: bool) -> CaseRows:
+    """Rows of shaking seen from a moving, a turned, a mirrored and a later frame."""
+    result = CaseRows(size=(7.2, 3.7))
     system = column_system(engine)
     times = system.hht.dt * np.arange(1, (200 if long or engine != "total_lagrangian" else 125) + 1)
     motion, drift = shaking(times), solver_drift(system, times)
-    table = begin(engine, system)
+    table = begin_trial(engine, system)
     reference = table.shake(motion)
     largest, series = np.linalg.norm(reference, axis=2).max(), {}
     allowed = (drift * times).max() / largest
@@ -107,7 +110,7 @@ def run(engine: str, long: bool) -> Result:
         inertial = InertialTrial(system, standing, by_hht)
         relative = inertial.shake(motion)
         compare("base moving", relative)
-        result.rows += energies(table, inertial, drift[-1])
+        result.rows += frame_ledgers(table, inertial, drift[-1])
         damped = column_system(engine, integration={"alpha_hht": -0.2})
         still = Trial(damped)
         compare(
@@ -138,35 +141,37 @@ def run(engine: str, long: bool) -> Result:
     quarter, mirror = np.round(rotation_matrix([0, 0, np.pi / 2])), np.diag([1.0, -1.0, 1.0])
     compare(
         "motion turned by 90 deg",
-        begin(engine, system, standing).shake(motion @ quarter.T) @ quarter,
+        begin_trial(engine, system, standing).shake(motion @ quarter.T) @ quarter,
     )
-    compare("motion mirrored", begin(engine, system, standing).shake(motion @ mirror) @ mirror)
+    compare(
+        "motion mirrored", begin_trial(engine, system, standing).shake(motion @ mirror) @ mirror
+    )
     later = np.vstack([np.zeros((QUIET_STEPS, 3)), motion])
     compare(
         f"{QUIET_STEPS} quiet steps before",
-        begin(engine, system, standing).shake(later)[QUIET_STEPS:],
+        begin_trial(engine, system, standing).shake(later)[QUIET_STEPS:],
     )
     turn = rotation_matrix([0, 0, np.pi / 6])
-    rigid = begin(engine, column_system(engine, **RIGID)).shake(motion)
+    rigid = begin_trial(engine, column_system(engine, **RIGID)).shake(motion)
     elasticity = np.linalg.norm(rigid - reference, axis=2).max() / largest
     compare(
         "body and motion turned by 30 deg, rigid base",
-        begin(engine, turned_system(turn, engine, **RIGID)).shake(motion @ turn.T) @ turn,
+        begin_trial(engine, turned_system(turn, engine, **RIGID)).shake(motion @ turn.T) @ turn,
         allowed + 200e9 / 1e15 * elasticity,
         rigid,
     )
     compare(
         "body and motion turned by 30 deg, elastic base",
-        begin(engine, turned_system(turn, engine)).shake(motion @ turn.T) @ turn,
+        begin_trial(engine, turned_system(turn, engine)).shake(motion @ turn.T) @ turn,
         allowed + elasticity,
     )
     between = rotation_matrix([0, 0, np.radians(10)])
     compare(
         "motion turned by 10 deg, between nodes of the rim",
-        begin(engine, system, standing).shake(motion @ between.T) @ between,
+        begin_trial(engine, system, standing).shake(motion @ between.T) @ between,
         allowed + elasticity,
     )
-    disturbed = begin(engine, system, lambda _: standing(_, DISTURBANCE)).shake(motion)
+    disturbed = begin_trial(engine, system, lambda _: standing(_, DISTURBANCE)).shake(motion)
     grown = np.linalg.norm(disturbed - reference, axis=2).max(axis=1)
 
     def draw(figure):
@@ -216,12 +221,12 @@ def run(engine: str, long: bool) -> Result:
     return result
 
 
-def energies(table: Trial, inertial: InertialTrial, drift: float) -> list[Row]:
+def frame_ledgers(table: Trial, inertial: InertialTrial, drift: float) -> list[Row]:
     """The ledgers of the two frames at the end, `drift` [m/s] apart."""
     of_table, of_inertial = table.energy(), inertial.trial.energy()
     gained = inertial.trial.mechanical() - inertial.trial.ledger.start
     lost = sum(of_table[name] for name in (*LOSSES, "closure"))
-    allowed = 2 * drift / np.sqrt(2 * gained / table.system.column.total_mass)
+    allowed = 2 * drift / np.sqrt(2 * gained / table.system.body.total_mass)
     return [
         Row("base moving: work of the base [J]", gained - lost, inertial.work, allowed),
         Row(

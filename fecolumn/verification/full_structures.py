@@ -18,7 +18,7 @@ from fecolumn.case import case_from_tables
 from fecolumn.dynamics.history import read_history
 from fecolumn.schema import merge
 from fecolumn.simulation import run as analyse
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 
 _STONE = dict(youngs_modulus_pa=50e9, poissons_ratio=0.2, density_kg_m3=2700.0)
 _ON = dict(slave="column", on="ground")
@@ -197,9 +197,9 @@ def _third_impact(rows: dict) -> int:
     return int(hits[_IMPACTS - 1]) + 2 if len(hits) >= _IMPACTS else len(rows["time"])
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """The rows; engine: corotated."""
-    return Result([row for name, one in structures().items() for row in _rows(name, *one)])
+    return CaseRows([row for name, one in structures().items() for row in _rows(name, *one)])
 
 
 def _rows(name: str, tables: dict, modes: int):

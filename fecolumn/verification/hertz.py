@@ -6,8 +6,8 @@ the pressure at single nodes to first order, at any load.
 Derivation. With 1/E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, a surface r^2 / 2R pressed on a flat
 without friction touches within a,
 
-    cylinder (b long)   P = pi a^2 E* b / 4R,   p0 = a E* / 2R,      approach / P = c - 2 ln(a) / pi E* b,
-    sphere              P = 4 a^3 E* / 3R,      p0 = 2 a E* / pi R,  approach / P = c + 3 / (4 E* a),
+    cylinder of b m   P = pi a^2 E* b / 4R,  p0 = a E* / 2R,     approach/P = c - 2 ln(a) / pi E* b,
+    sphere            P = 4 a^3 E* / 3R,     p0 = 2 a E* / pi R, approach/P = c + 3 / (4 E* a),
 
 under the pressure p0 (1 - r^2 / a^2)^(1/2). The weight of a block with a curved bottom is P; the
 base is a block of the same size, held below. The cylinder is a slice of one brick along y, with nu
@@ -48,8 +48,8 @@ from fecolumn.case import Material
 from fecolumn.dynamics.hht import HHT
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import begin
+from fecolumn.verification.result import CaseRows, Row
+from fecolumn.verification.trials import begin_trial
 
 LARGEST, CURVATURE = 0.01, 100.0  # a under full load and R [m]
 LENGTH = LARGEST / 8  # of the slice of the cylinder [m]
@@ -63,8 +63,18 @@ QUANTITIES = {"radius": "o-", "peak": "s:", "spread": "^--"}  # errors of Presse
 
 @dataclass(frozen=True, slots=True)
 class Hertz:
-    """Exact solution. axes: along which the surface is curved; poisson: of both; moduli: of block
-    and base [Pa]; size: L / a.
+    """Exact solution.
+
+    Attributes
+    ----------
+    axes
+        along which the surface is curved.
+    poisson
+        of both.
+    moduli
+        of block and base [Pa].
+    size
+        L / a.
     """
 
     axes: int
@@ -74,6 +84,7 @@ class Hertz:
 
     @property
     def name(self) -> str:
+        """Shape of the curved body: cylinder or sphere."""
         return ("cylinder", "sphere")[self.axes - 1]
 
     @property
@@ -115,9 +126,22 @@ class Hertz:
 class Pressed:
     """A block on bricks of side h [m] under one load.
 
-    a: exact radius [m]. place: (n,) r of the foot's nodes over a; pressures: (n,) over p0. radius,
-    peak: relative errors. spread: of the pressures, root of the mean square over the contact.
-    approach: settlement of the block [m]. friction: largest share of p0.
+    Attributes
+    ----------
+    a
+        exact radius [m].
+    place
+        (n,) r of the foot's nodes over a.
+    pressures
+        (n,) over p0.
+    radius, peak
+        relative errors.
+    spread
+        of the pressures, root of the mean square over the contact.
+    approach
+        settlement of the block [m].
+    friction
+        largest share of p0.
     """
 
     h: float
@@ -131,7 +155,7 @@ class Pressed:
     friction: float
 
 
-def lines(h: float, fine: float, far: float, growth: float) -> np.ndarray:
+def graded_lines(h: float, fine: float, far: float, growth: float) -> np.ndarray:
     """Grid lines [m] from 0 to `far`: equal bricks of side h until `fine`, then growing."""
     equal = h * np.arange(np.ceil(fine / h - 1e-9) + 1)
     steps = h * growth ** np.arange(
@@ -145,7 +169,10 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
     [m].
     """
     h, far, growth = LARGEST / bricks, exact.size * LARGEST, GROWTH ** (1 / bricks)
-    half, up = lines(h, RIM * LARGEST, far / 2, growth), lines(h, DEPTH * LARGEST, far, growth)
+    half, up = (
+        graded_lines(h, RIM * LARGEST, far / 2, growth),
+        graded_lines(h, DEPTH * LARGEST, far, growth),
+    )
     x = np.concatenate([-half[:0:-1], half])
     # a slice of the base is longer by a hair: no point may leave it
     y, under = (
@@ -179,21 +206,21 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
         # at rest gravity and mass are one: of a material that there is, a small block needs more
         # than the Earth's
         system.weight = exact.load(a)
-        system.gravity = np.array([0.0, 0.0, -system.weight / system.column.total_mass])
-        found.append(measured(exact, system, begin(engine, system).start, a, h))
+        system.gravity = np.array([0.0, 0.0, -system.weight / system.body.total_mass])
+        found.append(measured_contact(exact, system, begin_trial(engine, system).start, a, h))
     return found
 
 
-def measured(exact: Hertz, system, state, a: float, h: float) -> Pressed:
+def measured_contact(exact: Hertz, system, state, a: float, h: float) -> Pressed:
     """What a state at rest under the load of radius `a` [m] shows."""
-    squares, column = (system.interface.reference[:, : exact.axes] ** 2).sum(axis=1), system.column
+    squares, column = (system.interface.reference[:, : exact.axes] ** 2).sum(axis=1), system.body
     forces, p0 = state.forces[:, 2], exact.peak(a)
     radius = np.sqrt(forces @ squares / forces.sum() / exact.moment)
-    pressures = forces / system.areas / p0
+    pressures = forces / system.footprint.areas / p0
     wrong = pressures - np.sqrt(np.maximum(1 - squares / a**2, 0))
     contact = 2 * a * LENGTH if exact.axes == 1 else np.pi * a**2
     sunk = column.node_mass @ (column.X - state.x)[:, 2] / column.total_mass
-    rubbed = np.linalg.norm(state.forces[:, :2], axis=1) / system.areas / p0
+    rubbed = np.linalg.norm(state.forces[:, :2], axis=1) / system.footprint.areas / p0
     return Pressed(
         h,
         a,
@@ -201,23 +228,25 @@ def measured(exact: Hertz, system, state, a: float, h: float) -> Pressed:
         pressures,
         radius / a - 1,
         pressures[squares.argmin()] - 1,
-        np.sqrt(wrong**2 @ system.areas / contact),
+        np.sqrt(wrong**2 @ system.footprint.areas / contact),
         sunk,
         rubbed.max(),
     )
 
 
-def run(engine: str, long: bool) -> Result:
-    """Cylinder with 4 to 12 bricks along the radius, sphere with 3 to 5; up to 24 and 7 if `long`."""
+def run(engine: str, long: bool) -> CaseRows:
+    """Cylinder with 4 to 12 bricks along the radius, sphere with 3 to 5; up to 24 and 7 if
+    `long`.
+    """
     meshes = {
         Hertz(1, 0.0, 64): (4, 6, 8, 12) + (16, 24) * long,
         Hertz(2, 0.3, 8): (3, 4, 5) + (6, 7) * long,
     }
-    result, found = Result(size=(7.2, 5.2)), {}
+    result, found = CaseRows(size=(7.2, 5.2)), {}
     for exact, bricks in meshes.items():
         radii = LARGEST * np.linspace(1, 0.7, 5 if exact.axes == 1 else 3)
         found[exact] = series = {n: press(engine, exact, n, radii) for n in bricks}
-        result.rows += rows(exact, series)
+        result.rows += contact_rows(exact, series)
         smaller = press(engine, replace(exact, size=exact.size / 2), bricks[0], radii[:1])[0]
         result.rows.append(
             Row(
@@ -237,7 +266,7 @@ def run(engine: str, long: bool) -> Result:
             1 / cylinder.size,
         )
     )
-    result.draw = lambda figure: draw(figure, found)
+    result.draw = lambda figure: draw_contact(figure, found)
     return result
 
 
@@ -246,7 +275,7 @@ def worst(quantity: str, series: dict[int, list[Pressed]]) -> list[float]:
     return [max(abs(getattr(one, quantity)) for one in loads) for loads in series.values()]
 
 
-def rows(exact: Hertz, series: dict[int, list[Pressed]]) -> list[Row]:
+def contact_rows(exact: Hertz, series: dict[int, list[Pressed]]) -> list[Row]:
     """What the finest mesh finds at the worst of the loads, with orders over all meshes."""
     bricks, name = max(series), exact.name
     loads = series[bricks]
@@ -307,7 +336,7 @@ def rows(exact: Hertz, series: dict[int, list[Pressed]]) -> list[Row]:
     ]
 
 
-def draw(figure, found) -> None:
+def draw_contact(figure, found) -> None:
     """Pressures, the softening of the contact with the load, and the errors."""
     profiles, (softening, errors) = figure.subplots(2, 2)
     r = np.sin(np.linspace(0, np.pi / 2, 100))

@@ -5,7 +5,8 @@ error and spectral radius are those of the method for every alpha; alpha = 0 kee
 
 Derivation. In a mode of frequency w, with W = w dt and z = (u, dt v, dt^2 a), a step is z1 = A z0:
 
-    a1 + (1 + al) W^2 u1 - al W^2 u0 = 0,   u1 = u0 + v0 + (1/2 - be) a0 + be a1,   v1 = v0 + (1 - ga) a0 + ga a1,
+    a1 + (1 + al) W^2 u1 - al W^2 u0 = 0,
+    u1 = u0 + v0 + (1/2 - be) a0 + be a1,   v1 = v0 + (1 - ga) a0 + ga a1,
     be = (1 - al)^2 / 4,   ga = 1/2 - al.
 
 The principal eigenvalues exp(W' (-xi +- i)) of A give the damping ratio xi and the period error W /
@@ -41,8 +42,9 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.fem.modes import free_modes
 from fecolumn.post.style import LINES
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import afloat, begin
+from fecolumn.verification.result import CaseRows, Row
+from fecolumn.verification.trial import afloat
+from fecolumn.verification.trials import begin_trial
 
 ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
 PER_PERIOD = (16, 32, 64, 128)
@@ -64,7 +66,9 @@ class Mode:
     Attributes
     ----------
     shape
-        (n, 3) with unit modal mass. frequency: w [rad/s].
+        (n, 3) with unit modal mass.
+    frequency
+        w [rad/s].
     """
 
     def __init__(self, engine: str):
@@ -73,6 +77,7 @@ class Mode:
         self.frequency, self.shape = 2 * np.pi * modes.frequencies[6], modes.shapes[6]
 
     def system(self, dt: float, alpha: float):
+        """Block above a base, nearly without weight, so that it vibrates and never lands."""
         body = box(np.linspace(-0.1, 0.1, 3), np.linspace(-0.15, 0.15, 3), np.linspace(0, 1, 7))
         return block_system(
             self.engine,
@@ -92,7 +97,7 @@ class Mode:
         dt = angle / self.frequency
         system = self.system(dt, alpha)
         scale = amplitude * np.array([1, 1 / dt, 1 / dt**2])
-        trial = begin(
+        trial = begin_trial(
             self.engine,
             system,
             lambda system: afloat(
@@ -101,13 +106,13 @@ class Mode:
         )
         rest, measure = (
             trial.state.x - scale[0] * start[0] * self.shape,
-            system.column.momentum(self.shape),
+            system.body.momentum(self.shape),
         )
         history, energy = [np.array(start, float)], [trial.mechanical()]
         for _ in range(count):
             state = trial.step()
             history.append(
-                [system.column.dot(measure, field) for field in (state.x - rest, state.v, state.a)]
+                [system.body.dot(measure, field) for field in (state.x - rest, state.v, state.a)]
                 / scale
             )
             energy.append(trial.mechanical())
@@ -156,10 +161,10 @@ def of_history(values: np.ndarray) -> tuple[float, float]:
     return principal(np.roots([1, -p, -q]).astype(complex))
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """The whole case in either engine; `long` has nothing to add."""
     mode = Mode(engine)
-    result, errors, departure = Result(size=(7.2, 5.2)), {}, 0.0
+    result, errors, departure = CaseRows(size=(7.2, 5.2)), {}, 0.0
     for alpha in ALPHAS:
         found = []
         for number in PER_PERIOD:
@@ -242,7 +247,7 @@ def run(engine: str, long: bool) -> Result:
             1e-6,
         )
     )
-    result.draw = lambda figure: draw(figure, errors, damped, angles, radii)
+    result.draw = lambda figure: draw_scheme(figure, errors, damped, angles, radii)
     return result
 
 
@@ -281,7 +286,7 @@ def decays(
     return found
 
 
-def draw(figure, errors, damped, angles, radii) -> None:
+def draw_scheme(figure, errors, damped, angles, radii) -> None:
     """Convergence, damping ratio, period error and spectral radius against dt over the period;
     lines exact but for the first.
     """

@@ -40,15 +40,16 @@ from fecolumn.post.style import LINES
 from fecolumn.schema import merge
 from fecolumn.verification import FULL
 from fecolumn.verification.models import COARSE, column_case, shaking
-from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import begin, solver_drift
+from fecolumn.verification.result import CaseRows, Row
+from fecolumn.verification.trial import solver_drift
+from fecolumn.verification.trials import begin_trial
 
 STEPS, DT = 200, 1e-3
 TIMES = DT * np.arange(1, STEPS + 1)
 FLOOR = 1e-18  # m, drawn for no difference at all
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """The reduced engine runs on one core; it is interrupted where it looks for Ctrl-C, between
     chunks of steps.
     """
@@ -56,9 +57,9 @@ def run(engine: str, long: bool) -> Result:
     specimen, off = specimen_mesh(case), {}
 
     def trial(mesh=specimen):
-        return begin(engine, build_system(case, MPI.COMM_SELF, mesh))
+        return begin_trial(engine, build_system(case, MPI.COMM_SELF, mesh))
 
-    whole, result = trial(), Result()
+    whole, result = trial(), CaseRows()
     path = whole.shake(motion)
     peak = np.abs(path).max()
     drift = 2 * solver_drift(whole.system, TIMES) * TIMES / 2
@@ -173,7 +174,9 @@ def on_ranks(engine: str, n: int, motion) -> np.ndarray:
 
 
 def resumed(engine: str, motion, parts: int) -> np.ndarray:
-    """Path of the top (steps + 1, 3) [m] of an analysis in one part, or in two by Ctrl-C at half."""
+    """Path of the top (steps + 1, 3) [m] of an analysis in one part, or in two by Ctrl-C at
+    half.
+    """
     with tempfile.TemporaryDirectory() as folder:
         # fields and states at half: what is written must not matter either, and the reduced engine
         # looks for Ctrl-C wherever it writes

@@ -7,6 +7,7 @@ above has closed forms. Stones are so stiff that what their modes store is not s
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -27,7 +28,9 @@ DISPLACED = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1e-2)
 INERTIA = (B**2 + H**2) / 3
 
 
-def tables(engine: str, above: dict, below: dict | None = None, dt: float = DT, **more) -> dict:
+def block_tables(
+    engine: str, above: dict, below: dict | None = None, dt: float = DT, **more
+) -> dict:
     """Tables of a case; above, below: keys beside those of a block."""
     shape = dict(kind="block", length_m=2 * B, width_m=2 * W) if "kind" not in above else {}
     stone = dict(youngs_modulus_pa=5e12, poissons_ratio=0.2) | shape
@@ -57,8 +60,8 @@ def engines(tables: dict):
 
 
 def two(engine: str, above: dict, below: dict | None = None, **more):
-    """Engine of a body on a heavy one; arguments as of `tables`."""
-    return engines(tables(engine, above, below, **more))()
+    """Engine of a body on a heavy one; arguments as of `block_tables`."""
+    return engines(block_tables(engine, above, below, **more))()
 
 
 class Rocks(NamedTuple):
@@ -66,7 +69,7 @@ class Rocks(NamedTuple):
     rates' ratio over it.
     """
 
-    of: callable
+    of: Callable[[float], np.ndarray]
     impact: float
     ratio: float
 
@@ -104,7 +107,7 @@ def arms(displaced: float) -> tuple[float, float]:
     return B - max(displaced, 0.0), B - max(-displaced, 0.0)
 
 
-def rocked(made, exact: Rocks, angle: float, last: float = 0.2) -> np.ndarray:
+def rocked_block(made, exact: Rocks, angle: float, last: float = 0.2) -> np.ndarray:
     """Errors of a block let go towards `angle` [deg]: tilt before its first impact over TILT, mean
     rates in the last and next 10 ms beside the impact, tilt at the last instant [s].
 
@@ -160,7 +163,7 @@ def lifts(make, push: float, towards: np.ndarray) -> float:
     return push * (1 + 5e-4 * (1 - bends[0] / (bends[1] - bends[0])))
 
 
-def turns(
+def turning_error(
     made, push: float, towards: np.ndarray, normal: np.ndarray, apart: float, inertia: float
 ) -> float:
     """Error of the angular acceleration of the body above about an edge, over that of the closed

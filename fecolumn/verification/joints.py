@@ -18,17 +18,17 @@ from fecolumn.verification.joint_bodies import (
     H,
     W,
     arms,
+    block_tables,
     engines,
     lifts,
     met,
     region,
-    rocked,
+    rocked_block,
     rocks,
-    tables,
-    turns,
+    turning_error,
     two,
 )
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 
 # Angle about the vertical [deg] and displacements [m] of the block above
 _TURNED = {
@@ -41,38 +41,38 @@ _TURNED = {
 _SQUARE = 0.15
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """Rows of one engine."""
     if engine == "corotated":
-        return Result(list(joints_full.rows()))
+        return CaseRows(list(joints_full.full_joint_rows()))
     rows = [
         *_displaced(engine),
         *_lifts(engine),
         *_turned(engine),
         *_lets_go(engine),
-        *joints_moving.rows(engine),
-        *(multi_drum.rows() if engine == "rigid" else ()),
+        *joints_moving.moving_joint_rows(engine),
+        *(multi_drum.multi_drum_rows() if engine == "rigid" else ()),
     ]
-    return Result(rows, lambda figure: draw(engine, figure))
+    return CaseRows(rows, lambda figure: draw_rates(engine, figure))
 
 
-def draw(engine: str, figure) -> None:
+def draw_rates(engine: str, figure) -> None:
     """Rates in the 10 ms before and after the first impact over the displacement of the block
     above, beside the closed form.
     """
     small = np.logspace(-9, np.log10(0.05), 24)
     ways = np.concatenate([-small[::-1], [0.0], small])
     off = np.array([displaced(engine, way) for way in ways])[:, 1:3]
-    exact = []
+    rates = []
     for way in ways:
         one = rocks(*arms(way))
-        exact.append(
+        rates.append(
             [
                 -(one.of(one.impact + end)[0] - one.of(one.impact + start)[0]) / 0.01
                 for start, end in ((-0.0125, -0.0025), (0.0025, 0.0125))
             ]
         )
-    exact = np.array(exact)
+    exact = np.array(rates)
     for axes, place, label in zip(
         figure.subplots(1, 2), (0, 1), ("before the impact", "after the impact")
     ):
@@ -108,7 +108,7 @@ def displaced(engine: str, way: float, angle: float = 0.0, smaller: float = 0.0)
         initial=dict(up=dict(tilt_rad=TILT, direction_deg=angle)),
     )
     near, far = min(half, B - moved), min(half, B + moved)
-    return rocked(made, rocks(near, far, (half**2 + H**2) / 3), angle)
+    return rocked_block(made, rocks(near, far, (half**2 + H**2) / 3), angle)
 
 
 def _displaced(engine: str):
@@ -156,7 +156,7 @@ def _lifts(engine: str):
             np.array([np.cos(np.radians(a)), np.sin(np.radians(a))]) for a in (towards, way)
         )
         for moved in (sign * one for one in DISPLACED for sign in (1, -1)):
-            make = engines(tables(engine, dict(at_m=[*(moved * displaces), BELOW])))
+            make = engines(block_tables(engine, dict(at_m=[*(moved * displaces), BELOW])))
             exact = GRAVITY * (half - max(moved * float(displaces @ direction), 0.0)) / H
             errors.append(abs(lifts(make, exact, direction) / exact - 1))
         yield Row(
@@ -177,7 +177,9 @@ def _turned(engine: str):
         for place in places:
             make, corners, errors = (
                 engines(
-                    tables(engine, square | dict(turned_deg=angle, at_m=[*place, BELOW]), square)
+                    block_tables(
+                        engine, square | dict(turned_deg=angle, at_m=[*place, BELOW]), square
+                    )
                 ),
                 region(angle, place, (_SQUARE, _SQUARE)),
                 [],
@@ -192,7 +194,7 @@ def _turned(engine: str):
                 way, normal, apart, longer = met(corners, towards)
                 # less than would press on a corner
                 errors.append(
-                    turns(
+                    turning_error(
                         make(),
                         min(1.3, 1 + (longer - 1) / 2) * GRAVITY * way / H,
                         towards,
@@ -233,7 +235,7 @@ def _lets_go(engine: str):
                     square,
                     initial=dict(up=dict(tilt_rad=TILT, direction_deg=float(towards))),
                 )
-                errors.append(rocked(made, exact, float(towards)))
+                errors.append(rocked_block(made, exact, float(towards)))
             # edges that are parallel to a few thousandths share an impulse, as
             # contact.tolerances.IMPACT_LEFT allows
             yield Row(

@@ -12,13 +12,13 @@ import numpy as np
 from fecolumn.case import case_from_tables
 from fecolumn.dynamics.history import read_history
 from fecolumn.simulation import run as analyse
-from fecolumn.verification.joint_bodies import BELOW, TILT, H, arms, region, rocks, tables
+from fecolumn.verification.joint_bodies import BELOW, TILT, H, arms, block_tables, region, rocks
 from fecolumn.verification.result import Row
 
 _SIZE, _LAST = dict(element_size_m=0.1), 0.1
 
 
-def rows():
+def full_joint_rows():
     """Tilts 0.1 s after the release; the summary's closure of each run."""
     closures = []
 
@@ -80,7 +80,7 @@ def _lean(above: dict, below: dict, towards: float) -> tuple[float, float]:
         {key: value for key, value in (_SIZE | one).items() if value is not None}
         for one in (above, below)
     ]
-    case = tables(
+    case = block_tables(
         "full", *sized, dt=1e-3, initial=dict(up=dict(tilt_rad=TILT, direction_deg=towards))
     )
     case["integration"]["duration_s"] = _LAST

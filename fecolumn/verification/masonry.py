@@ -40,14 +40,14 @@ from fecolumn.rocking.masonry_force import (
     side_wall_lever,
 )
 from fecolumn.rocking.masonry_limit import associated, non_associated, running_bond, wall_of_boxes
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 
 THICKNESS, HEIGHT = 0.4, 3.0
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """All rows; the long run looks for the least multiplier without dilatancy from six starts."""
-    return Result([*_force(), *_displacement(), *_limit(6 if long else 1)], _draw, (7.2, 2.8))
+    return CaseRows([*_force(), *_displacement(), *_limit(6 if long else 1)], _draw, (7.2, 2.8))
 
 
 def _force():

@@ -1,11 +1,16 @@
-"""Small systems to verify: the specimen on a coarse mesh, and blocks of bricks on blocks of bricks."""
+"""Small systems to verify: the specimen on a coarse mesh, and blocks of bricks on blocks of
+bricks.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypedDict, Unpack
 
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case import Material, case_from_tables
+from fecolumn.case import Material
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.footprint import Footprint
 from fecolumn.dynamics.assembly import build_system
@@ -13,12 +18,12 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.system import System, one_column
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
-from fecolumn.fem.damping import ModalDamping
 from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
 from fecolumn.schema import merge
+from fecolumn.short_form import short_form
 from fecolumn.verification import REDUCED
 
 # The stout column on the coarsest mesh that keeps every part; meshes/stout.toml has the sources of
@@ -41,13 +46,11 @@ TONES = ((1, np.array([30.0, 31.0, 1.0])), (-1, np.array([75.0, 73.0, 1.0])))
 
 
 def column_case(engine: str, **tables):
-    """Case of the coarse specimen; `tables` are merged over it, e.g.
-    contact={"friction_coefficient": 0.8}.
+    """Case of the coarse specimen; `tables`, such as contact={"friction_coefficient": 0.8}, are
+    merged over it.
     """
     key = "engine" if engine in REDUCED else "kinematics"
-    return case_from_tables(
-        merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification"
-    )
+    return short_form(merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification")
 
 
 def column_system(engine: str, **tables) -> System:
@@ -73,21 +76,60 @@ def box(x, y, z) -> BrickMesh:
     return swept_grid(np.asarray(x, float), np.asarray(y, float), np.asarray(z, float), LOWER)
 
 
+class BlockSettings(TypedDict, total=False):
+    """Settings of a `block_system`.
+
+    Attributes
+    ----------
+    material, base_material
+        steel unless given; the base is of the body's material unless given.
+    friction
+        Coulomb's coefficient.
+    gravity
+        (3,) [m/s2].
+    filtered
+        contact as the plastic impact law needs it; False for the literal HHT (Stepper's impact
+        "none").
+    order
+        of the body's elements.
+    foot_height
+        how far above z = 0 the foot may reach [m].
+    damping_ratio
+        of the DAMPED lowest elastic modes.
+    restitution
+        of an impact.
+    """
+
+    material: Material
+    base_material: Material | None
+    friction: float
+    gravity: Sequence[float]
+    filtered: bool
+    order: int
+    foot_height: float
+    damping_ratio: float
+    restitution: float
+
+
+_BLOCK = BlockSettings(
+    material=Material(youngs_modulus_pa=200e9, poissons_ratio=0.3, density_kg_m3=7850.0),
+    base_material=None,
+    friction=0.3,
+    gravity=(0.0, 0.0, -9.80665),
+    filtered=True,
+    order=1,
+    foot_height=0.0,
+    damping_ratio=0.0,
+    restitution=0.0,
+)
+
+
 def block_system(
     engine: str,
     mesh: BrickMesh,
     base: BrickMesh,
     hht: HHT,
-    *,
-    material: Material | None = None,
-    base_material: Material | None = None,
-    friction: float = 0.3,
-    gravity=(0.0, 0.0, -9.80665),
-    filtered: bool = True,
-    order: int = 1,
-    foot_height: float = 0.0,
-    damping_ratio: float = 0.0,
-    restitution: float = 0.0,
+    **settings: Unpack[BlockSettings],
 ) -> System:
     """A body of bricks over a base of bricks.
 
@@ -100,18 +142,13 @@ def block_system(
         the foot.
     base
         tensor-product grid with its top at z = 0, held at its bottom.
-    material, base_material
-        steel unless given.
-    filtered
-        contact as the plastic impact law needs it; False for the literal HHT (Stepper's impact
-        "none").
-    damping_ratio
-        of the DAMPED lowest elastic modes.
+    settings
+        what is not as in _BLOCK.
     """
-    comm = MPI.COMM_SELF
-    steel = Material(youngs_modulus_pa=200e9, poissons_ratio=0.3, density_kg_m3=7850.0)
-    body = Body(comm, mesh, material or steel, order)
-    kinematics = TotalLagrangian(body) if engine == "total_lagrangian" else Corotated(body)
+    comm, given = MPI.COMM_SELF, BlockSettings(**{**_BLOCK, **settings})
+    foot_height, damping_ratio = given["foot_height"], given["damping_ratio"]
+    body = Body(comm, mesh, given["material"], given["order"])
+    kinematics = TotalLagrangian if engine == "total_lagrangian" else Corotated
     quads = boundary_faces(
         mesh, LOWER, foot_height / 2, foot_height / 2 + 1e-9 * np.ptp(mesh.points[:, 2])
     )
@@ -122,17 +159,17 @@ def block_system(
         bottom = plate.all_X[:, 2].min()
         return {}, np.flatnonzero(plate.all_X[:, 2] < bottom + 1e-9 * np.ptp(plate.all_X[:, 2]))
 
-    plate = BasePlate(Body(comm, base, base_material or material or steel, 1, held))
+    plate = BasePlate(Body(comm, base, given["base_material"] or given["material"], 1, held))
     return one_column(
         body,
         kinematics,
         plate,
         Footprint.of_all(body.find_nodes(mesh.points[points]), areas),
-        friction,
+        given["friction"],
         np.zeros((len(points), 3)),
-        gravity,
+        given["gravity"],
         hht,
-        filtered=filtered,
-        damping=ModalDamping(body, DAMPED, damping_ratio) if damping_ratio else None,
-        restitution=restitution,
+        filtered=given["filtered"],
+        damping=(DAMPED, damping_ratio),
+        restitution=given["restitution"],
     )

@@ -24,17 +24,21 @@ class MovingInterface(Interface):
     Attributes
     ----------
     position
-        (3,) of the base at the end of the step, first: (3,) at its start [m].
+        (3,) of the base at the end of the step [m].
+    first
+        (3,) of the base at the start of the step [m].
     known_velocities
         pairs of the column's velocity array and the base's velocity (3,) at the same time [m/s];
         the last one is the end of the step.
     """
 
     def __init__(self, still: Interface):
-        super().__init__(still.column, still.foot, still.base, still.joints, still.laws)
-        self.position, self.first, self.known_velocities = np.zeros(3), np.zeros(3), []
+        super().__init__(still.composite, still.foot, still.base, still.joints)
+        self.position, self.first = np.zeros(3), np.zeros(3)
+        self.known_velocities: list = []
 
     def begin_step(self, *args):
+        """Begin a step with the base where it was at the start of it."""
         end, self.position = self.position, self.first
         try:
             return super().begin_step(*args)
@@ -42,9 +46,11 @@ class MovingInterface(Interface):
             self.position = end
 
     def positions(self, x, *args):
+        """Positions [m] of the contact points relative to the moving base."""
         return super().positions(x, *args) - self.position
 
     def velocities(self, v, *args):
+        """Velocities [m/s] of the contact points relative to the moving base."""
         base = next(
             (base for known, base in self.known_velocities if known is v),
             self.known_velocities[-1][1],
@@ -60,14 +66,16 @@ class MovingStepper(Stepper):
     ----------
     base
         Base at the end of the last step, or of the part of one that a fast rolling rim makes by
-        itself. work: of the base so far [J].
+        itself.
+    work
+        of the base so far [J].
     """
 
     def __init__(self, system, ledger, path):
         super().__init__(system, ledger)
         self.path, self.base, self.work, self._moved = (
             path,
-            Base(*np.zeros((4, 3))),
+            BaseMotion(*np.zeros((4, 3))),
             0.0,
             np.zeros(3),
         )
@@ -91,7 +99,7 @@ class MovingStepper(Stepper):
         free = state.v + hht.dt * (
             (1 - hht.gamma) * state.a + hht.gamma * after.a + after.contact_a
         )
-        impulse = np.einsum("cna,na->c", self.system.column.unit_loads, after.v - free)
+        impulse = np.einsum("cna,na->c", self.system.body.unit_loads, after.v - free)
         self.work += float(after.forces.sum(axis=0) @ self._moved + last.velocity @ impulse)
         self.base, after.ground = last, np.array(ground, float)
         return after
@@ -135,7 +143,7 @@ class InertialTrial:
         )
 
 
-class Base(NamedTuple):
+class BaseMotion(NamedTuple):
     """Position [m], velocity [m/s] and acceleration [m/s2] of the base, and `blended` [m/s2], that
     which HHT remembers; each (3,).
     """
@@ -146,12 +154,12 @@ class Base(NamedTuple):
     blended: np.ndarray
 
 
-def by_hht(hht, base: Base, acceleration, time: float) -> Base:
+def by_hht(hht, base: BaseMotion, acceleration, time: float) -> BaseMotion:
     """The base a step of `hht` later, under `acceleration` (3,) [m/s2] then, by the formulas of
     HHT.
     """
     blended = (1 + hht.alpha) * acceleration - hht.alpha * base.acceleration
-    return Base(
+    return BaseMotion(
         base.position
         + hht.dt * base.velocity
         + hht.dt**2 * ((0.5 - hht.beta) * base.blended + hht.beta * blended),
@@ -161,10 +169,10 @@ def by_hht(hht, base: Base, acceleration, time: float) -> Base:
     )
 
 
-def on_exact_path(hht, base: Base, acceleration, time: float) -> Base:
+def on_exact_path(hht, base: BaseMotion, acceleration, time: float) -> BaseMotion:
     """The base of `shaking` at `time` [s]."""
     position, velocity = exact_path([time])
-    return Base(position[0], velocity[0], np.array(acceleration, float), base.blended)
+    return BaseMotion(position[0], velocity[0], np.array(acceleration, float), base.blended)
 
 
 def hht_path(hht, accelerations) -> tuple[np.ndarray, np.ndarray]:
@@ -175,7 +183,7 @@ def hht_path(hht, accelerations) -> tuple[np.ndarray, np.ndarray]:
         accumulate(
             accelerations,
             lambda base, ground: by_hht(hht, base, ground, 0.0),
-            initial=Base(*np.zeros((4, 3))),
+            initial=BaseMotion(*np.zeros((4, 3))),
         )
     )[1:]
     return np.array([base.position for base in bases]), np.array([base.velocity for base in bases])

@@ -44,14 +44,14 @@ _OUTCOMES = {
 }
 
 
-def rows():
+def multi_drum_rows():
     """Whether it overturns where the planar program says so."""
     with tempfile.TemporaryDirectory() as folder:
-        case = column_case(Path(folder))
+        case = drum_case(Path(folder))
         model = structure_model(case)
     for tp, outcomes in _OUTCOMES.items():
         found = [
-            bool(engine_of(case, model, "verify").advance(pulse(a, tp, 12.0 - 3 * tp))[1])
+            bool(engine_of(case, model, "verify").advance(drum_pulse(a, tp, 12.0 - 3 * tp))[1])
             for a in outcomes
         ]
         differ = sum(one != exact for one, exact in zip(found, outcomes.values()))
@@ -65,7 +65,7 @@ def rows():
         )
 
 
-def pulse(a: float, tp: float, rest: float, dt: float = DT) -> np.ndarray:
+def drum_pulse(a: float, tp: float, rest: float, dt: float = DT) -> np.ndarray:
     """Ground accelerations (n, 3) [m/s2] at the ends of steps: a [g] along x for tp [s], -a/2 for
     twice as long, then rest [s].
     """
@@ -89,7 +89,7 @@ def drums_of_column() -> list[np.ndarray]:
     ]
 
 
-def column_case(folder: Path):
+def drum_case(folder: Path):
     """Case of the column; the drums are mesh files in the folder, 1 m deep."""
     bodies, joints = {}, {}
     for k, ((a, low), (b, high)) in enumerate(drum[[1, 3]] for drum in drums_of_column()):

@@ -57,7 +57,7 @@ from fecolumn.mesh.bricks import LOWER, UPPER
 from fecolumn.mesh.column import divisions, section
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.verification.models import block_system, column_case
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row, order_of
 from fecolumn.verification.tied import STRETCH, Tied, end_areas, tied_blocks
 from fecolumn.verification.trial import Trial
 
@@ -66,15 +66,17 @@ SIDE, HEIGHT = 1.0, 0.5  # [m] of each block
 SOFT = Material(youngs_modulus_pa=1e9, poissons_ratio=0.0, density_kg_m3=2000.0)
 GRADED = SIDE * np.array([0.0, 0.08, 0.2, 0.4, 0.55, 0.8, 1.0])
 SQUARE = 1.12  # displacement of a loaded square's centre, times E / (pressure side)
+# of bricks of the foot on bricks of the base
 COLOURS = {
     (3, 2): ("#0072B2", "o"),
     (2, 3): ("#D55E00", "s"),
-}  # of bricks of the foot on bricks of the base
+}
 
 
-def run(engine: str, long: bool) -> Result:
+def run(engine: str, long: bool) -> CaseRows:
+    """Rows of a block on a base, with bricks that match and bricks that do not."""
     counts = (2, 4, 6, 8) if long else (2, 4, 6)
-    result = Result([*matching_rows(engine), shaken(engine)], size=(7.2, 2.8))
+    result = CaseRows([*matching_rows(engine), shaken(engine)], size=(7.2, 2.8))
     pairs = {
         pair: [stand(engine, even(pair[0] * n), even(pair[1] * n)) for n in counts]
         for pair in COLOURS
@@ -96,7 +98,7 @@ def run(engine: str, long: bool) -> Result:
             0.0,
             tied[-1],
             allowed,
-            order=slope(sizes, tied),
+            order=order_of(sizes, tied),
         ),
     ]
     result.rows += tie_rows(engine)
@@ -209,19 +211,32 @@ def block_on_block(engine: str, foot, base, distortion: float = 0.0):
         filtered=not distortion,
     )
     if distortion:
-        column = system.column
+        column = system.body
         column.unit_loads = np.zeros_like(column.unit_loads)
         column.unit_loads[2, :, 2] = column.total_mass / SIDE**2 * end_areas(column, mesh, HEIGHT)
     return system
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class StandingBlock:
     """A block at rest on its base; largest errors, relative to the exact.
 
-    size: base brick / height [-]. pressure: at the foot's nodes. sinking: displacement of the
-    base's top, deep: halfway down, both relative to the top's. imbalance: largest e_j. place: (2,
-    n, n) [m] of the foot's nodes; pressures: (n, n) relative to the exact.
+    Attributes
+    ----------
+    size
+        base brick / height [-].
+    pressure
+        at the foot's nodes.
+    sinking
+        displacement of the base's top.
+    deep
+        the same halfway down the base, relative to the top's.
+    imbalance
+        largest e_j.
+    place
+        (2, n, n) [m] of the foot's nodes.
+    pressures
+        (n, n) relative to the exact.
     """
 
     size: float
@@ -233,23 +248,23 @@ class Standing:
     pressures: np.ndarray
 
 
-def stand(engine: str, foot, base, distortion: float = 0.0) -> Standing:
+def stand(engine: str, foot, base, distortion: float = 0.0) -> StandingBlock:
     """Gravity equilibrium of `block_on_block`."""
     system = block_on_block(engine, foot, base, distortion)
     state, plate, points = standing(system), system.base, system.interface.reference
     exact = system.weight / SIDE**2
-    pressure = state.forces[:, 2] / (exact * system.areas)
+    pressure = state.forces[:, 2] / (exact * system.footprint.areas)
     nodes, weights = nodes_under(plate.grid, points)
     moved = plate.displacement(nodes, weights, -state.forces)[:, 2]
     above = plate.body.X[:, 2] + HEIGHT
     wrong = np.abs(moved * SOFT.youngs_modulus_pa / exact + above) / HEIGHT
     arrived, due = np.zeros((2, len(plate.nodes)))
-    np.add.at(arrived, nodes, weights * system.areas[:, None])
+    np.add.at(arrived, nodes, weights * system.footprint.areas[:, None])
     due[plate.grid.number] = np.outer(
         *(np.convolve(np.diff(lines), (0.5, 0.5)) for lines in (plate.grid.x, plate.grid.y))
     )
     order = np.lexsort(np.round(points[:, :2].T, 9)).reshape(len(foot), len(foot))
-    return Standing(
+    return StandingBlock(
         np.diff(base).max() / HEIGHT,
         np.abs(pressure - 1).max(),
         wrong.max(),
@@ -285,14 +300,14 @@ def shaken(engine: str) -> Row:
         forces = trial.step(
             (0.0, 0.0, 4.9 * np.sin(2 * np.pi * 50 * step * trial.system.hht.dt))
         ).forces[:, 2]
-        worst = max(worst, np.ptp(forces / trial.system.areas) * SIDE**2 / forces.sum())
+        worst = max(worst, np.ptp(forces / trial.system.footprint.areas) * SIDE**2 / forces.sum())
     return Row("pressure: spread under vertical shaking, graded bricks [-]", 0.0, worst, 1e-6)
 
 
-def unmatched_rows(label: str, series: list[Standing]) -> list[Row]:
+def unmatched_rows(label: str, series: list[StandingBlock]) -> list[Row]:
     """Errors of the finest of a series of grids that do not match, and their orders."""
     finest, sizes = series[-1], [one.size for one in series]
-    order = slope(sizes, [one.sinking for one in series])
+    order = order_of(sizes, [one.sinking for one in series])
     deep = 2 / np.pi * finest.imbalance * finest.size**2 / 0.5
     return [
         Row(
@@ -300,7 +315,7 @@ def unmatched_rows(label: str, series: list[Standing]) -> list[Row]:
             0.0,
             finest.pressure,
             finest.imbalance,
-            order=slope(sizes, [one.pressure for one in series]),
+            order=order_of(sizes, [one.pressure for one in series]),
         ),
         Row(
             f"base's displacement, top: error, {label} [-]",
@@ -367,8 +382,3 @@ def tie_rows(engine: str) -> list[Row]:
         )
     )
     return rows
-
-
-def slope(sizes, errors) -> float:
-    """Order of convergence by least squares."""
-    return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])

@@ -22,11 +22,11 @@ import numpy as np
 from fecolumn.motions.directivity_pulse import MEAN_GAMMA, MEAN_PHASE
 from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.frame import Frame
+from fecolumn.rocking.frame import RockingFrame
 from fecolumn.rocking.podium import Podium, study_podium
 from fecolumn.rocking.podium_impact import CAV, CRV, LAWS, kinetic_energy_kept, podium_restitution
 from fecolumn.rocking.storeys import PROFILES, storeys
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 
 #: eta to restitution CRV, CAV and kinetic energy kept CRV, CAV, of tan alpha = 0.15 and gamma = 10
 #: [D]
@@ -40,9 +40,9 @@ ALPHA, GAMMA = math.atan(0.15), 10.0
 STIFF = (0.04, 0.02)  # periods [s]
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """All rows."""
-    return Result(
+    return CaseRows(
         [*_impacts(), *_buildings(), *_sizes(), *_stiff(), *_energies()], _draw, (7.2, 2.8)
     )
 
@@ -154,7 +154,7 @@ def steady_shear(podium: Podium) -> float:
 
 def _stiff():
     frame, rest = (
-        Frame.of(1, ALPHA, 1.5, 1e4, 4e5),
+        RockingFrame.of(1, ALPHA, 1.5, 1e4, 4e5),
         GroundMotion(np.zeros((401, 3)), 0.01, "at rest", ""),
     )
     exact = frame.respond(rest, tilt=0.5 * ALPHA).impact_times[:2]

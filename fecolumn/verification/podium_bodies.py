@@ -11,7 +11,8 @@ Derivation. Per N m_c R^2, with theta the columns' tilt, g = m_b / (N m_c), eta 
 alpha and v the velocity of the floor over 2 R cos alpha: slab and columns have the inertia A = I +
 4 g + 4 g eta s^2, the floor B = 4 g eta (1 - s^2), and without weight
 
-    A theta'' = -B v',  v'' = -w^2 (v - theta'):   theta' = m + (theta'+ - m) cos(W t),   m = (A theta'+ + B v) / (A + B),   W^2 = w^2 (1 + B / A).
+    A theta'' = -B v',   v'' = -w^2 (v - theta'),   so that
+    theta' = m + (theta'+ - m) cos(W t),   m = (A theta'+ + B v) / (A + B),   W^2 = w^2 (1 + B / A).
 
 theta'+ = CAV theta'- and v = theta'- make m = CRV theta'-: both laws are the same balance of
 angular momentum, one at the moment of the impact, the other after the building has come to swing.
@@ -28,19 +29,20 @@ slab's way in a swing over the columns' width, by which inertia and weight chang
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from fecolumn.rocking.podium_impact import CAV, podium_restitution
-from fecolumn.verification.result import Row
-from fecolumn.verification.structures import (
+from fecolumn.verification.podium_structure import (
     ALPHA,
     GAMMA,
     HALF_DIAGONAL,
-    advanced,
+    let_go,
     podium_case,
     tilt_of,
 )
+from fecolumn.verification.result import Row
 
 #: Periods of the storey on a fixed slab [s], down to what the weight holds; share of alpha from
 #: which the podium is let go; step [s]
@@ -53,7 +55,7 @@ FALL = 0.32
 _ALLOWED = 3e-3
 
 
-def rows():
+def podium_rows() -> Iterator[Row]:
     """Rows of all periods."""
     for period in PERIODS:
         found, words = struck(period), f"podium below a storey of {period:g} s"
@@ -84,7 +86,7 @@ def struck(period: float, dt: float = DT) -> dict:
     carried, squared = 4 * GAMMA, math.sin(ALPHA) ** 2
     slab, floor = 4 / 3 + carried * (1 + squared), carried * (1 - squared)
     swing = 2 * math.pi / period * math.sqrt(1 + floor / slab)
-    history = advanced(
+    history = let_go(
         podium_case(1, period, SHARE * ALPHA, dt, building=dict(damping_ratio=0.0)),
         FALL + 2 * math.pi / swing,
     )

@@ -17,13 +17,13 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced import start as starts
 from fecolumn.reduced.build import column_model
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
+from fecolumn.reduced.engine import column_engine
 from fecolumn.reduced.motion import copy
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import column_engine
 from fecolumn.verification.trial import N_MODES, Trial
 
 # what is known of a body: making it takes seconds, and one body serves many trials
-_REDUCED = WeakKeyDictionary()
+_REDUCED: WeakKeyDictionary = WeakKeyDictionary()
 
 
 class Reduction:
@@ -32,21 +32,24 @@ class Reduction:
     Attributes
     ----------
     model
-        ColumnModel. shapes: (m, n_owned, 3) of its modes. rigid, momentum: (3 n_owned, 6) rigid
-        motions and M times them.
+        ColumnModel.
+    shapes
+        (m, n_owned, 3) of its modes.
+    rigid, momentum
+        (3 n_owned, 6) rigid motions and M times them.
     """
 
     def __init__(self, system, n_modes: int):
         body, free = (
-            system.column,
-            3 * (system.column.n_nodes - len(system.column.constraint.nodes)) - 6,
+            system.body,
+            3 * (system.body.n_nodes - len(system.body.constraint.nodes)) - 6,
         )
         height = body.all_X[:, 2]
         top = np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height))
         self.model, self.shapes = column_model(
             body,
-            system.foot_nodes,
-            system.areas,
+            system.footprint.nodes,
+            system.footprint.areas,
             top,
             np.full(len(top), 1 / len(top)),
             min(n_modes, free),
@@ -56,7 +59,7 @@ class Reduction:
     @classmethod
     def of(cls, system, n_modes: int) -> Reduction:
         """That of a system, made once."""
-        known = _REDUCED.setdefault(system.column, {})
+        known = _REDUCED.setdefault(system.body, {})
         if n_modes not in known:
             known[n_modes] = cls(system, n_modes)
         return known[n_modes]
@@ -65,7 +68,7 @@ class Reduction:
         """The Motion that a full-order State is, seen by the rigid motions and the modes: their
         momenta, not their values at nodes.
         """
-        body = system.column
+        body = system.body
         motion, whole = (
             engine.motion_at_rest(),
             {"time": state.time, "static": state.static, "ground": state.ground},
@@ -74,7 +77,7 @@ class Reduction:
         def modal(field):
             return np.tensordot(self.shapes, body.momentum(field), axes=2)
 
-        center, rotation = body.node_mass @ state.x / body.total_mass, state.rotation
+        center, rotation = body.node_mass @ state.x / body.total_mass, state.rotation[0]
         for _ in range(3):
             elastic = (state.x - center) @ rotation - (body.X - body.center)
             rotation = rotation @ rotation_matrix(
@@ -116,7 +119,7 @@ class Expanded:
             motion.whole["ground"][0],
         )
         self.rotation, self.contact, self.rims, self._frame = (
-            motion.rotation[0],
+            motion.rotation,
             motion.contact,
             motion.rims,
             motion.frames[0],
@@ -154,19 +157,21 @@ class Expanded:
 
     @cached_property
     def x(self) -> np.ndarray:
-        return self._frame.center + self._arms @ self.rotation.T
+        """Positions (n, 3) [m] of the nodes."""
+        return self._frame.center + self._arms @ self.rotation[0].T
 
     @cached_property
     def v(self) -> np.ndarray:
+        """Velocities (n, 3) [m/s] of the nodes."""
         return (
             self._frame.velocity
-            + (np.cross(self._frame.spin, self._arms) + self._modal(RATE)) @ self.rotation.T
+            + (np.cross(self._frame.spin, self._arms) + self._modal(RATE)) @ self.rotation[0].T
         )
 
     @cached_property
     def a(self) -> np.ndarray:
         """Of translation and modes: the rotation has no memory of its acceleration."""
-        return self._frame.acceleration + self._modal(ACCELERATION) @ self.rotation.T
+        return self._frame.acceleration + self._modal(ACCELERATION) @ self.rotation[0].T
 
 
 class ReducedTrial(Trial):
@@ -186,7 +191,6 @@ class ReducedTrial(Trial):
     def __init__(self, system, start=standing, n_modes: int = N_MODES):
         self.system, self.penetration = system, 0.0
         self.reduction = Reduction.of(system, n_modes)
-        interface = system.interface
         first = None if start is standing else start(system)
 
         def begin(engine):
@@ -196,7 +200,7 @@ class ReducedTrial(Trial):
                 else self.reduction.projected(engine, first, system)
             )
 
-        eye = view(self.reduction.model, system.weight, interface.laws["friction"])
+        eye = view(self.reduction.model, system.weight, system.laws["friction"])
         self.engine = column_engine(
             self.reduction.model,
             system.base,
@@ -204,23 +208,26 @@ class ReducedTrial(Trial):
             system.hht,
             begin,
             system.gravity,
-            damping_ratio=system.damping.ratio if system.damping else 0.0,
-            **interface.laws,
+            damping_ratio=system.damping.each[0].ratio if system.damping else 0.0,
+            **system.laws,
         )
         self.state = self.start = self._state()
 
     def _state(self) -> Expanded:
-        return Expanded(self.engine, self.reduction, self.system.column)
+        return Expanded(self.engine, self.reduction, self.system.body)
 
     def step(self, ground=(0.0, 0.0, 0.0)):
+        """Advance by one step under a ground acceleration (3,) [m/s2]; the new state."""
         self.engine.advance(np.asarray(ground, float)[None])
         self.state = self._state()
         self.penetration = max(self.penetration, -float(self.state.relative[:, 2].min()))
         return self.state
 
     def energy(self) -> dict[str, float]:
+        """Terms of the energy ledger [J] by name."""
         first = sum(width for name, width in COLUMNS if not name.startswith("energy/"))
         return dict(zip(TERMS, self.engine.row()[first:].tolist()))
 
     def mechanical(self) -> float:
+        """Kinetic, strain and potential energy [J] together."""
         return float(self.engine.mechanical())

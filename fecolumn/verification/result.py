@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+import numpy as np
+
 
 @dataclass(frozen=True, slots=True)
 class Row:
@@ -40,11 +42,12 @@ class Row:
 
     @property
     def ok(self) -> bool:
+        """Whether the error is within the tolerance."""
         return bool(self.error <= self.tolerance)  # a NaN is not
 
 
 @dataclass(slots=True)
-class Result:
+class CaseRows:
     """Rows of a case, and `draw(figure)` that fills a matplotlib figure of `size` (width, height)
     [in].
     """
@@ -52,3 +55,8 @@ class Result:
     rows: list[Row] = field(default_factory=list)
     draw: Callable | None = None
     size: tuple[float, float] = (7.2, 2.8)
+
+
+def order_of(sizes, errors) -> float:
+    """Order of convergence: slope of ln error over ln size, by least squares."""
+    return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])

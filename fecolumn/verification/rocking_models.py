@@ -30,9 +30,9 @@ import math
 import numpy as np
 
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.block import Block, BlockSection
+from fecolumn.rocking.block import BlockSection, RockingBlock
 from fecolumn.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
-from fecolumn.rocking.frame import Frame, FrameSection
+from fecolumn.rocking.frame import FrameSection, RockingFrame
 from fecolumn.rocking.impact import (
     body_restitution,
     frame_restitution,
@@ -49,7 +49,7 @@ from fecolumn.rocking.overturning import (
     verge_velocity,
 )
 from fecolumn.rocking.swing import GRAVITY, PEAK, rock_one, row_of_block
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 
 TEN = math.radians(10)
 #: Least a_p/(g tan alpha) that overturns a block of alpha = 10 degrees, and the impacts before, by
@@ -110,9 +110,9 @@ _BOUNDARY = 0.005
 MOST = 16
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """All rows."""
-    return Result(
+    return CaseRows(
         [
             *_impacts(),
             *_roof(),
@@ -146,7 +146,7 @@ def _impacts():
             5e-4,
             scale=1.0,
         )
-    block = Block.of_section(BlockSection(width_m=0.4, height_m=1.2), "block").planes[0]
+    block = RockingBlock.of_section(BlockSection(width_m=0.4, height_m=1.2), "block").planes[0]
     yield Row(
         "p of a box, sqrt(3 g/(4 R)) [rad/s] (R, Eq. 2)",
         math.sqrt(3 * GRAVITY / (4 * math.hypot(0.2, 0.6))),
@@ -172,7 +172,7 @@ def _impacts():
 
 def _roof():
     mass, roof, h, width = 2000.0 * 0.6 * 3.0, 800.0, 1.5, 0.6
-    plane = Block.of_section(
+    plane = RockingBlock.of_section(
         BlockSection(width_m=width, height_m=2 * h, roof_mass_kg=roof), "wall"
     ).planes[0]
     radius, top = math.hypot(width / 2, h), math.hypot(width / 2, 2 * h)
@@ -191,10 +191,10 @@ def _roof():
 
 
 def _frames():
-    bent = Frame.of_section(
+    bent = RockingFrame.of_section(
         FrameSection(width_m=1.6, height_m=9.6, column_mass_kg=1e5, beam_mass_kg=8e5), "bent"
     )
-    column = Frame.of_section(
+    column = RockingFrame.of_section(
         FrameSection(width_m=1.6, height_m=9.6, column_mass_kg=1e5, beam_mass_kg=0.0), "column"
     )
     p, p_hat = (math.sqrt(one.plane.rocker.p2[0]) for one in (column, bent))
@@ -226,7 +226,7 @@ def _frames():
     yield Row(
         "p_hat^2/p^2 under a heavy beam [-] (M, Eq. 45)",
         2 / 3,
-        Frame.of(2, 0.1, 1.0, 1.0, 1e9).plane.rocker.p2[0] / (3 * GRAVITY / 4),
+        RockingFrame.of(2, 0.1, 1.0, 1.0, 1e9).plane.rocker.p2[0] / (3 * GRAVITY / 4),
         1e-6,
     )
     block = 4.0 / (1 + 2 * 4.0)
@@ -239,11 +239,11 @@ def _frames():
     yield Row(
         "bent: 6 g tan(alpha) [g] (M, 9)", 1.0, 6 * math.tan(bent.slenderness), 5e-3, scale=1.0
     )
-    trilith = Frame.of_section(
+    trilith = RockingFrame.of_section(
         FrameSection(width_m=0.22, height_m=0.8, column_mass_kg=305.0, beam_mass_kg=265.0),
         "trilith",
     )
-    alone = Frame.of_section(
+    alone = RockingFrame.of_section(
         FrameSection(width_m=0.22, height_m=0.8, column_mass_kg=305.0, beam_mass_kg=0.0), "column"
     )
     for words, printed, found, digits in (
@@ -296,8 +296,8 @@ def _restrained_frame():
         beam_mass_kg=94350 / GRAVITY,
     )
     frame, free = (
-        Frame.of_section(FrameSection(**keys, tendon_n_m=1.72e6), ""),
-        Frame.of_section(FrameSection(**keys), ""),
+        RockingFrame.of_section(FrameSection(**keys, tendon_n_m=1.72e6), ""),
+        RockingFrame.of_section(FrameSection(**keys), ""),
     )
     slope, slope_free = (float(np.diff(one.linear_pushover([0, 1]))[0]) for one in (frame, free))
     b, h = (0.5 * 1.463 * of(0.1359) for of in (math.sin, math.cos))

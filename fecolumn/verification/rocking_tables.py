@@ -24,7 +24,7 @@ import numpy as np
 
 from fecolumn.rocking.overturning import half_sine_overturning, half_sine_phase, outcomes
 from fecolumn.rocking.podium_impact import LAWS, podium_restitution
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 
 TABLES = Path(__file__).with_name("tables")
 GAMMA = 10.0  # of the podium's table
@@ -33,10 +33,10 @@ _WITHIN = 0.005
 _FROM, _MOST = 1.0, 1  # w_p/p, impacts
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """All rows."""
     bands = read("overturning_bands")
-    return Result(
+    return CaseRows(
         [*_restitutions(), *_half_sines(), *_bands(bands)],
         lambda figure: _draw(figure, bands),
         (7.2, 3.1),
@@ -85,14 +85,16 @@ def _half_sines():
 
 def _bands(rows):
     for shape in dict.fromkeys(row["pulse"] for row in rows):
-        missed, count = lost(shape, rows)
+        missed, count = lost_bands(shape, rows)
         yield Row(
             f"{shape}: bands of overturning of {count} that are not found [-]", 0, missed, 0.0
         )
 
 
-def lost(shape: str, rows) -> tuple[int, int]:
-    """Bands of a pulse that are not found within both of their ends, and all that are looked for."""
+def lost_bands(shape: str, rows) -> tuple[int, int]:
+    """Bands of a pulse that are not found within both of their ends, and all that are looked
+    for.
+    """
     missed = count = 0
     for ratio in dict.fromkeys(
         float(row["omega_p_over_p"]) for row in rows if row["pulse"] == shape

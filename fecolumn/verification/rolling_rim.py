@@ -37,8 +37,10 @@ class RollingRim:
 
     @classmethod
     def of(cls, system) -> RollingRim:
-        """That of a system's column, from its consistent mass and the farthest nodes of its foot."""
-        column = system.column
+        """That of a system's column, from its consistent mass and the farthest nodes of its
+        foot.
+        """
+        column = system.body
         turns = [np.cross(axis, column.X - column.center) for axis in np.eye(3)]
         transverse, _, axial = (column.dot(turn, column.momentum(turn)) for turn in turns)
         return cls(
@@ -125,9 +127,8 @@ class RollingRim:
         )
         centre = np.diag([self.transverse, self.transverse, self.axial])
         start = Rotation.from_rotvec([0.0, tilt, 0.0])
-        y = np.concatenate(
-            [start.as_quat(), start.inv().apply(self.angular_velocity(tilt, spin))]
-        )  # attitude, body's rates
+        # attitude, body's rates
+        y = np.concatenate([start.as_quat(), start.inv().apply(self.angular_velocity(tilt, spin))])
         time, foot, path = 0.0, 0, []
 
         def down(y):

@@ -12,7 +12,11 @@ elasticity alone: a column that rocks at the tilt th presses its rim into itself
 along an arc of half-angle phi = sqrt(2 d / (th R)). With k ~ E the force per length and
 penetration,
 
-    N = (4/3) k R d phi,   so that d ~ (N / k)^(2/3),   and the resultant lies inside the rim by e = R phi^2 / 10 = d / (5 th) ~ E^(-2/3).
+    N = (4/3) k R d phi,   so that d ~ (N / k)^(2/3),
+
+and the resultant lies inside the rim by
+
+    e = R phi^2 / 10 = d / (5 th) ~ E^(-2/3).
 
 The restoring moment, and the response with it, is off that of a rigid rim by c E^(-2/3). From the
 change d4 when E is multiplied by 4: u(E / 4) - u(E) = d4 (4^(2/3) - 1) / (1 - 4^(-2/3)) = 4^(2/3)
@@ -33,8 +37,9 @@ from fecolumn.case import GRAVITY
 from fecolumn.post.style import LINES
 from fecolumn.schema import merge
 from fecolumn.verification.models import COARSE, column_system, shaking
-from fecolumn.verification.result import Result, Row
-from fecolumn.verification.trial import begin, solver_drift
+from fecolumn.verification.result import CaseRows, Row
+from fecolumn.verification.trial import solver_drift
+from fecolumn.verification.trials import begin_trial
 
 STEEL = 200e9
 STEP = 1e-3  # s, of the first specimen
@@ -60,14 +65,15 @@ def sized(engine: str, size: float, modulus: float):
     )
 
 
-def run(engine: str, long: bool) -> Result:
-    result = Result(size=(7.2, 3.6))
+def run(engine: str, long: bool) -> CaseRows:
+    """Rows of specimens of three sizes, with E in proportion and with the same E."""
+    result = CaseRows(size=(7.2, 3.6))
     steps = 200 if long or engine != "total_lagrangian" else 125
     diameter, times = COARSE["column"]["outer_diameter_m"], STEP * np.arange(1, steps + 1)
 
     def analysed(size, modulus):
         """Path of top and foot over the diameter, (n, 2, 3), and the trial."""
-        trial = begin(engine, sized(engine, size, modulus))
+        trial = begin_trial(engine, sized(engine, size, modulus))
         return trial.shake(shaking(times)) / (size * diameter), trial
 
     def apart(path, other):
@@ -93,7 +99,7 @@ def run(engine: str, long: bool) -> Result:
             )
         )
         if size == 4:
-            speed = np.sqrt(2 * trial.energy()["base_work"] / trial.system.column.total_mass)
+            speed = np.sqrt(2 * trial.energy()["base_work"] / trial.system.body.total_mass)
             result.rows.append(
                 Row(
                     "size and E x 4: energy lost [J]",
@@ -131,8 +137,11 @@ def run(engine: str, long: bool) -> Result:
         left, right = panels.subplots(1, 2)
         scaled = times * np.sqrt(GRAVITY / diameter)
         for axis, name in enumerate("xy"):
-            label = lambda text: text if axis == 0 else None
-            left.plot(scaled, first[:, 0, axis], color=LINES[0][0], label=label("specimen"))
+            # one entry of the legend for both axes
+            specimen, stiffer, same_e = (
+                ["specimen", "size x 4, E x 4", "size x 4, same E"] if axis == 0 else [None] * 3
+            )
+            left.plot(scaled, first[:, 0, axis], color=LINES[0][0], label=specimen)
             left.plot(
                 scaled[::8],
                 paths[4][::8, 0, axis],
@@ -140,7 +149,7 @@ def run(engine: str, long: bool) -> Result:
                 color=LINES[1][0],
                 markersize=3,
                 fillstyle="none",
-                label=label("size x 4, E x 4"),
+                label=stiffer,
             )
             left.plot(
                 scaled,
@@ -148,7 +157,7 @@ def run(engine: str, long: bool) -> Result:
                 color="k",
                 linestyle="--",
                 linewidth=0.8,
-                label=label("size x 4, same E"),
+                label=same_e,
             )
             low = np.argmin(first[:, 0, axis])
             left.annotate(

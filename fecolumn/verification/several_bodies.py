@@ -8,13 +8,13 @@ import numpy as np
 
 from fecolumn.case import GRAVITY
 from fecolumn.reduced.observe import ENERGY, WIDTH
-from fecolumn.verification.boxes import bent, block_on_a_heavy_one, frame, pulse, stack
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.boxes import bent, block_on_a_heavy_one, frame, sine_pulse, stack
+from fecolumn.verification.result import CaseRows, Row
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """The rows of the rigid engine."""
-    return Result(
+    return CaseRows(
         [
             *_rest(60.0 if long else 2.0),
             *_rocking_on_a_body(),
@@ -98,7 +98,7 @@ def _frame(columns: int):
     )
     made = frame(columns, dt=dt)[0]
     # tilted by a pulse; then free
-    rows, _ = made.advance(pulse(2.1, 0.8, 5000, dt=dt))
+    rows, _ = made.advance(sine_pulse(2.1, 0.8, 5000, dt=dt))
     free = rows[1700:, WIDTH + 3]
     top, back, quarter = _swing(free, 1000, alpha, p_hat, dt)
     yield Row(
@@ -144,7 +144,7 @@ def _bents():
 
 
 def _order():
-    ground = pulse(4.0, 1.0, 1000)
+    ground = sine_pulse(4.0, 1.0, 1000)
     first, other = (frame(4, order)[0].advance(ground)[0] for order in (None, [3, 1, 4, 0, 2]))
     yield Row(
         "bodies and contacts in another order: largest difference of the top [m]",
@@ -155,7 +155,7 @@ def _order():
 
 
 def _energy():
-    rows, _ = stack().advance(pulse(7.0, 0.66, 1000))
+    rows, _ = stack().advance(sine_pulse(7.0, 0.66, 1000))
     yield Row(
         "stack of which both blocks rock: error of the energy balance over the energy moved",
         0.0,

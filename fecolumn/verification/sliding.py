@@ -7,7 +7,8 @@ the ledger's friction is force times path.
 Derivation. A rigid block of mass m that does not tip, relative displacement u on a base with
 acceleration a_g, slope b, obeys
 
-    u'' = g sin(b) e_x - a_g - mu g cos(b) u' / |u'|    while it slides,    |g sin(b) e_x - a_g| <= mu g cos(b) while it sticks.
+    u'' = g sin(b) e_x - a_g - mu g cos(b) u' / |u'|    while it slides,
+    |g sin(b) e_x - a_g| <= mu g cos(b)                 while it sticks.
 
 Slope: rest for mu > tan b; else s = a t^2 / 2, a = g (sin b - mu cos b), friction takes mu m g
 cos(b) s. Ramp a_g = k t: slip starts at mu g; at a slip d since then the ground has reached mu g +
@@ -18,23 +19,21 @@ lets the slip stop; integrated to 1e-12. Both in `coulomb_block`.
 Source: Coulomb 1785; Newmark 1965 (Geotechnique 15).
 
 Tolerances. A block in equilibrium moves by rounding alone: the requirement's 1e-9 m. When glued
-points let go, a slack of
-d = rho g H^2 / G = 4e-10 m is run through before all of them slip: a velocity of sqrt(2 a d) < 4e-5
-m/s at most, after 0.3 s 1e-4 of
-g sin(b) t^2 / 2. The column on the ramp sways in its first mode by what the ramp's corner excites,
-1.9 m/s3 over 2 pi f = 300 1/s,
-above the threshold for half a period at most: 1 %. The step sees the mean of a_g at its ends and
-one friction force:
-- each kink of the acceleration (slip starts) shifts the velocity by A w dt^2 / 8, the trapezoidal
-    rule the velocity by
-  A w dt^2 / 12 in each of four quarter waves, so that a displacement after T is off by (1/8 + 1/3)
-      A w T dt^2;
-  each end of slip inside a step leaves mu g dt^2 / 2 besides;
-- in two directions acceleration and friction turn by w dt: (A / 12 + mu g / 24) (w dt)^2 T^2 / 2; a
-    step's one friction force is
-  w dt / 2 off the slip's direction at most.
-A block at rest on a level base after it slid needs no friction: that of its sway, 1e-3 mu m g, is
-left.
+points let go, a slack of d = rho g H^2 / G = 4e-10 m is run through before all of them slip. That
+gives a velocity of sqrt(2 a d) < 4e-5 m/s at most, after 0.3 s 1e-4 of g sin(b) t^2 / 2. The column
+on the ramp sways in its first mode by what the ramp's corner excites, 1.9 m/s3 over 2 pi f = 300
+1/s, above the threshold for half a period at most: 1 %. The step sees the mean of a_g at its ends
+and one friction force:
+
+- Each kink of the acceleration (slip starts) shifts the velocity by A w dt^2 / 8. The trapezoidal
+  rule shifts it by A w dt^2 / 12 in each of four quarter waves. So a displacement after T is off by
+  (1/8 + 1/3) A w T dt^2. Each end of slip inside a step leaves mu g dt^2 / 2 besides.
+- In two directions acceleration and friction turn by w dt, which makes
+  (A / 12 + mu g / 24) (w dt)^2 T^2 / 2. The one friction force of a step is w dt / 2 off the slip's
+  direction at most.
+
+A block that slid comes to rest on a level base and needs no friction then. The friction of its
+sway, 1e-3 mu m g, is left.
 """
 
 from __future__ import annotations
@@ -46,9 +45,10 @@ from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
 from fecolumn.verification.coulomb_block import NewmarkBlock, TurningBlock
 from fecolumn.verification.models import block_system, box, column_system
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.rocking import ramp
-from fecolumn.verification.trial import Trial, begin
+from fecolumn.verification.trial import Trial
+from fecolumn.verification.trials import begin_trial
 
 SLOPE, FRICTION = 0.3, 0.3
 RESISTANCE = FRICTION * GRAVITY
@@ -69,10 +69,15 @@ MARKS = {
 }
 
 
-def run(engine: str, long: bool) -> Result:
-    """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless `long`."""
-    result = Result(size=(7.2, 2.5))
-    result.rows += [creep(engine), *(row for share in (0.5, 0.9) for row in slope(engine, share))]
+def run(engine: str, long: bool) -> CaseRows:
+    """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless
+    `long`.
+    """
+    result = CaseRows(size=(7.2, 2.5))
+    result.rows += [
+        creep(engine),
+        *(row for share in (0.5, 0.9) for row in slope_slide(engine, share)),
+    ]
     if long or engine != "total_lagrangian":
         result.rows.append(threshold(engine))
     pulses = {dt: [one_sine(engine, dt, shift) for shift in SHIFTS] for dt in STEPS}
@@ -149,13 +154,13 @@ def glued(system):
 
 def centre(trial: Trial) -> np.ndarray:
     """Position (3,) of the centre of mass [m]."""
-    column = trial.system.column
+    column = trial.system.body
     return column.node_mass @ trial.state.x / column.total_mass
 
 
 def on_slope(engine: str, share: float, start=glued) -> Trial:
     """A block on the slope with friction `share` tan(slope)."""
-    return begin(
+    return begin_trial(
         engine,
         block(
             engine,
@@ -180,7 +185,7 @@ def creep(engine: str) -> Row:
     )
 
 
-def slope(engine: str, share: float) -> list[Row]:
+def slope_slide(engine: str, share: float) -> list[Row]:
     """Distance and friction energy of a block let go for 0.3 s."""
     trial = on_slope(engine, share)
     start = centre(trial)
@@ -206,7 +211,9 @@ def slope(engine: str, share: float) -> list[Row]:
 
 
 def slipped(trial: Trial, friction: float, slip: float = 1e-6) -> float:
-    """Ground acceleration [m/s2] at which a trial's foot has slipped by `slip` [m], on a slow ramp."""
+    """Ground acceleration [m/s2] at which a trial's foot has slipped by `slip` [m], on a slow
+    ramp.
+    """
     return ramp(
         trial,
         friction * GRAVITY,
@@ -219,7 +226,7 @@ def slipped(trial: Trial, friction: float, slip: float = 1e-6) -> float:
 def threshold(engine: str) -> Row:
     """Ground acceleration of a slow ramp at which the column has slipped by 1e-6 m."""
     friction, slip = 0.05, 1e-6
-    trial = begin(
+    trial = begin_trial(
         engine,
         column_system(
             engine, contact={"friction_coefficient": friction}, integration={"dt_s": 4e-3}
@@ -238,7 +245,10 @@ def one_sine(engine: str, dt: float, shift: float):
     """(exact block, times [s], slip [m] at them, friction energy / mu m g [m]) under a pulse that
     starts `shift` dt late.
     """
-    exact, trial = NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE), begin(engine, block(engine, dt))
+    exact, trial = (
+        NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE),
+        begin_trial(engine, block(engine, dt)),
+    )
     start, path = centre(trial), [0.0]
     while trial.state.time < 0.7:
         time = trial.state.time + (1 - shift) * dt
@@ -307,7 +317,7 @@ def two_directions(engine: str, dt: float, seconds: float = 0.6):
         state.a -= state.ground
         return state
 
-    trial = begin(engine, block(engine, dt), moving)
+    trial = begin_trial(engine, block(engine, dt), moving)
     start, path, angles = centre(trial), [np.zeros(2)], []
     for _ in range(round(seconds / dt)):
         trial.step((*exact.ground(trial.state.time + dt), 0.0))
@@ -330,7 +340,7 @@ def turn_rows(turns) -> list[Row]:
         np.polyfit(np.log(STEPS), np.log([turn[k] for turn in turns.values()]), 1)[0]
         for k in (0, 3)
     )
-    for dt, (error, _, ode, angle) in turns.items():
+    for dt, (error, _, ode, _) in turns.items():
         size = np.linalg.norm(ode[-1])
         rows.append(
             Row(
@@ -346,7 +356,7 @@ def turn_rows(turns) -> list[Row]:
         Row(
             f"angle of friction to -velocity, dt {dt:g} s, largest [rad]",
             0.0,
-            angle,
+            turns[dt][3],
             w * dt / 2,
             order=direction,
         )
@@ -365,7 +375,7 @@ def rest(engine: str) -> Row:
         state.v[:, 0] = 16.5 * RESISTANCE * dt
         return state
 
-    trial = begin(engine, block(engine, dt), pushed)
+    trial = begin_trial(engine, block(engine, dt), pushed)
     for _ in range(67):
         trial.step()
     return Row(

@@ -26,34 +26,23 @@ from fecolumn.case import case_from_tables
 from fecolumn.rocking import wobbling_equations as equations
 from fecolumn.rocking.podium_impact import CRV, podium_restitution
 from fecolumn.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
-from fecolumn.structures.analysis import columns_of
-from fecolumn.structures.engine import engine_of
-from fecolumn.structures.structure import structure_model
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.podium_bodies import podium_rows
+from fecolumn.verification.podium_structure import (
+    STIFF,
+    let_go,
+)
+from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.wobbling_models import SPECIMEN
 
 #: Of [P]: half diagonal [m] and slenderness of a column, mass of the slab over that of the columns
-HALF_DIAGONAL, ALPHA, GAMMA = 1.5, math.atan(0.15), 10.0
-_STIFF = 1e14  # Young's modulus [Pa] by which points give
 _TILTS = (0.01, 0.03, 0.06)  # [rad]
-_SETTLED = (
-    5e-3,
-    0.06,
-)  # between these times [s] after the release the slab's acceleration is taken
+# between these times [s] after the release the slab's acceleration is taken
+_SETTLED = (5e-3, 0.06)
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """The rows; engine: reduced."""
-    from fecolumn.verification import podium_bodies
-
-    return Result([*_forces(), *_impact(), *_path(4.0 if long else 1.0), *podium_bodies.rows()])
-
-
-def advanced(case, seconds: float) -> dict[str, np.ndarray]:
-    """Columns of the history of a structure that nothing shakes."""
-    engine = engine_of(case, structure_model(case), "case")
-    rows, _ = engine.advance(np.zeros((round(seconds / case.integration.dt_s), 3)))
-    return columns_of(np.concatenate([engine.made[:0], rows]), engine.model)
+    return CaseRows([*_forces(), *_impact(), *_path(4.0 if long else 1.0), *podium_rows()])
 
 
 def frame_model(**keys) -> WobblingFrame:
@@ -61,7 +50,7 @@ def frame_model(**keys) -> WobblingFrame:
     return WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN | keys), "specimen")
 
 
-def rolling(frame: WobblingFrame, tilt: float, turn: float = 0.0) -> dict:
+def rolling_start(frame: WobblingFrame, tilt: float, turn: float = 0.0) -> dict:
     """[initial] of a case: columns that lean by `tilt` [rad] towards x and roll on with `turn`
     [rad/s] of the azimuth, their slab along with them.
     """
@@ -75,7 +64,7 @@ def rolling(frame: WobblingFrame, tilt: float, turn: float = 0.0) -> dict:
 def frame_case(frame: WobblingFrame, initial: dict, dt: float):
     """The same frame of bodies that are rigid but for their contact points."""
     radius, _, height, mass, slab, *_, stiffness, _, _ = frame.body
-    body = dict(rigid=True, youngs_modulus_pa=_STIFF, poissons_ratio=0.2)
+    body = dict(rigid=True, youngs_modulus_pa=STIFF, poissons_ratio=0.2)
     tendon = dict(
         kind="tendon",
         body="column",
@@ -147,7 +136,7 @@ def _forces():
                 displacement,
                 restoring_force(
                     frame,
-                    advanced(frame_case(frame, rolling(frame, tilt), 1e-3), _SETTLED[1]),
+                    let_go(frame_case(frame, rolling_start(frame, tilt), 1e-3), _SETTLED[1]),
                     tilt,
                 ),
             )
@@ -182,7 +171,7 @@ def planar_restitution(frame: WobblingFrame) -> float:
 def _impact():
     """The frame without tendons: falls upright and rises on the other side."""
     frame, tilt = frame_model(tendon_n_m=0.0), 0.03
-    rows = advanced(frame_case(frame, rolling(frame, tilt), 5e-4), 0.75)
+    rows = let_go(frame_case(frame, rolling_start(frame, tilt), 5e-4), 0.75)
     moved = rows["body/slab/displacement"][:, 0]
     passed = int(np.argmax(moved < 0))
     kept = energy_at(frame, rows["body/column 1/tilt"][passed + 20 :].max()) / energy_at(
@@ -206,8 +195,10 @@ def _still(seconds: float, dt: float = 2e-3):
     return GroundMotion(np.zeros((round(seconds / dt) + 1, 3)), dt, "at rest", "")
 
 
-def way(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) -> np.ndarray:
-    """Displacement (n, 2) [m] of the slab at times by the model; arguments as of `rolling`."""
+def slab_path(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) -> np.ndarray:
+    """Displacement (n, 2) [m] of the slab at times by the model, as of
+    `rolling_start`.
+    """
     from fecolumn.verification.wobbling_models import free
 
     rows, *_ = free(frame, tilt, turn, time[-1] + 0.01)
@@ -218,8 +209,8 @@ def way(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) -> np.
 
 def _path(seconds: float):
     frame, tilt, turn = frame_model(), 0.05, 1.5
-    rows = advanced(frame_case(frame, rolling(frame, tilt, turn), 1e-3), seconds)
-    exact = way(frame, tilt, turn, rows["time"])
+    rows = let_go(frame_case(frame, rolling_start(frame, tilt, turn), 1e-3), seconds)
+    exact = slab_path(frame, tilt, turn, rows["time"])
     off = np.linalg.norm(rows["body/slab/displacement"][:, :2] - exact, axis=1).max()
     yield Row(
         f"restrained frame that rolls round: slab off the model's way in {seconds:g} s "
@@ -227,98 +218,4 @@ def _path(seconds: float):
         0.0,
         off / np.abs(exact).max(),
         0.02,
-    )
-
-
-def podium_case(
-    floors: int,
-    period: float,
-    tilt: float,
-    dt: float,
-    column: dict | None = None,
-    building: dict | None = None,
-):
-    """The podium of [P] in bodies, let go at a tilt [rad]; period: of the building on a fixed slab
-    [s].
-
-    column, building: keys of the bodies in place of those of rigid ones that touch at stiff points.
-    """
-    width, height, mass = (
-        2 * HALF_DIAGONAL * math.sin(ALPHA),
-        2 * HALF_DIAGONAL * math.cos(ALPHA),
-        1500.0,
-    )
-    stuff, slab = dict(youngs_modulus_pa=3 * _STIFF, poissons_ratio=0.2), 4 * GAMMA * mass
-    return case_from_tables(
-        dict(
-            bodies=dict(
-                column=dict(
-                    kind="block",
-                    length_m=width,
-                    width_m=width,
-                    height_m=height,
-                    mass_kg=mass,
-                    rigid=True,
-                    element_size_m=width,
-                    copies_m=[
-                        [2.5, 2.5, 0.0],
-                        [-2.5, 2.5, 0.0],
-                        [-2.5, -2.5, 0.0],
-                        [2.5, -2.5, 0.0],
-                    ],
-                )
-                | stuff
-                | (column or {}),
-                building=dict(
-                    kind="storeys",
-                    length_m=6.0,
-                    width_m=6.0,
-                    thickness_m=0.5,
-                    mass_kg=slab,
-                    floors=floors,
-                    floor_masses_kg=[slab],
-                    storey_heights_m=[3.0],
-                    profile="triangular",
-                    damping="rayleigh",
-                    damping_ratio=0.05,
-                    period_s=period,
-                    modes=2 * floors,
-                    at_m=[0.0, 0.0, height],
-                )
-                | stuff
-                | (building or {}),
-            ),
-            interfaces=dict(
-                feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="building")
-            ),
-            contact=dict(friction_coefficient=0.7, interior_points=0),
-            initial=dict(column=dict(tilt_rad=tilt)),
-            integration=dict(dt_s=dt, duration_s=60.0),
-        ),
-        "podium",
-    )
-
-
-def tilt_of(rows: dict) -> np.ndarray:
-    """Tilt (n,) [rad] of the podium's columns along x, with its sign."""
-    moved = rows["body/column 1/displacement"][:, 0]
-    return np.sign(moved) * (
-        ALPHA - np.arcsin(np.clip(math.sin(ALPHA) - np.abs(moved) / HALF_DIAGONAL, -1, 1))
-    )
-
-
-def kept_rate(rows: dict, skip: float = 2e-3, width: float = 8e-3) -> float:
-    """Rate of the tilt after over before the first impact: by straight and curved fits over `width`
-    [s], `skip` [s] from it.
-    """
-    time, tilt = rows["time"], tilt_of(rows)
-    passed = int(np.argmax(tilt < 0))
-    at = float(np.interp(0.0, -tilt[passed - 1 : passed + 1], time[passed - 1 : passed + 1]))
-    before, after = (
-        ((time > at - skip - width) & (time < at - skip)),
-        ((time > at + skip) & (time < at + skip + width)),
-    )
-    return float(
-        np.polyfit(time[after] - at, tilt[after], 2)[1]
-        / np.polyfit(time[before] - at, tilt[before], 2)[1]
     )

@@ -31,7 +31,7 @@ from fecolumn.reduced.observe import ENERGY, WIDTH
 from fecolumn.structures.analysis import columns_of
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 
 MARBLE = dict(youngs_modulus_pa=50e9, poissons_ratio=0.2, density_kg_m3=2700.0)
 GLASS = dict(youngs_modulus_pa=70e9, poissons_ratio=0.22, density_kg_m3=2500.0)
@@ -45,7 +45,7 @@ TUBE = (
 CLOSED = 1e-10
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """The rows; engine: reduced or rigid."""
     rows = [
         *_swings("marble block", BLOCK | dict(foot_radius_m=0.9), engine),
@@ -60,7 +60,7 @@ def run(engine: str, long: bool = False) -> Result:
             *_swings("marble drum", DRUM | dict(foot_radius_m=1.2), engine),
             *_swings("glass tube", TUBE | dict(foot_radius_m=0.1), engine, 1e-4),
         ]
-    return Result([*rows, *_rests(engine)])
+    return CaseRows([*rows, *_rests(engine)])
 
 
 class Rolling:
@@ -154,7 +154,7 @@ def case_of(
     )
 
 
-def alone(body: dict, engine: str, dt: float, friction: float = 0.7, **initial):
+def alone_on_ground(body: dict, engine: str, dt: float, friction: float = 0.7, **initial):
     """Case of a body by itself on the ground."""
     return case_of(
         dict(body=body),
@@ -166,7 +166,7 @@ def alone(body: dict, engine: str, dt: float, friction: float = 0.7, **initial):
     )
 
 
-def advanced(case, seconds: float, ground=None) -> tuple[dict[str, np.ndarray], np.ndarray]:
+def columns_and_rows(case, seconds: float, ground=None) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Columns of the history, and the rows."""
     made = engine_of(case, structure_model(case), "case")
     grounds = np.zeros((round(seconds / case.integration.dt_s), 3)) if ground is None else ground
@@ -174,7 +174,7 @@ def advanced(case, seconds: float, ground=None) -> tuple[dict[str, np.ndarray], 
     return columns_of(rows, made.model), rows
 
 
-def closure(rows: np.ndarray) -> float:
+def closure_over_kinetic(rows: np.ndarray) -> float:
     """Largest error of the energy balance over the kinetic energy reached."""
     return float(np.abs(rows[:, WIDTH - 1] - rows[0, WIDTH - 1]).max() / np.ptp(rows[:, ENERGY]))
 
@@ -200,11 +200,13 @@ def kept(rows: dict, columns: np.ndarray, dt: float) -> float:
 
 def _swings(name: str, body: dict, engine: str, dt: float = 1e-3, amplitude: float = 0.05):
     rolling = Rolling(
-        structure_model(alone(body, engine, dt)).parts[0].model, body["foot_radius_m"]
+        structure_model(alone_on_ground(body, engine, dt)).parts[0].model, body["foot_radius_m"]
     )
     period = 2 * math.pi / rolling.rate
-    rows, columns = advanced(
-        alone(body, engine, dt, spin_rad_s=[0.0, rolling.spin(rolling.potential(amplitude)), 0.0]),
+    rows, columns = columns_and_rows(
+        alone_on_ground(
+            body, engine, dt, spin_rad_s=[0.0, rolling.spin(rolling.potential(amplitude)), 0.0]
+        ),
         5.6 * period,
     )
     found = passages(rows)
@@ -218,14 +220,18 @@ def _swings(name: str, body: dict, engine: str, dt: float = 1e-3, amplitude: flo
     yield Row(
         "the same: share of the energy left after 5 periods", 1.0, kept(rows, columns, dt), 1e-5
     )
-    yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)
+    yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(columns), CLOSED)
 
 
 def _overturns(engine: str, dt: float = 1e-4):
-    """A test tube, whose bottom is half a sphere: its centre of mass is above that of the sphere."""
+    """A test tube, whose bottom is half a sphere: its centre of mass is above that of the
+    sphere.
+    """
     body, spin, tilt = TUBE | dict(foot_radius_m=0.01), 0.5, 0.6
-    rolling = Rolling(structure_model(alone(body, engine, dt)).parts[0].model, 0.01)
-    rows, columns = advanced(alone(body, engine, dt, spin_rad_s=[0.0, spin, 0.0]), 0.5)
+    rolling = Rolling(structure_model(alone_on_ground(body, engine, dt)).parts[0].model, 0.01)
+    rows, columns = columns_and_rows(
+        alone_on_ground(body, engine, dt, spin_rad_s=[0.0, spin, 0.0]), 0.5
+    )
     leaned = rows["body/body/tilt"]
     passed = int(np.argmax(leaned > tilt)) + 1
     found = float(np.interp(tilt, leaned[:passed], rows["time"][:passed]))
@@ -235,16 +241,19 @@ def _overturns(engine: str, dt: float = 1e-4):
         found,
         1e-4,
     )
-    yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)
+    yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(columns), CLOSED)
 
 
 def _over_the_edge(engine: str, dt: float = 1e-3):
     """A drum thrown so far that it goes over the edge of its dome and comes back."""
     body = DRUM | dict(foot_radius_m=1.2)
-    rolling = Rolling(structure_model(alone(body, engine, dt)).parts[0].model, 1.2, 0.25)
+    rolling = Rolling(structure_model(alone_on_ground(body, engine, dt)).parts[0].model, 1.2, 0.25)
     tilt = math.asin(0.25 / 1.2) + 0.04
-    rows, columns = advanced(
-        alone(body, engine, dt, spin_rad_s=[0.0, rolling.spin(rolling.potential(tilt)), 0.0]), 5.0
+    rows, columns = columns_and_rows(
+        alone_on_ground(
+            body, engine, dt, spin_rad_s=[0.0, rolling.spin(rolling.potential(tilt)), 0.0]
+        ),
+        5.0,
     )
     yield Row(
         "marble drum thrown over the edge of its dome: largest tilt [rad]",
@@ -258,13 +267,15 @@ def _over_the_edge(engine: str, dt: float = 1e-3):
         kept(rows, columns, dt),
         1e-5,
     )
-    yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)
+    yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(columns), CLOSED)
 
 
 def _slides(engine: str, dt: float = 1e-4):
     friction, speed = 0.1, 1.0
-    rows, columns = advanced(
-        alone(DRUM | dict(foot_radius_m=1.2), engine, dt, friction, velocity_m_s=[speed, 0.0, 0.0]),
+    rows, columns = columns_and_rows(
+        alone_on_ground(
+            DRUM | dict(foot_radius_m=1.2), engine, dt, friction, velocity_m_s=[speed, 0.0, 0.0]
+        ),
         0.02,
     )
     braked = speed * rows["time"][-1] - rows["body/body/displacement"][-1, 0]
@@ -279,7 +290,7 @@ def _slides(engine: str, dt: float = 1e-4):
 def _rests(engine: str, dt: float = 4e-3, share: float = 0.02):
     """Pushed slowly by a steady acceleration, a body leans until e sin q g = a (rho - e cos q)."""
     body = BLOCK | dict(foot_radius_m=0.9)
-    rolling = Rolling(structure_model(alone(body, engine, dt)).parts[0].model, 0.9)
+    rolling = Rolling(structure_model(alone_on_ground(body, engine, dt)).parts[0].model, 0.9)
     period, acceleration = 2 * math.pi / rolling.rate, share * GRAVITY
     ramp, hold = round(12 * period / dt), round(2 * period / dt)
     ground = np.zeros((ramp + hold, 3))
@@ -288,7 +299,7 @@ def _rests(engine: str, dt: float = 4e-3, share: float = 0.02):
         * (1 - np.cos(math.pi * np.minimum(np.arange(1, ramp + hold + 1) / ramp, 1.0)))
         / 2
     )
-    rows, _ = advanced(alone(body, engine, dt), 0.0, ground)
+    rows, _ = columns_and_rows(alone_on_ground(body, engine, dt), 0.0, ground)
     tilt = float(rows["body/body/tilt"][-hold:].mean())
     e, exact = rolling.depth, 0.0
     for _ in range(50):
@@ -299,8 +310,8 @@ def _rests(engine: str, dt: float = 4e-3, share: float = 0.02):
 def _rounded(engine: str, dt: float = 5e-4, radius: float = 0.05, tilt: float = 0.1):
     """A block let go on its rounded edge: time until it is upright."""
     body = BLOCK | dict(edge_radius_m=radius)
-    rows, columns = advanced(alone(body, engine, dt, tilt_rad=tilt), 0.45)
-    model = structure_model(alone(body, engine, dt)).parts[0].model
+    rows, columns = columns_and_rows(alone_on_ground(body, engine, dt, tilt_rad=tilt), 0.45)
+    model = structure_model(alone_on_ground(body, engine, dt)).parts[0].model
     exact = falls(model, 0.2 - radius, radius, tilt)
     yield Row(
         f"marble block let go on an edge of radius {radius:g} m: time to upright [s]",
@@ -308,7 +319,7 @@ def _rounded(engine: str, dt: float = 5e-4, radius: float = 0.05, tilt: float = 
         float(passages(rows)[0]),
         2e-3,
     )
-    yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)
+    yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(columns), CLOSED)
 
 
 def falls(model, half: float, radius: float, tilt: float) -> float:
@@ -367,7 +378,7 @@ def _narrower(engine: str, dt: float = 5e-4, tilt: float = 0.05):
     """
     case = narrower_case(engine, dt, tilt)
     model, half = structure_model(case).parts[1].model, 0.2
-    rows, columns = advanced(case, 0.45)
+    rows, columns = columns_and_rows(case, 0.45)
     height, inertia = float(model.center[2]), float(model.inertia[1, 1])
     exact = falls(model, half, 0.0, tilt)
     upright = passages(rows, "wide")[0]
@@ -386,4 +397,4 @@ def _narrower(engine: str, dt: float = 5e-4, tilt: float = 0.05):
     )
     left = (math.cos(slope - again) - math.cos(slope)) / (math.cos(slope - tilt) - math.cos(slope))
     yield Row("the same: share of the energy after an impact", ratio**2, left, 2e-3)
-    yield Row("the same: error of the energy balance", 0.0, closure(columns), CLOSED)
+    yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(columns), CLOSED)

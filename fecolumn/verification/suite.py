@@ -31,6 +31,7 @@ class Finding:
 
     @property
     def ok(self) -> bool:
+        """Whether the case ran and all of its rows hold."""
         return not self.failure and all(row.ok for row in self.rows)
 
 
@@ -80,39 +81,44 @@ def verify(pairs, folder: Path, long: bool = False, workers: int = 1, show=print
     show(header())
     found = {}
     with ProcessPoolExecutor(max_workers=workers, mp_context=get_context("spawn")) as pool:
-        futures = {pool.submit(run_case, *pair, folder, long): pair for pair in pairs}
+        futures = {
+            pool.submit(run_case, case, engine, folder, long): (case, engine)
+            for case, engine in pairs
+        }
         for future in as_completed(futures):
             found[futures[future]] = future.result()
-            show(lines(future.result()))
+            show(finding_lines(future.result()))
     findings = [found[pair] for pair in pairs]
     write_bytes(folder / "table.csv", _csv(findings).encode())
-    write_bytes(folder / "table.txt", "\n".join([header(), *map(lines, findings), ""]).encode())
+    write_bytes(
+        folder / "table.txt", "\n".join([header(), *map(finding_lines, findings), ""]).encode()
+    )
     return findings
 
 
 def header() -> str:
+    """Titles of the columns of `finding_lines`."""
     return (
-        f"{'case, quantity':<{_WIDTH}}{'exact':>12}{'computed':>12}{'error':>10}{'allowed':>10}{'order':>7} "
-        " ok"
+        f"{'case, quantity':<{_WIDTH}}{'exact':>12}{'computed':>12}{'error':>10}"
+        f"{'allowed':>10}{'order':>7}  ok"
     )
 
 
-def lines(finding: Finding) -> str:
+def finding_lines(finding: Finding) -> str:
     """The rows of a finding as text."""
     text = [f"{finding.case}, {finding.engine} ({finding.wall_s:.0f} s)"]
     for row in finding.rows:
         order = f"{row.order:.2f}" if row.order is not None else ""
         text.append(
-            "  "
-            f"{row.quantity:<{_WIDTH - 2}}{row.exact:>12.5g}{row.computed:>12.5g}{row.error:>10.1e}{row.tolerance:>10.1e}{order:>7}"
-            f"  {'yes' if row.ok else 'NO'}"
+            f"  {row.quantity:<{_WIDTH - 2}}{row.exact:>12.5g}{row.computed:>12.5g}"
+            f"{row.error:>10.1e}{row.tolerance:>10.1e}{order:>7}  {'yes' if row.ok else 'NO'}"
         )
     if finding.failure:
         text.append(f"  FAILED: {finding.failure}")
     return "\n".join(text)
 
 
-def count(findings) -> str:
+def verdict(findings) -> str:
     """How many rows hold and how many cases do not, after the names of what does not hold, one a
     line.
     """

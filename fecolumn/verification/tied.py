@@ -41,7 +41,9 @@ def tied_blocks(engine: str, lower, upper, height: float) -> Tied:
 
 
 def end_areas(body, mesh, z: float) -> np.ndarray:
-    """Tributary areas (n_owned,) [m2] of a body's nodes in its end at height z [m], nil elsewhere."""
+    """Tributary areas (n_owned,) [m2] of a body's nodes in its end at height z [m], nil
+    elsewhere.
+    """
     at_end = np.any(mesh.points[mesh.cells, 2] == z, axis=1)
     quads = boundary_faces(mesh, mesh.part[at_end][0], z, 1e-9)
     return nodal_areas(
@@ -69,9 +71,10 @@ class Tied:
             TotalLagrangian if case.integration.kinematics == "total_lagrangian" else Corotated
         )(self.body)
         material = self.body.material
+        # of the strain 1 [J]
         self._energy = (
             material.youngs_modulus_pa * self.body.total_mass / material.density_kg_m3 / 2
-        )  # of the strain 1 [J]
+        )
 
     def uniaxial(self) -> np.ndarray:
         """Displacement (n, 3) [m] of a uniform stretch along z about the centre of mass."""

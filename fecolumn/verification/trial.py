@@ -11,7 +11,6 @@ from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.dynamics.system import State
-from fecolumn.verification import FULL
 
 #: Elastic modes with inertia of the engine "reduced": a case's default.
 N_MODES = Integration().n_modes
@@ -23,7 +22,7 @@ def afloat(system, displacement, velocity, acceleration, height: float) -> State
 
     The acceleration must be that of gravity and internal forces: HHT remembers it.
     """
-    state = system.unstrained(system.column.X + [0.0, 0.0, height] + displacement)
+    state = system.unstrained(system.body.X + [0.0, 0.0, height] + displacement)
     return replace(state, v=np.array(velocity, float), a=np.array(acceleration, float))
 
 
@@ -42,7 +41,9 @@ class Trial:
     Attributes
     ----------
     state
-        the present state. penetration: deepest so far [m].
+        the present state.
+    penetration
+        deepest so far [m].
     """
 
     def __init__(self, system, start=standing, impact: str = "plastic"):
@@ -65,14 +66,14 @@ class Trial:
         """Displacements (n, 2, 3) [m] of the middles of top and foot after each step under ground
         accelerations (n, 3) [m/s2].
         """
-        height = self.system.column.X[:, 2]
+        height = self.system.body.X[:, 2]
         ends = [
             np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height)),
-            self.system.foot_nodes,
+            self.system.footprint.nodes,
         ]
         path = []
         for ground in accelerations:
-            moved = self.step(ground).x - self.system.column.X
+            moved = self.step(ground).x - self.system.body.X
             path.append([moved[nodes].mean(axis=0) for nodes in ends])
         return np.array(path)
 
@@ -88,21 +89,8 @@ class Trial:
         """Displacement (3,) [m] of the highest node: any one serves to compare analyses of one
         mesh.
         """
-        node = np.lexsort(self.system.column.all_X.T)[-1]
-        return self.state.x[node] - self.system.column.X[node]
-
-
-def begin(
-    engine: str, system, start=standing, impact: str = "plastic", n_modes: int = N_MODES
-) -> Trial:
-    """A trial of a system in an engine of `verification.ELEMENTS`; arguments as of `Trial`, n_modes
-    of `ReducedTrial`.
-    """
-    if engine in FULL:
-        return Trial(system, start, impact)
-    from fecolumn.verification.reduced_trial import ReducedTrial
-
-    return ReducedTrial(system, start, n_modes if engine == "reduced" else 0)
+        node = np.lexsort(self.system.body.all_X.T)[-1]
+        return self.state.x[node] - self.system.body.X[node]
 
 
 def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:
@@ -125,14 +113,20 @@ class RigidRocking:
     Attributes
     ----------
     slenderness
-        critical tilt alpha [rad]. diagonal: R from rim to centre of mass [m]. inertia: I_O about
-        the rim
-    [kg m2]. p: sqrt(m g R / I_O) [rad/s]. restitution: 1 - 2 m R^2 sin^2(alpha) / I_O [-].
+        critical tilt alpha [rad].
+    diagonal
+        R from rim to centre of mass [m].
+    inertia
+        I_O about the rim [kg m2].
+    p
+        sqrt(m g R / I_O) [rad/s].
+    restitution
+        1 - 2 m R^2 sin^2(alpha) / I_O [-].
     """
 
     def __init__(self, system):
         column, radius = (
-            system.column,
+            system.body,
             np.linalg.norm(system.interface.reference[:, :2], axis=1).max(),
         )
         height = column.center[2]

@@ -27,7 +27,7 @@ from fecolumn.case import GRAVITY
 from fecolumn.rocking import wobbling_equations as equations
 from fecolumn.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
 from fecolumn.statistics.kolmogorov import asymptotic_p, samples_of_p
-from fecolumn.verification.result import Result, Row
+from fecolumn.verification.result import CaseRows, Row
 
 SPECIMEN = dict(
     columns=4,
@@ -51,11 +51,11 @@ BINS = {
 TURNS = (0.0, 1e-3, 0.3, 1.5)
 
 
-def run(engine: str, long: bool = False) -> Result:
+def run(engine: str, long: bool = False) -> CaseRows:
     """All rows."""
     frame = WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN), "specimen")
     paths = {turn: free(frame, 0.05, turn) for turn in TURNS}
-    return Result(
+    return CaseRows(
         [
             *_statics(frame),
             *_samples(),
@@ -165,7 +165,7 @@ def _statics(frame):
 def _samples():
     for name, (planned, p, pairs) in BINS.items():
         found = samples_of_p(p, planned - 17, planned)
-        for place, (n, k) in enumerate(pairs):
+        for n, k in pairs:
             yield Row(
                 f"{name}: p of n = {n}, D = {k}/{n} [-] (W, Table 2)",
                 p,
@@ -196,7 +196,7 @@ def _samples():
 def _energy(frame, paths):
     from fecolumn.rocking.wobbling_motion import SPIN, TILT, energies
 
-    for turn, (rows, passages, _) in paths.items():
+    for turn, (rows, _, _) in paths.items():
         total, words = (
             energies(frame.body, rows).sum(axis=1),
             f"free motion from 0.05 rad, {turn:g} rad/s",

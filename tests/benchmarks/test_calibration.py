@@ -28,6 +28,5 @@ def test_column_nearest_to_the_target_is_chosen_and_failures_do_not_count():
 def test_map_is_drawn_and_tabulated_with_intervals(tmp_path):
     found = cells(ROWS)
     assert all(file.stat().st_size > 1000 for file in draw(found, tmp_path / "map"))
-    assert (
-        table(found).splitlines()[2].startswith("0.0761,1.5,10,4,0.4000,0.1682,0.6873")
-    )  # Wilson's interval of 4 in 10
+    # Wilson's interval of 4 in 10
+    assert table(found).splitlines()[2].startswith("0.0761,1.5,10,4,0.4000,0.1682,0.6873")

@@ -95,7 +95,7 @@ def test_problem_recorded_from_a_step_is_the_one_that_the_engine_solved():
     """
     made = boxes.stack()
     weight = sum(body["mass"] for body in made.structure.bodies.body) * 9.81
-    for problem in recorded(made, "stack", boxes.pulse(7.0, 0.4, 3), 1):
+    for problem in recorded(made, "stack", boxes.sine_pulse(7.0, 0.4, 3), 1):
         assert problem.points == 8
         scale = np.abs(problem.q).max()
         assert violation(problem, made.motion.forces) * scale < 1e-11

@@ -52,10 +52,10 @@ def test_cdf_is_drawn_from_the_study_given_and_says_so(tmp_path):
         from study_files import write_study
 
         from fecolumn.study.plan import read_plan
-        from fecolumn.study.run import run_study
+        from fecolumn.study.run import complete_study
 
         plan = read_plan(write_study(tmp_path, dt=(0.02, 5e-3), pulses=range(6)))
-        run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO())
+        complete_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO())
     finally:
         sys.path.remove(str(ROOT / "tests" / "study"))
     told = make("cdf", Work(tmp_path / "none", study=tmp_path / "out"), tmp_path)

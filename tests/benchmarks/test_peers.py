@@ -1,4 +1,6 @@
-"""The comparison with peers: its theory, its table, and what it says of a peer that is not there."""
+"""The comparison with peers: its theory, its table, and what it says of a peer that is not
+there.
+"""
 
 import numpy as np
 import pytest

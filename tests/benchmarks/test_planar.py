@@ -178,9 +178,10 @@ def test_blocks_beside_each_other_and_a_wall(structure, sign, peaks):
 
 def test_pulse_of_the_column_ends_at_rest_and_windows_are_told():
     ground = column.pulse(0.3, 0.34, 1e-3)
+    # half a step at the start
     assert ((ground[1:] + ground[:-1]).sum() / 2) == pytest.approx(
         0.3 * GRAVITY * 0.5, abs=0.3 * GRAVITY
-    )  # half a step at the start
+    )
     assert (
         column.windows([0.43, 0.44, 0.45, 0.46, 0.47], [False, True, True, False, True])
         == "0.44-0.45, from 0.47"

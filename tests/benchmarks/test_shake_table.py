@@ -31,13 +31,13 @@ OVERTURNS = {1: False, 2: True, 3: False}
 MISSING = 4
 
 
-def box_file(path, turn=np.eye(3)):
+def box_file(path, turn=((1, 0, 0), (0, 1, 0), (0, 0, 1))):
     """A closed .obj of the box, far from the origin as scans are, wound inside out as the
     campaign's is.
     """
     corners = np.array(
         [(x, y, z) for x in (0, LENGTH) for y in (0, WIDTH) for z in (0, HEIGHT)]
-    ) @ turn.T + [100.0, 50.0, 300.0]
+    ) @ np.transpose(turn) + [100.0, 50.0, 300.0]
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     triangles = [(a, b, c) for p, q, r, s in quads for a, b, c in ((p, r, q), (p, s, r))]
     lines = ["v {:.9f} {:.9f} {:.9f}".format(*corner) for corner in corners] + [
@@ -126,24 +126,21 @@ def test_box_overturns_where_theory_says_and_the_benchmark_scores_it(copy, tmp_p
     main([str(copy), "-o", str(tmp_path), "-j", "1", "--mu", "1.0"])
     rows = {int(row["test"]): row for row in csv.DictReader((tmp_path / "tests.csv").open())}
     assert {n: row["computed"] == "1" for n, row in rows.items()} == OVERTURNS
-    assert (
-        float(rows[1]["peak_tilt_deg"]) < 0.01 and float(rows[3]["peak_tilt_deg"]) > 0.05
-    )  # the third rocks, the first does not
+    # the third rocks, the first does not
+    assert float(rows[1]["peak_tilt_deg"]) < 0.01 and float(rows[3]["peak_tilt_deg"]) > 0.05
     assert all(float(row["closure_rel"]) < 1e-6 for row in rows.values())
     said = capsys.readouterr()
     assert "1 of 4 tests have no file" in said.err
-    assert (
-        "| fecolumn | 3 | 0.667 " in said.out and "| 1 | 1 | 0 | 1 |" in said.out
-    )  # the measured outcome of the third is not theory's
+    # the measured outcome of the third is not theory's
+    assert "| fecolumn | 3 | 0.667 " in said.out and "| 1 | 1 | 0 | 1 |" in said.out
     assert (tmp_path / "outcomes.png").stat().st_size > 10_000
 
     kept = tmp_path / "tests" / "002.json"
     marked = json.loads(kept.read_text()) | {"peak_tilt_deg": 77.0}
     kept.write_text(json.dumps(marked))
     (tmp_path / "tests" / "001.json").unlink()
-    main(
-        [str(copy), "-o", str(tmp_path), "-j", "1", "--mu", "1.0"]
-    )  # what is done is kept, what is missing is done
+    # what is done is kept, what is missing is done
+    main([str(copy), "-o", str(tmp_path), "-j", "1", "--mu", "1.0"])
     again = {int(row["test"]): row for row in csv.DictReader((tmp_path / "tests.csv").open())}
     assert (
         again[2]["peak_tilt_deg"] == "77.0"
@@ -202,9 +199,8 @@ def test_scan_of_a_box_has_its_mass_and_inertia_and_stands_on_its_foot(tmp_path)
     assert at_rest(*(lambda c: (c, center, ConvexHull(c).equations))(read_scan(scan)[0]))[
         1
     ] == pytest.approx(np.arccos(lean[2, 2]), rel=1e-5)
-    turned = body_of(
-        scan, Stone(density=2700.0, direction=np.pi / 2)
-    )  # the table pushes along the scan's y
+    # the table pushes along the scan's y
+    turned = body_of(scan, Stone(density=2700.0, direction=np.pi / 2))
     assert turned.inertia[0, 0] == pytest.approx(body.inertia[1, 1], rel=1e-3)
     assert Stone(mass=100.0).mass == body_of(scan, Stone(mass=100.0)).mass
 

@@ -7,7 +7,7 @@ import pytest
 
 from benchmarks.structures import figure, podium
 from fecolumn.rocking.podium_impact import CAV, CRV
-from fecolumn.verification.structures import ALPHA, HALF_DIAGONAL, kept_rate, tilt_of
+from fecolumn.verification.podium_structure import ALPHA, HALF_DIAGONAL, kept_rate, tilt_of
 
 
 def rows_of(response):

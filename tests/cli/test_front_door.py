@@ -110,9 +110,7 @@ def test_a_studys_commented_lines_are_keys_too(tmp_path):
     main(["new", str(tmp_path)])
     lines = (tmp_path / "study.toml").read_text().splitlines()
     bare = [
-        line.removeprefix("# ")
-        if line.startswith("# [") or line.startswith('# "') or line.startswith("# samples")
-        else line
+        line.removeprefix("# ") if line.startswith(("# [", '# "', "# samples")) else line
         for line in lines
     ]
     (tmp_path / "study.toml").write_text("\n".join(bare))

@@ -11,7 +11,8 @@ from fecolumn import _dolfinx
 import numpy as np
 import ufl
 points = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float)
-space = _dolfinx.vector_space(_dolfinx.create_brick_mesh(MPI.COMM_WORLD, points, np.arange(8)[None]), 1)
+mesh = _dolfinx.create_brick_mesh(MPI.COMM_WORLD, points, np.arange(8)[None])
+space = _dolfinx.vector_space(mesh, 1)
 # from 0.8 on a space alone asks for no code
 u, w = ufl.TrialFunction(space), ufl.TestFunction(space)
 _dolfinx.assemble_matrix(ufl.inner(u, w) * ufl.dx)

@@ -12,8 +12,8 @@ def compliance(sizes, pairs, seed=0):
     """Symmetric positive definite, of points in blocks of so many, those of `pairs` coupled."""
     random, of = np.random.default_rng(seed), np.repeat(np.arange(len(sizes)), sizes)
     touching = np.eye(len(sizes), dtype=bool)
-    for k, l in pairs:
-        touching[k, l] = touching[l, k] = True
+    for one, other in pairs:
+        touching[one, other] = touching[other, one] = True
     W = random.standard_normal((3 * len(of), 3 * len(of))) * np.kron(
         touching[np.ix_(of, of)], np.ones((3, 3))
     )

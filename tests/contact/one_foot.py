@@ -9,7 +9,7 @@ from fecolumn._compiled import interpreted
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.interface import interface_of, rims_at_rest
-from fecolumn.contact.pad import Springs
+from fecolumn.contact.pad import no_pads
 from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import (
@@ -32,7 +32,9 @@ GIVES, DEEP = 1e-9, 1e-6
 
 
 def flat(compliance=None):
-    """A base of one facet, 4 m wide; compliance: (12, 12) [m/N] of its corners, rigid unless given."""
+    """A base of one facet, 4 m wide; compliance: (12, 12) [m/N] of its corners, rigid unless
+    given.
+    """
     side = np.array([-2.0, 2.0])
     return base_of(
         side,
@@ -86,7 +88,7 @@ class Foot:
             node_points(arms, mu),
             interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]])),
         )
-        self.springs = Springs(np.full((n, 3), own), np.zeros((n, 3)), 0.0)
+        self.springs = no_pads(np.full((n, 3), own))
         self.poses, self.rims = (
             poses_on_base(np.eye(3)[None] if rotation is None else rotation[None]),
             rims_at_rest(),

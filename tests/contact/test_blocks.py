@@ -60,7 +60,9 @@ def test_a_singular_block_is_told():
 
 @pytest.mark.parametrize("pairs", [CHAIN, FRAME])
 def test_forces_in_blocks_are_those_of_all_points_at_once(pairs):
-    """The same problem with an entry between each two blocks that is next to nothing is one block."""
+    """The same problem with an entry between each two blocks that is next to nothing is one
+    block.
+    """
     sizes = [9, 8, 7, 9, 8, 7][: max(map(max, pairs)) + 1]
     W, n = 1e-9 * compliance(sizes, pairs), sum(sizes)
     q = 1e-6 * np.random.default_rng(2).standard_normal((n, 3)) - [0, 0, 1e-6]

@@ -101,7 +101,9 @@ def test_static_displacement_is_the_compliance_times_the_forces(n):
 
 @pytest.mark.parametrize("n", [2, 12])
 def test_base_gives_way_below_the_points(n):
-    """Points on two facets: the base's compliance between the points by their shares in its nodes."""
+    """Points on two facets: the base's compliance between the points by their shares in its
+    nodes.
+    """
     rng = np.random.default_rng(4)
     C, arms = compliance(rng, 6), np.zeros((n, 3))
     body, points = (
@@ -124,7 +126,7 @@ def test_base_gives_way_below_the_points(n):
     contact, moved = np.zeros(n, CONTACT), np.empty((n, 3))
     contact["force"] = 1.0
     # what has been gathered is taken from then on
-    for again in range(2):
+    for _ in range(2):
         assemble(
             body,
             base,

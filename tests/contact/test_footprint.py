@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from fecolumn.case import case_from_tables
 from fecolumn.dynamics.assembly import build_system, column_body, foot_of
 from fecolumn.dynamics.gravity import standing
 from fecolumn.mesh.specimen import specimen_mesh
+from fecolumn.short_form import short_form
 
 SHAPES = {
     "drum": {"shape": "solid", "outer_diameter_m": 0.5, "height_m": 0.8},
@@ -17,7 +17,7 @@ MARBLE = {"youngs_modulus_pa": 50e9, "density_kg_m3": 2700.0}
 
 
 def marble(shape, interior, **tables):
-    return case_from_tables(
+    return short_form(
         {
             "column": SHAPES[shape],
             "material": MARBLE,
@@ -52,7 +52,7 @@ def test_outlines_are_kept_whole_and_points_inside_prefer_no_direction(shape, ou
 
 
 def test_a_tube_of_one_brick_keeps_every_node():
-    case = case_from_tables(
+    case = short_form(
         {
             "column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.5},
             "contact": {"interior_points": 0},
@@ -74,6 +74,6 @@ def test_few_points_carry_the_weight_and_sink_a_little_deeper_than_all(shape):
         assert state.forces[:, 2].sum() == pytest.approx(system.weight, rel=1e-8)
         assert state.forces[:, 2].min() >= 0
         sunk.append(
-            system.column.node_mass @ (state.x - system.column.X)[:, 2] / system.column.total_mass
+            system.body.node_mass @ (state.x - system.body.X)[:, 2] / system.body.total_mass
         )
     assert sunk[1] > sunk[0] > 1.25 * sunk[1]  # downwards is negative, tens of nanometres

@@ -187,7 +187,7 @@ def enumerated(problem):
     for states in itertools.product("ovs", repeat=n):
         slipping = [i for i in range(n) if states[i] == "s"]
 
-        def forces_of(x):
+        def forces_of(x, states=states):
             forces, k = np.zeros((n, 3)), 0
             for i, state in enumerate(states):
                 if state == "v":
@@ -199,7 +199,7 @@ def enumerated(problem):
                     )
             return forces
 
-        def equations(x):
+        def equations(x, states=states):
             u, k, left = problem.relative(forces_of(x)), 0, []
             for i, state in enumerate(states):
                 if state == "v":

@@ -1,4 +1,6 @@
-"""The solver of frictional contact on problems with many points that press, slip and open at once."""
+"""The solver of frictional contact on problems with many points that press, slip and open at
+once.
+"""
 
 from pathlib import Path
 
@@ -116,7 +118,9 @@ def test_stiff_bodies_in_many_contacts_whose_forces_hardly_differ_in_what_they_d
 
 
 def unpacked(contacts):
-    """Compliance, velocities and friction of a recorded impact of which the lower triangle is kept."""
+    """Compliance, velocities and friction of a recorded impact of which the lower triangle is
+    kept.
+    """
     case = np.load(Path(__file__).with_name(f"impact_in_{contacts}_contacts.npz"))
     q = case["q"]
     W = np.zeros((q.size, q.size))

@@ -6,9 +6,9 @@ from two_blocks import NO_BASE
 
 from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.compliance import assemble
-from fecolumn.contact.impact import find_impact, mark_landing
+from fecolumn.contact.impact import find_impact, landing_moment, mark_landing, touched
 from fecolumn.contact.interface import interface_of
-from fecolumn.contact.pad import Springs
+from fecolumn.contact.pad import no_pads
 from fecolumn.contact.points import BASE, CONTACT, node_points
 from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import N_COUNTS, OK
@@ -66,22 +66,23 @@ def struck(
     assert mark_landing(interface, points, np.arange(n), before, after, landing) == n
     # what the step's own impulse, about to be replaced, has done is taken out again
     late = np.array(velocity if late is None else late, float)
+    early, union = np.array(velocity, float), touched(np.arange(n), before, after)
     answer, pushed, impulses = find_impact(
         bodies,
         NO_BASE,
         points,
         interface,
-        Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0),
-        np.arange(n),
+        no_pads(np.zeros((n, 3))),
+        union,
         points["arm"].copy(),
         poses_on_base(np.eye(3)[None]),
         before,
         after,
-        np.array(velocity, float),
+        early,
         late,
         landing,
         np.zeros(n, bool),
-        True,
+        landing_moment(union, before, after, early, landing, DT),
         DT,
         contact_work,
         np.zeros(N_COUNTS, np.int64),
@@ -306,7 +307,7 @@ def test_an_impact_is_plastic_whatever_the_step_and_the_faces(made, give, parts)
         NO_BASE,
         points,
         interface,
-        Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0),
+        no_pads(np.zeros((n, 3))),
         listed,
         points["arm"].copy(),
         poses,
@@ -316,7 +317,7 @@ def test_an_impact_is_plastic_whatever_the_step_and_the_faces(made, give, parts)
         late,
         landing,
         np.zeros(n, bool),
-        True,
+        landing_moment(listed, before, after, velocity, landing, dt),
         dt,
         0.0,
         counts,
@@ -363,7 +364,7 @@ def test_a_frame_keeps_what_the_theory_of_rocking_frames_says(slab):
         NO_BASE,
         points,
         interface,
-        Springs(np.zeros((n, 3)), np.zeros((n, 3)), 0.0),
+        no_pads(np.zeros((n, 3))),
         listed,
         points["arm"].copy(),
         poses,
@@ -373,7 +374,7 @@ def test_a_frame_keeps_what_the_theory_of_rocking_frames_says(slab):
         velocity,
         ~carried,
         np.zeros(n, bool),
-        True,
+        landing_moment(listed, before, after, velocity, ~carried, 1e-4),
         1e-4,
         0.0,
         np.zeros(N_COUNTS, np.int64),

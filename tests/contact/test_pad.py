@@ -1,18 +1,26 @@
 import numpy as np
 import pytest
 
-from fecolumn.contact.pad import Springs, dashpot_work, indent, springs_of
+from fecolumn.contact.interface import INTERFACE
+from fecolumn.contact.pad import Pad, Springs, dashpot_work, indent, springs_of
 from fecolumn.contact.points import CONTACT, node_points
 
-INTERFACE = {"on_pad": True}
+
+def interfaces(relaxation: float) -> np.ndarray:
+    """One interface, on a pad where its relaxation [s] is not nan."""
+    one = np.zeros(1, INTERFACE)
+    one["on_pad"], one["relaxation"] = relaxation == relaxation, relaxation
+    return one
 
 
 def pad(stiffness: float, relaxation: float, dt: float = 1e-3):
-    """One point on a pad: its points and springs in a step, and what it carries before and after."""
-    points = node_points(np.zeros((1, 3)), 0.5, springs=np.full((1, 3), stiffness))
+    """One point on a pad: its points and springs in a step, and what it carries before and
+    after.
+    """
+    points = node_points(np.zeros((1, 3)), 0.5, pad=Pad(np.full((1, 3), stiffness), relaxation))
     return (
         points,
-        springs_of(points, INTERFACE | {"relaxation": relaxation}, dt),
+        springs_of(points, interfaces(relaxation), dt),
         np.zeros(1, CONTACT),
         np.zeros(1, CONTACT),
     )
@@ -25,7 +33,7 @@ def test_springs_and_dashpots_take_no_more_than_the_forces_give(relaxation):
     taken, given = [], 0.0
     for force in (50.0, 120.0, 120.0, 60.0, 1.0, 0.0, 0.0):
         after["force"] = 0.1 * force, 0.0, force
-        indent(springs, before, after)
+        indent(points, springs, before, after)
         taken.append(dashpot_work(points, springs, before, after))
         given += float(
             np.sum(
@@ -41,14 +49,14 @@ def test_springs_and_dashpots_take_no_more_than_the_forces_give(relaxation):
 
 
 def test_force_of_a_step_is_that_of_the_midpoint():
-    _, springs, before, after = pad(2e4, 3e-3)
+    points, springs, before, after = pad(2e4, 3e-3)
     before["indentation"], after["force"] = (0.0, 0.0, 1e-3), (0.0, 0.0, 70.0)
-    indent(springs, before, after)
+    indent(points, springs, before, after)
     u0, u1 = before["indentation"][0, 2], after["indentation"][0, 2]
     assert 2e4 * (u0 + u1) / 2 + 2e4 * 3e-3 * (u1 - u0) / 1e-3 == pytest.approx(70.0, rel=1e-12)
 
 
 def test_point_without_pad_gives_by_its_contact_law_alone():
     points = node_points(np.zeros((2, 3)), 0.5, law=np.full((2, 3), 1e-9))
-    springs = springs_of(points, {"on_pad": False}, 1e-3)
+    springs = springs_of(points, interfaces(np.nan), 1e-3)
     assert isinstance(springs, Springs) and np.all(springs.own == 1e-9) and not springs.give.any()

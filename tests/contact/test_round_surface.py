@@ -11,7 +11,7 @@ from fecolumn.contact.joints import facets_of, is_convex, joints_of
 from fecolumn.contact.points import POINT
 from fecolumn.contact.projection import OFF, ON, UNKNOWN, project_on_body
 from fecolumn.structures.model import GROUND, Surface
-from fecolumn.verification.boxes import box, joint, part
+from fecolumn.verification.boxes import box_model, joint, part
 
 RADIUS, NODES = 0.5, 12
 
@@ -24,7 +24,7 @@ def drum():
     )
     arms = np.concatenate([np.column_stack([ring, np.full(NODES + 1, z)]) for z in (-0.5, 0.5)])
     around = np.array([(0, 1 + i, 1 + (i + 1) % NODES) for i in range(NODES)])
-    model, areas, outlines = box(1.0, 1.0, 1.0), np.ones(NODES + 1), np.arange(NODES + 1) > 0
+    model, areas, outlines = box_model(1.0, 1.0, 1.0), np.ones(NODES + 1), np.arange(NODES + 1) > 0
     down = np.diag([1.0, -1.0, -1.0])
     surfaces = {
         "foot": Surface(
@@ -112,7 +112,7 @@ def test_surfaces_without_corners_holes_and_parts_left_out_are_convex():
     assert not is_convex(grid_of([[1, 1, 1], [1, 0, 0], [1, 1, 1]], known=False))
 
 
-def test_points_over_nodes_that_lack_inside_a_surface_are_unknown_and_those_beyond_its_outline_off_it():
+def test_points_over_missing_nodes_of_a_surface_are_unknown_and_those_beyond_its_outline_off_it():
     facets, rng = grid_of([[1, 1, 1], [1, 0, 1], [1, 1, 1]], known=False), np.random.default_rng(7)
     interface = np.zeros(1, INTERFACE)
     interface["facet_count"], interface["width"], interface["convex"] = len(facets), 1.0, True

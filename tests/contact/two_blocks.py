@@ -6,7 +6,7 @@ import numpy as np
 
 from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.interface import interface_of
-from fecolumn.contact.pad import Springs
+from fecolumn.contact.pad import no_pads
 from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.pose import MASTER, poses_on_base
 from fecolumn.contact.projection import base_of
@@ -69,7 +69,7 @@ class Blocks:
         self.poses["turned"][:, MASTER] = self.rotations[1]
         self.own = rng.uniform(1e-10, 1e-9, (n, 3))
         self.springs, self.interface = (
-            Springs(self.own, np.zeros((n, 3)), 0.0),
+            no_pads(self.own),
             interface_of(self.arms[0], master=1),
         )
         self.before, self.after = np.zeros(n, CONTACT), np.zeros(n, CONTACT)

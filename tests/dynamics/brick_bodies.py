@@ -10,13 +10,14 @@ from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.overturning import Limits
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.dynamics.structure import released, structure_system
 from fecolumn.fem.body import Body
 from fecolumn.fem.effective import blocks, unit_loads
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.modes import elastic_modes
-from fecolumn.reduced.run import Engine
+from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts as reduced_of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
@@ -172,10 +173,15 @@ class Structure:
     def reduced(self, dt=1e-3, alpha=-0.05, modes=ALL, stands=True):
         model, hht = self.model(modes), HHT(dt, alpha)
         structure, _ = structure_of(model, hht, GRAVITY)
-        eye = view_of(model, structure, structure.bodies.body["mass"].sum() * 9.81)
+        eye = view_of(
+            model,
+            structure,
+            structure.bodies.body["mass"].sum() * 9.81,
+            Limits.of_tilt(len(model.parts)),
+        )
         return Engine(
             lambda step: structure_of(model, step, GRAVITY),
-            model.base,
+            model.bases,
             eye,
             hht,
             lambda made: reduced_of_parts(made, model.parts, stands),
@@ -204,7 +210,7 @@ class FullRun:
         rows, energies = [], []
         for ground in grounds:
             self.state = self.stepper.step(self.state, np.asarray(ground, float))
-            centers, R = self.system.column.centers(self.state.x), self.state.rotation
+            centers, R = self.system.bodies.centers(self.state.x), self.state.rotation
             tilts = np.arctan2(np.hypot(R[:, 0, 2], R[:, 1, 2]), R[:, 2, 2])
             rows.append(
                 np.column_stack([centers - [part.center for part in self.model.parts], tilts])

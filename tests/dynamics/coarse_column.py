@@ -1,10 +1,12 @@
-"""A coarse column for the tests of the engine: a hundred-millimetre tube with cap on a small base."""
+"""A coarse column for the tests of the engine: a hundred-millimetre tube with cap on a small
+base.
+"""
 
 from mpi4py import MPI
 
-from fecolumn.case import case_from_tables, read_toml
 from fecolumn.dynamics.assembly import build_system
-from fecolumn.schema import merge
+from fecolumn.schema import merge, read_toml
+from fecolumn.short_form import short_form
 
 SPECIMEN = "meshes/stout.toml"
 # A wall four times as thick, of bricks of its size: a fourth of the nodes in the foot, a third of
@@ -21,7 +23,7 @@ def coarse_case(**sections):
             "mesh": {"coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05},
         },
     )
-    return case_from_tables(merge(tables, sections), SPECIMEN)
+    return short_form(merge(tables, sections), SPECIMEN)
 
 
 def coarse_system(**sections):

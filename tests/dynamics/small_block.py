@@ -4,7 +4,7 @@ import numpy as np
 
 from fecolumn.dynamics.hht import HHT
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 
 ENGINES = ("corotated", "rigid")
 G = 9.80665
@@ -22,15 +22,15 @@ def block(width, height, dt=1e-3, alpha=0.0, bricks=1, plate=(0.5, 0.5), **optio
 
 
 def trial(engine, system, start, n_modes=30):
-    return begin(engine, system, start, n_modes=n_modes)
+    return begin_trial(engine, system, start, n_modes=n_modes)
 
 
 def centre(trial):
     """Centre of mass (3,) [m]."""
-    column = trial.system.column
+    column = trial.system.body
     return column.node_mass @ trial.state.x / column.total_mass
 
 
 def lowest(trial):
     """Height of the lowest foot node [m]."""
-    return trial.state.x[trial.system.foot_nodes, 2].min()
+    return trial.state.x[trial.system.footprint.nodes, 2].min()

@@ -19,12 +19,12 @@ def _shaken(steps=100, **sections):
     state = standing(system)
     ledger = Ledger(system)
     ledger.open(state)
-    stepper, top = Stepper(system, ledger), int(np.lexsort(system.column.all_X.T)[-1])
+    stepper, top = Stepper(system, ledger), int(np.lexsort(system.body.all_X.T)[-1])
     path, deepest = [], 0.0
     for step in range(1, steps + 1):
         t = 1e-3 * step
         state = stepper.step(state, np.array([4.0 * np.sin(30 * t), 3.0 * np.sin(40 * t), 0.0]))
-        path.append(state.x[top, :2] - system.column.X[top, :2])
+        path.append(state.x[top, :2] - system.body.X[top, :2])
         deepest = max(deepest, -state.relative[:, 2].min())
     return np.array(path), deepest
 

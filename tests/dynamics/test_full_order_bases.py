@@ -7,7 +7,7 @@ from small_block import block, centre, trial
 from fecolumn import simulation
 from fecolumn.dynamics.gravity import standing
 from fecolumn.verification.models import column_case, column_system
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 
 # a stout steel tube, two bricks through the wall and 12 around
 STOUT = dict(
@@ -26,7 +26,7 @@ def test_both_engines_stand_slide_and_lift_alike_on_a_pad():
     )
     ends = []
     for engine in ("corotated", "rigid"):
-        one = begin(engine, system)
+        one = begin_trial(engine, system)
         for k in range(1, 41):
             one.step([9.0 * np.sin(60e-3 * k), 4.0 * np.sin(45e-3 * k), 0.0])
         ends.append((one.top(), one.state.contact["indentation"], one.energy()))
@@ -46,7 +46,7 @@ def test_weight_sinks_as_much_into_a_flat_without_edges_as_into_a_wide_plate():
         {"length_m": 0.6, "width_m": 0.6, "slide_allowance_m": 0.1, "thickness_m": 0.05},
         {"kind": "unbounded", "thickness_m": 0.05},
     ):
-        state = begin("corotated", column_system("corotated", **STOUT, base=base)).state
+        state = begin_trial("corotated", column_system("corotated", **STOUT, base=base)).state
         sunk.append(state.static)
     assert sunk[1] == pytest.approx(sunk[0], rel=1e-3)
 

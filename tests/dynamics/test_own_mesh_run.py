@@ -29,7 +29,7 @@ def test_tetrahedra_and_bricks_of_one_block_stand_and_vibrate_alike(tmp_path):
             state.forces[:, 2].sum() == np.float64(system.weight).round(9)
             or abs(state.forces[:, 2].sum() / system.weight - 1) < 1e-8
         )
-        modes = free_modes(system.column, 8).frequencies
+        modes = free_modes(system.body, 8).frequencies
         assert np.abs(modes[:6]).max() < 1e-2
         found.append((system.weight, modes[6]))
     assert abs(found[0][0] / found[1][0] - 1) < 1e-9 and abs(found[0][1] / found[1][1] - 1) < 0.02

@@ -14,7 +14,7 @@ from fecolumn.verification.trial import afloat
 @pytest.mark.parametrize("e", [0.5, 0.9])
 def test_a_block_dropped_flat_by_9_mm_rebounds_to_e2_of_it(engine, e):
     system = block(0.1, 0.1, dt=2e-4, restitution=e)
-    still, fallen = np.zeros_like(system.column.X), np.sqrt(2 * 0.009 / 9.80665)
+    still, fallen = np.zeros_like(system.body.X), np.sqrt(2 * 0.009 / 9.80665)
     one = trial(
         engine,
         system,
@@ -45,7 +45,7 @@ def test_planar_rocking_gets_back_e2_of_what_housner_s_impact_takes(engine):
             one.step()
             was, now = now, one.energy()
         taken[restitution] = sum(now[term] - was[term] for term in ("impact", "contact"))
-    column = system.column
+    column = system.body
     turn = np.cross([0.0, 1.0, 0.0], column.X - [0.1, 0.0, 0.0])
     housner = 1 - 2 * column.total_mass * 0.1**2 / column.dot(turn, column.momentum(turn))
     assert taken[e] - taken[0.0] == pytest.approx(
@@ -59,7 +59,7 @@ def test_bounces_on_corners_with_friction_never_make_energy(engine):
     four corners.
     """
     system = block(0.1, 0.1, friction=0.5, restitution=0.9)
-    arm = system.column.X - system.column.center
+    arm = system.body.X - system.body.center
     turn = rotation_matrix([0.15, 0.1, 0.3])
 
     def start(system):

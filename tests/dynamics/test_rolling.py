@@ -63,7 +63,7 @@ def test_a_stiff_column_passes_upright_at_a_tilt_of_a_tenth_of_a_milliradian_wit
     trial = Trial(system, released)
     steps = round(1.6 * rocking.quarter_period(tilt) / 1e-3)
     energies, tilts = np.array(
-        [(trial.mechanical(), np.hypot(*trial.step().rotation[:2, 2])) for _ in range(steps)]
+        [(trial.mechanical(), np.hypot(*trial.step().rotation[0, :2, 2])) for _ in range(steps)]
     ).T
     assert tilts.min() < 1.2e-4
     assert abs(energies[steps // 6] - trial.mechanical()) < 0.01 * (

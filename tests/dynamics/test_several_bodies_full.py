@@ -50,7 +50,7 @@ def test_a_point_that_comes_back_from_beyond_an_edge_stays_open_below_the_surfac
     )
     point = np.flatnonzero(interface.points["slave"] == 1)[0]
     contact["beyond"][point], contact["force"][point] = True, 0.0
-    x[run.system.column.rows[1], 2] += height - state.contact["relative"][point, 2]
+    x[run.system.bodies.rows[1], 2] += height - state.contact["relative"][point, 2]
     before, _, _ = interface.begin_step(replace(state, x=x, contact=contact), state.rotation, True)
     kept = np.zeros(len(before), bool)
     kept[point] = stays_open
@@ -156,7 +156,7 @@ def test_internal_forces_neither_make_energy_nor_turn_a_body_that_spins_in_the_a
     run = Structure([("bar", bar, (0, 0, 1.0), thrown)], [(0, "foot", GROUND, None)]).full(
         alpha=0.0, stands=False
     )
-    column = run.system.column
+    column = run.system.bodies
 
     def angular_momentum(state):
         return np.cross(state.x - column.centers(state.x), column.momentum(state.v)).sum(axis=0)
@@ -327,7 +327,7 @@ def test_forces_on_a_bent_body_are_the_gradients_of_its_energy_and_of_the_places
         [(0, "foot", GROUND, None)],
     )
     run, random = bar.full(), np.random.default_rng(1)
-    system, column, interface = run.system, run.system.column, run.system.interface
+    system, column, interface = run.system, run.system.bodies, run.system.interface
     X = column.placed
     x = (
         X + 0.05 * np.column_stack([X[:, 2] ** 2, X[:, 0] * X[:, 2], X[:, 1] - X[:, 0] ** 2])

@@ -7,13 +7,13 @@ import pytest
 from coarse_column import coarse_case
 from mpi4py import MPI
 
-from fecolumn.case import case_from_tables, read_toml
 from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.energy import Ledger
 from fecolumn.dynamics.gravity import standing, tilted
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.mesh.column import column_mesh
-from fecolumn.schema import merge
+from fecolumn.schema import merge, read_toml
+from fecolumn.short_form import short_form
 
 SPECIMEN = "meshes/stout.toml"
 
@@ -21,7 +21,7 @@ SPECIMEN = "meshes/stout.toml"
 def _without_cap():
     tables = read_toml(SPECIMEN)
     del tables["cap"]
-    return case_from_tables(
+    return short_form(
         merge(
             tables,
             {
@@ -38,9 +38,8 @@ def _imported(folder):
     """The coarse column through an Abaqus file written by meshio."""
     import meshio
 
-    mesh = column_mesh(
-        coarse_case(column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.0133})
-    )  # a polygon of true area is wider than the circle
+    # a polygon of true area is wider than the circle
+    mesh = column_mesh(coarse_case(column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.0133}))
     meshio.Mesh(mesh.points, [("hexahedron", mesh.cells)]).write(folder / "column.inp")
     return coarse_case(column={"mesh_file": str(folder / "column.inp")})
 

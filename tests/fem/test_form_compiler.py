@@ -20,7 +20,8 @@ points = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1)
 mesh = _dolfinx.create_brick_mesh(MPI.COMM_WORLD, points, np.arange(8)[None])
 print("begins", flush=True)
 space = _dolfinx.vector_space(mesh, 1)
-mass = _dolfinx.assemble_matrix(ufl.inner(ufl.TrialFunction(space), ufl.TestFunction(space)) * ufl.dx)
+u, w = ufl.TrialFunction(space), ufl.TestFunction(space)
+mass = _dolfinx.assemble_matrix(ufl.inner(u, w) * ufl.dx)
 print("mass", sum(mass.getRow(row)[1].sum() for row in range(24)))
 """
 
@@ -47,13 +48,13 @@ def _whole(cache):
         env=os.environ | {"XDG_CACHE_HOME": str(cache)},
     )
     assert process.returncode == 0, process.stderr
-    assert float(process.stdout.split()[-1]) == pytest.approx(
-        3.0
-    )  # a cube of unit density, along three axes
+    # a cube of unit density, along three axes
+    assert float(process.stdout.split()[-1]) == pytest.approx(3.0)
     kept = sorted(file.name for file in (cache / "fenics").iterdir())
+    # neither locks nor unfinished folders are left
     assert sum(name.endswith(".so") for name in kept) and not [
         name for name in kept if name.startswith(".")
-    ]  # neither locks nor unfinished folders are left
+    ]
 
 
 def _killed(cache, times, seed):
@@ -82,9 +83,8 @@ def test_killed_fifty_times_while_it_compiles_the_next_process_compiles_again(tm
 def test_what_a_killed_compiler_of_other_programs_left_is_made_again(tmp_path):
     _whole(tmp_path)
     for file in (tmp_path / "fenics").iterdir():
-        if not file.name.endswith(
-            ".c"
-        ):  # the lock of ffcx itself, and no sign that its module is ready
+        # the lock of ffcx itself, and no sign that its module is ready
+        if not file.name.endswith(".c"):
             file.unlink()
     _whole(tmp_path)
 

@@ -15,7 +15,7 @@ from fecolumn.mesh.specimen import specimen_mesh
 
 @pytest.fixture(scope="module")
 def specimen():
-    return read_case("meshes/stout.toml")
+    return read_case("meshes/stout.toml").short
 
 
 def _body(case):

@@ -38,10 +38,10 @@ def tied_body():
     """A tube with its cap tied on."""
     from mpi4py import MPI
 
-    from fecolumn.case import case_from_tables
     from fecolumn.dynamics.assembly import column_body, share_specimen_mesh
+    from fecolumn.short_form import short_form
 
-    case = case_from_tables(
+    case = short_form(
         {
             "column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.3},
             "cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.02},

@@ -1,7 +1,9 @@
 """A notebook in text, run cell by cell as Jupyter does: the value of a cell's last line is shown by
 its own HTML or PNG.
 
-python cells.py NOTEBOOK.py OUTPUT     OUTPUT/NUMBER.html, NUMBER.png or NUMBER.txt of each cell that shows something
+    python cells.py NOTEBOOK.py OUTPUT
+
+Each cell that shows something is written to OUTPUT/NUMBER.html, NUMBER.png or NUMBER.txt.
 """
 
 from __future__ import annotations

@@ -74,7 +74,7 @@ def test_links_lead_somewhere(page):
 def test_every_fenced_block_has_a_language_that_is_tested():
     for page in PAGES:
         fences = re.findall(r"^```(.*)$", PAGES[page].read_text(encoding="utf-8"), re.MULTILINE)
-        assert {fence for fence in fences[::2]} <= {*SHELLS, "toml", "python", "csv"}, page
+        assert set(fences[::2]) <= {*SHELLS, "toml", "python", "csv"}, page
         assert not any(fences[1::2]), page
 
 
@@ -158,9 +158,8 @@ def shrink(path):
             f"0.02\n{coarse(whole(case, folder), 'case.mesh')}"
         )
     else:
-        modes = (
-            "n_modes = 3\n" if "column" in tables or "extends" in tables else ""
-        )  # rocking models have none
+        # rocking models have none
+        modes = "n_modes = 3\n" if "column" in tables or "extends" in tables else ""
         change = f"[integration]\nduration_s = 0.02\n{modes}{coarse(whole(tables, folder), 'mesh')}"
     with open(path, "w") as file:
         file.write(f'extends = "whole-{name}"\n{change}')

@@ -25,7 +25,7 @@ from synthetic_study import write_synthetic  # noqa: E402
 from fecolumn.report.page import write_report  # noqa: E402
 from fecolumn.simulation import run  # noqa: E402
 from fecolumn.study.plan import read_plan  # noqa: E402
-from fecolumn.study.run import run_study  # noqa: E402
+from fecolumn.study.run import complete_study  # noqa: E402
 from fecolumn.study.table import write_tables  # noqa: E402
 
 BLOCK = """
@@ -150,7 +150,7 @@ def test_every_column_of_a_studys_tables(tmp_path):
     plan = read_plan(write_study(tmp_path, pulses=range(2)))
     write_tables(
         plan,
-        run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO()),
+        complete_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO()),
         tmp_path / "out",
     )
     for name in ("table.csv", "analyses.csv", "timing.csv"):

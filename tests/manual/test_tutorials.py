@@ -1,6 +1,7 @@
 """The tutorials are notebooks in text that run as they are."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -20,6 +21,8 @@ def test_tutorial_is_cells_of_python(tutorial):
         and text.count("\n# %%") > 5
         and len(code_cells(text)) > 5
     )
+    # the text of a cell begins on its second line, or Jupyter takes it for the cell's title
+    assert re.findall(r"^# %%.*$", text, re.M).count("# %% [markdown]") == text.count("[markdown]")
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ import itertools
 import meshio
 import numpy as np
 
-from fecolumn.case import case_from_tables
+from fecolumn.short_form import short_form
 
 SIDES = 0.2, 0.1, 0.4
 
@@ -62,7 +62,7 @@ def tetrahedra(counts=(4, 2, 6), sides=SIDES):
 
 def own_case(file, **tables):
     """Case of a mesh file, shaken by nothing for a tenth of a second."""
-    return case_from_tables(
+    return short_form(
         {"column": {"mesh_file": str(file)}, "integration": {"duration_s": 0.1}} | tables,
         "own.toml",
     )

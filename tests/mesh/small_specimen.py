@@ -2,7 +2,7 @@
 
 import copy
 
-from fecolumn.case import case_from_tables
+from fecolumn.short_form import short_form
 
 TABLES = {
     "column": {"outer_diameter_m": 0.1, "height_m": 0.3, "wall_m": 0.01, "fine_height_m": 0.05},
@@ -23,4 +23,4 @@ def small_case(cap=True, **keys):
         tables[table][key] = value
     if not cap:
         del tables["cap"]
-    return case_from_tables(tables, "small_specimen.toml")
+    return short_form(tables, "small_specimen.toml")

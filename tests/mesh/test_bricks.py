@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial import cKDTree
 from small_specimen import TABLES, small_case
 
-from fecolumn.case import case_from_tables, read_case
+from fecolumn.case import read_case
 from fecolumn.contact.rim import Rim
 from fecolumn.mesh.base_plate import GROWTH, base_mesh, grid_lines, growing_steps
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, boundary_faces, brick_mesh, outer_faces
@@ -20,6 +20,7 @@ from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
 from fecolumn.mesh.quality import exact_cap, exact_column, exact_flange, mass_properties
 from fecolumn.mesh.section import Annulus
 from fecolumn.mesh.specimen import specimen_mesh
+from fecolumn.short_form import short_form
 
 ODD_CASES = {
     "tube": {},
@@ -104,7 +105,7 @@ def test_a_coarse_column_has_the_weight_of_the_true_one(keys):
 
 @pytest.mark.parametrize("keys", [{}, {"inner_diameter_m": 0.06}], ids=["full", "with a hole"])
 def test_a_flange_carries_the_column_and_weighs_what_it_should(keys):
-    case = case_from_tables(
+    case = short_form(
         TABLES | {"flange": {"outer_diameter_m": 0.16, "thickness_m": 0.012} | keys}, "flange.toml"
     )
     specimen = specimen_mesh(case)
@@ -120,7 +121,7 @@ def test_a_flange_carries_the_column_and_weighs_what_it_should(keys):
 
 
 def test_a_block_has_its_own_sides_and_finer_bricks_below():
-    case = case_from_tables(BLOCK, "block.toml")
+    case = short_form(BLOCK, "block.toml")
     specimen = specimen_mesh(case)
     assert np.ptp(specimen.body.points, axis=0) == pytest.approx([0.4, 0.2, 1.2], rel=1e-14)
     found, exact = mass_properties(specimen.body, 7850.0), exact_column(case)
@@ -133,7 +134,7 @@ def test_a_block_has_its_own_sides_and_finer_bricks_below():
 
 
 def test_tube_of_the_study_is_one_brick_thick_with_three_fine_bricks_on_a_coarse_one():
-    mesh = column_mesh(read_case(Path(__file__).parents[2] / "meshes/stout.toml"))
+    mesh = column_mesh(read_case(Path(__file__).parents[2] / "meshes/stout.toml").short)
     foot, joint = boundary_faces(mesh, LOWER, 0, 1e-9), boundary_faces(mesh, UPPER, 0.05, 1e-9)
     # Mean circumference 303.5 mm: 20 bricks of 15 mm, 60 of 5 mm.
     assert (len(foot), len(joint)) == (60, 20)

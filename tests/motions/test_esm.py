@@ -1,4 +1,6 @@
-"""ESM ASC files: what the header states is used, and what is broken is refused with where and why."""
+"""ESM ASC files: what the header states is used, and what is broken is refused with where and
+why.
+"""
 
 import numpy as np
 import pytest

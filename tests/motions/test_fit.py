@@ -9,7 +9,7 @@ from fecolumn.motions.fit import components_of_record, fit
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.record import GroundMotion
 from fecolumn.motions.seeded import seeded_ensemble
-from fecolumn.motions.stochastic import Component, Shape, bidirectional
+from fecolumn.motions.stochastic import Component, EnsembleShape, bidirectional
 from fecolumn.motions.target import agreement, figures, measured, target_of_record
 
 
@@ -17,7 +17,7 @@ def record(frequencies=(3.0, 5.0), slope=-0.2):
     """A motion of two narrow-band components that no default of the fit knows of, turned by 30
     degrees.
     """
-    shape = Shape(6.0, 0.15, np.array([0.1, 10.0]), np.array([-0.5, 0.5]), 0.01)
+    shape = EnsembleShape(6.0, 0.15, np.array([0.1, 10.0]), np.array([-0.5, 0.5]), 0.01)
     parts = [
         Component(arias, 12.0, frequency, slope, 0.1)
         for arias, frequency in zip((3.0, 1.0), frequencies)

@@ -1,4 +1,6 @@
-"""The [motion] table: order of processing, units stated or refused, components that fit together."""
+"""The [motion] table: order of processing, units stated or refused, components that fit
+together.
+"""
 
 import math
 

@@ -155,7 +155,7 @@ def test_pulse_fitted_to_the_velocity_has_the_period_and_velocity_put_in(magnitu
         time = np.arange(len(velocity)) * motion.dt
         middle = time[np.abs(velocity).argmax()]
 
-        def misfit(x):
+        def misfit(x, time=time, velocity=velocity):
             return (
                 DirectivityPulse(abs(x[0]), abs(x[1]), x[2], true.gamma).velocity(time - x[3])
                 - velocity

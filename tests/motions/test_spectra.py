@@ -170,9 +170,8 @@ def test_eqsig_finds_the_same_spectrum():
 def test_pyrotd_finds_the_same_rotd_spectra():
     pyrotd = pytest.importorskip("pyrotd")
     motion, periods = noise(), np.geomspace(0.1, 3, 20)
-    quiet = np.zeros(
-        6000
-    )  # pyrotd works in the frequency domain: without these 30 s of rest the end would run on into the beginning
+    # pyrotd works in the frequency domain: 30 s of rest keep the end from running into the start
+    quiet = np.zeros(6000)
     x, y = (np.concatenate([motion.acceleration[:, axis], quiet]) for axis in (0, 1))
     found = pyrotd.calc_rotated_spec_accels(
         motion.dt, x, y, 1 / periods, 0.05, percentiles=[50, 100]

@@ -10,7 +10,13 @@ import pytest
 from scipy.integrate import cumulative_trapezoid
 
 from fecolumn.case import GRAVITY
-from fecolumn.motions.stochastic import Component, Shape, amplitude, at_rest, bidirectional
+from fecolumn.motions.stochastic import (
+    Component,
+    EnsembleShape,
+    amplitude,
+    bidirectional,
+    brought_to_rest,
+)
 from fecolumn.motions.variability import (
     _CORRELATIONS,
     damping_of,
@@ -20,7 +26,7 @@ from fecolumn.motions.variability import (
     slope_score,
 )
 
-FLAT = Shape(
+FLAT = EnsembleShape(
     modulation_shape=10.0,
     corner_hz=0.1,
     frequencies_hz=np.array([0.1, 10.0]),
@@ -69,9 +75,8 @@ def test_falling_filter_frequency_lowers_the_crossing_rate():
         dataclasses.replace(ONE, frequency_hz=6.0, frequency_slope_hz_s=-0.5, damping=0.1)
     )
     ups = (motions[:-1] <= 0) & (motions[1:] > 0)
-    rates = [
-        ups[start : start + 300].mean() / FLAT.dt for start in (500, 1100)
-    ]  # 5-8 s and 11-14 s
+    # 5-8 s and 11-14 s
+    rates = [ups[start : start + 300].mean() / FLAT.dt for start in (500, 1100)]
     assert rates[1] - rates[0] == pytest.approx(-0.5 * 6, abs=0.4)
 
 
@@ -93,7 +98,7 @@ def test_velocity_and_displacement_end_at_zero():
 
 def test_correction_for_rest_leaves_a_motion_at_rest_as_it_is():
     motion = many(n=2)[:, 0]
-    assert at_rest(motion, FLAT.dt) == pytest.approx(motion, abs=1e-12)
+    assert brought_to_rest(motion, FLAT.dt) == pytest.approx(motion, abs=1e-12)
 
 
 def test_components_are_independent():

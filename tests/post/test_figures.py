@@ -5,9 +5,9 @@ import pytest
 from synthetic_history import write_history
 
 from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import Panel, axis_end, cdf_figure, common, overturn_text
+from fecolumn.post.cdf_figure import CdfPanel, axis_end, cdf_figure, common, overturn_text
 from fecolumn.post.energy_figure import energy_figure
-from fecolumn.post.history_figures import History, history_figures
+from fecolumn.post.history_figures import HistoryCurves, history_figures
 from fecolumn.post.specimen_figure import specimen_figure
 from fecolumn.post.specimen_outline import specimen_outline
 from fecolumn.post.style import BLUE, PURPLE, VERMILION
@@ -18,7 +18,7 @@ from fecolumn.statistics.ecdf import ecdf
 def _panel(title, n, seed):
     rng = np.random.default_rng(seed)
     samples = [rng.lognormal(-2.5, 1, n) for _ in range(5)]
-    return Panel(title, tuple((f"line {k}", ecdf(u, u > 0.25)) for k, u in enumerate(samples)))
+    return CdfPanel(title, tuple((f"line {k}", ecdf(u, u > 0.25)) for k, u in enumerate(samples)))
 
 
 def _picture(file):
@@ -52,7 +52,9 @@ def test_band_is_as_large_as_the_distribution_says(tmp_path):
     # 250 mm the band reaches 0.5 +- 0.031
     u = np.where(np.arange(1000) < 999, 0.01, 0.25)
     picture = _picture(
-        cdf_figure([Panel("a", (("line", ecdf(u, np.arange(1000) < 500)),))], tmp_path / "cdf")[0]
+        cdf_figure([CdfPanel("a", (("line", ecdf(u, np.arange(1000) < 500)),))], tmp_path / "cdf")[
+            0
+        ]
     )
     rows, columns = np.nonzero(
         np.abs(picture[..., :3] - (1 - 0.2 * (1 - np.array([0, 0x72, 0xB2]) / 255))).max(axis=2)
@@ -82,7 +84,7 @@ def test_same_data_same_bytes(tmp_path):
 
 def test_combination_in_which_all_overturn_is_drawn(tmp_path):
     png, _ = cdf_figure(
-        [Panel("all", (("line", ecdf([1.0, 1.0], [True, True])),))], tmp_path / "cdf"
+        [CdfPanel("all", (("line", ecdf([1.0, 1.0], [True, True])),))], tmp_path / "cdf"
     )
     assert png.stat().st_size > 5000
 
@@ -124,7 +126,7 @@ def test_figures_of_one_analysis(tmp_path, overturned):
 
 def test_history_is_read_back(tmp_path):
     write_history(tmp_path, n=11)
-    history = History.read(tmp_path / "history.h5")
+    history = HistoryCurves.read(tmp_path / "history.h5")
     assert (
         history.u_top.shape == (11, 3)
         and history.time[-1] == 4.0
@@ -193,7 +195,7 @@ def test_displacement_stands_below_the_ground_motion_and_beside_what_is_critical
 def test_every_loss_of_energy_has_a_name_and_strain_an_axis(tmp_path):
     write_history(tmp_path)
     words = _texts(
-        lambda: energy_figure(History.read(tmp_path / "history.h5"), tmp_path / "energy")
+        lambda: energy_figure(HistoryCurves.read(tmp_path / "history.h5"), tmp_path / "energy")
     )
     assert all(
         name in words

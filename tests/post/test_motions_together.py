@@ -8,7 +8,7 @@ import pytest
 
 from fecolumn.ending import OVERTURNED, SLID_OFF
 from fecolumn.post.fan_figure import Fan, fan_figure
-from fecolumn.post.plan_figure import plan_figure
+from fecolumn.post.plan_figure import LostDirections, plan_figure
 from fecolumn.post.style import BLUE, COLUMN_WIDTH_IN, PURPLE, VERMILION
 
 
@@ -66,9 +66,8 @@ def test_a_fan_draws_a_motion_at_its_displacement_and_crosses_what_overturned(tm
     )
     assert (bottom - level.mean()) / (bottom - top) == pytest.approx(0.5, abs=0.01)
     cross = np.argwhere(_near(picture[top - 8 : top + 8], VERMILION))
-    assert (
-        len(cross) > 20 and np.ptp(cross[:, 1]) < 40
-    )  # one cross, on the upper edge, where it leaves the axes
+    # one cross, on the upper edge, where it leaves the axes
+    assert len(cross) > 20 and np.ptp(cross[:, 1]) < 40
 
 
 def test_a_fan_of_motions_that_stood_has_no_colour_of_loss(tmp_path):
@@ -111,8 +110,7 @@ def test_rose_shows_the_share_of_each_sector_and_none_where_nothing_was_lost(tmp
     traces = [_trace(0.03), _trace(0.02, 0.1, OVERTURNED), _trace(0.02, 2.0, SLID_OFF)]
     (lost,) = plan_figure(
         traces,
-        ([0.0, 5.0, -10.0], [0.0, 5.0, -10.0]),
-        "lost",
+        LostDirections([0.0, 5.0, -10.0], [0.0, 5.0, -10.0], "lost"),
         None,
         0.05,
         0.1,
@@ -120,17 +118,17 @@ def test_rose_shows_the_share_of_each_sector_and_none_where_nothing_was_lost(tmp
         ("png",),
     )
     (stood,) = plan_figure(
-        traces[:1], ([], []), "lost", None, 0.05, 0.1, tmp_path / "stood", ("png",)
+        traces[:1], LostDirections([], [], "lost"), None, 0.05, 0.1, tmp_path / "stood", ("png",)
     )
     picture = _picture(lost)
     assert struct.unpack(">II", stood.read_bytes()[16:24])[0] < picture.shape[1] == 1440
     assert _near(picture, VERMILION).any() and _near(picture, PURPLE).any()
+    # without the legend below
     sector = np.argwhere(
         _near(picture[: int(0.9 * len(picture))], _on_white(VERMILION, 0.65), 0.03)
-    )  # without the legend below
+    )
     assert len(sector) > 3000
-    middle = np.array(
-        [sector[:, 0].mean(), sector[:, 1].min()]
-    )  # the sector's tip is the middle of the rose
+    # the sector's tip is the middle of the rose
+    middle = np.array([sector[:, 0].mean(), sector[:, 1].min()])
     angles = np.degrees(np.arctan2(middle[0] - sector[:, 0], sector[:, 1] - middle[1] + 1))
     assert np.abs(angles[sector[:, 1] > middle[1] + 30]).max() < 17

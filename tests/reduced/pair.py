@@ -5,8 +5,8 @@ import numpy as np
 from fecolumn.dynamics import gravity
 from fecolumn.reduced import start
 from fecolumn.reduced.build import column_model
+from fecolumn.reduced.engine import column_engine
 from fecolumn.reduced.observe import COLUMNS, view
-from fecolumn.reduced.run import column_engine
 from fecolumn.verification.models import column_system
 from fecolumn.verification.trial import Trial
 
@@ -21,9 +21,9 @@ def top_nodes(body):
 
 def reduced(system, n_modes=30, begin=start.standing, overturn=0.25):
     """The reduced engine of a full-order system."""
-    body, interface = system.column, system.interface
-    model, _ = column_model(body, system.foot_nodes, system.areas, *top_nodes(body), n_modes)
-    eye = view(model, system.weight, interface.laws["friction"], overturn)
+    body = system.body
+    model, _ = column_model(body, foot.nodes, foot.areas, *top_nodes(body), n_modes)
+    eye = view(model, system.weight, system.laws["friction"], overturn)
     return column_engine(
         model,
         system.base,
@@ -31,17 +31,17 @@ def reduced(system, n_modes=30, begin=start.standing, overturn=0.25):
         system.hht,
         begin,
         system.gravity,
-        damping_ratio=system.damping.ratio if system.damping else 0.0,
-        **interface.laws,
+        damping_ratio=system.damping.each[0].ratio if system.damping else 0.0,
+        **system.laws,
     )
 
 
 def tops(system, grounds, begin=gravity.standing):
     """Displacement (n, 3) [m] of the top's middle in the full-order engine, and its trial."""
     trial = Trial(system, begin)
-    nodes, weights = top_nodes(system.column)
+    nodes, weights = top_nodes(system.body)
     return np.array(
-        [weights @ (trial.step(ground).x[nodes] - system.column.X[nodes]) for ground in grounds]
+        [weights @ (trial.step(ground).x[nodes] - system.body.X[nodes]) for ground in grounds]
     ), trial
 
 

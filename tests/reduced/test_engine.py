@@ -27,14 +27,16 @@ def test_free_rocking_is_that_of_the_full_engine():
     # rolling on one point: of the third order of a step
     taken = sum(column(rows, f"energy/{term}") for term in ("friction", "impact", "contact"))
     created = np.maximum(np.diff(taken, prepend=0.0), 0.0) / (
-        system.weight * system.column.all_X[:, 2].max()
+        system.weight * system.body.all_X[:, 2].max()
     )
     assert created.sum() < 1e-7 and created.max() < 1e-9
 
 
 @pytest.mark.parametrize("alpha", [0.0, pytest.param(-0.1, marks=pytest.mark.slow)])
 def test_shaken_column_slides_rocks_and_wobbles_as_in_the_full_engine(alpha):
-    """Eight impacts and a slide in 0.2 s: top within 1e-3 of its peak; contact takes energy only."""
+    """Eight impacts and a slide in 0.2 s: top within 1e-3 of its peak; contact takes energy
+    only.
+    """
     system = system_of(
         integration={"dt_s": 1e-3, "alpha_hht": alpha}, base={"length_m": 0.4, "width_m": 0.4}
     )
@@ -52,7 +54,7 @@ def test_shaken_column_slides_rocks_and_wobbles_as_in_the_full_engine(alpha):
     # rolling on several points gives and takes, as in the full engine; the bounds are those of the
     # ledger's verification, of a run and of a step
     created = np.maximum(np.diff(taken, prepend=0.0), 0.0) / (
-        system.weight * system.column.all_X[:, 2].max()
+        system.weight * system.body.all_X[:, 2].max()
     )
     assert created.sum() < 1e-6 and created.max() < 3e-7
 

@@ -17,7 +17,7 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.history import read_history
 from fecolumn.reduced import cache
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.trial import begin
+from fecolumn.verification.trials import begin_trial
 
 STEPS, DT = 300, 1e-3
 
@@ -43,7 +43,7 @@ def sliding(engine, max_cuts=4):
         state.v[:, 0] = 1.5
         return state
 
-    made = begin(engine, system, pushed, n_modes=6).engine
+    made = begin_trial(engine, system, pushed, n_modes=6).engine
     made.max_cuts = max_cuts
     return made
 
@@ -64,7 +64,7 @@ def test_a_base_that_cannot_be_extended_costs_no_row_and_no_digit(name, monkeypa
     done, stops = undisturbed[:0], []
     while len(done) < STEPS:
         with monkeypatch.context() as patch:
-            patch.setattr(engine.base, "need", full_disk)
+            patch.setattr(engine.bases[0], "need", full_disk)
             try:
                 engine.advance(grounds[len(done) :])
             except OSError:
@@ -84,7 +84,7 @@ def test_a_base_that_cannot_be_extended_costs_no_row_and_no_digit(name, monkeypa
 def test_a_disk_that_is_full_within_the_halves_of_a_step_leaves_what_was_before_it(monkeypatch):
     engine = sliding("reduced")
     with monkeypatch.context() as patch:
-        patch.setattr(engine.base, "need", full_disk)
+        patch.setattr(engine.bases[0], "need", full_disk)
         with pytest.raises(OSError):
             engine.advance(np.zeros((STEPS, 3)))
         before = state_of(engine)

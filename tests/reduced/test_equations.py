@@ -11,9 +11,9 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced import start
+from fecolumn.reduced.engine import column_engine
 from fecolumn.reduced.model import ColumnModel
 from fecolumn.reduced.observe import view
-from fecolumn.reduced.run import column_engine
 
 ALPHA, DT, ZETA, GRAVITY = -0.2, 1e-3, 0.05, np.array([0.0, 0.0, -9.81])
 MASS, INERTIA = 10.0, np.diag([0.9, 1.0, 0.1])

@@ -16,14 +16,16 @@ def system():
 
 @pytest.fixture(scope="module")
 def model(system):
-    return column_model(system.column, system.foot_nodes, system.areas, [0], np.ones(1), 40)[0]
+    return column_model(
+        system.body, system.footprint.nodes, system.footprint.areas, [0], np.ones(1), 40
+    )[0]
 
 
 def test_flexibility_is_that_of_the_filtered_foot_at_any_step(system, model):
     """U^T K^+ U + C = K^+, whatever the step's filter moves from one to the other."""
     foot, n = system.interface.foot, len(model.arms)
     response = (
-        (foot.unit_push().T @ FreeBody(system.column).response(foot.unit_push()))
+        (foot.unit_push().T @ FreeBody(system.body).response(foot.unit_push()))
         .reshape(n, 3, n, 3)
         .transpose(0, 2, 1, 3)
     )
@@ -38,7 +40,7 @@ def test_compliance_within_a_step_is_that_of_all_finite_elements(system, model):
     modes above.
     """
     interface = system.interface
-    structure, points = structure_of(model, system.hht, system.gravity, **interface.laws)
+    structure, points = structure_of(model, system.hht, system.gravity, **system.laws)
     mine, n = scheme(structure, points, system.hht), len(model.arms)
     skew = np.array([np.cross(np.eye(3), arm) for arm in model.arms])
     rigid = np.eye(3) / model.mass + np.einsum(

@@ -81,10 +81,11 @@ def test_source_of_models_that_is_gone_is_an_error_and_no_silent_old_model(key, 
 
 
 def test_key_covers_all_that_making_a_model_imports():
+    # they hold more than what models are made with
     many = {
         "dynamics/assembly.py",
         "dynamics/observer.py",
-    }  # they hold more than what models are made with
+    }
     found = closure(
         "reduced/build.py",
         "mesh/specimen.py",

@@ -69,7 +69,9 @@ def test_a_steel_column_passes_upright_at_a_small_tilt_without_an_impact():
 
 
 def test_planar_rocking_over_is_an_impact_and_one_step():
-    """Housner's loss of a stiff column; no part of a step for it, and none for what leads up to it."""
+    """Housner's loss of a stiff column; no part of a step for it, and none for what leads up to
+    it.
+    """
     rows, _, _, housner, engine = passing(1e-3, 0.0)
     assert lost(rows) == pytest.approx(housner, rel=0.05)
     assert engine.record.impacts > 0 and engine.record.parts == 0

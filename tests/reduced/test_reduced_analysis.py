@@ -121,7 +121,7 @@ def test_result_has_what_a_full_order_one_has(tmp_path):
         with h5py.File(tmp_path / engine / "history.h5") as file:
             found = {}
             file.visititems(
-                lambda name, item: (
+                lambda name, item, found=found: (
                     found.update({name: (item.shape, item.attrs["unit"])})
                     if hasattr(item, "shape")
                     else None
@@ -212,7 +212,7 @@ def test_a_base_that_is_extended_is_no_cost_of_the_analysis_that_needs_it(tmp_pa
     assert summary["residual_slide_m"] > 0.01 and summary["cpu_s"] < slow
 
 
-def test_a_thrown_column_with_damping_restitution_and_rolling_resistance_moves_the_same_in_both_engines(
+def test_a_thrown_column_with_damping_restitution_and_rolling_moves_the_same_in_both_engines(
     tmp_path,
 ):
     """Keys reach the engines: 20 ms from a tilt with a spin that makes it wobble, and a push that

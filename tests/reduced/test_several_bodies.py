@@ -12,12 +12,12 @@ from fecolumn.structures.model import GROUND, Link
 from fecolumn.verification.boxes import (
     GRAVITY,
     block_on_a_heavy_one,
-    box,
+    box_model,
     engine,
     frame,
     joint,
     part,
-    pulse,
+    sine_pulse,
     stack,
 )
 from fecolumn.verification.several_bodies import closure
@@ -64,7 +64,7 @@ def test_a_block_rocks_on_a_heavy_one_as_on_the_ground():
 
 def test_energy_of_a_stack_in_which_both_blocks_rock_is_accounted_for():
     made = stack()
-    rows, _ = made.advance(pulse(7.0, 0.66, 1000))
+    rows, _ = made.advance(sine_pulse(7.0, 0.66, 1000))
     assert rows[:, WIDTH + 3].max() > 0.05 and rows[:, WIDTH + 7].max() > 0.1
     assert closure(rows) < 1e-11
     # contact makes no energy: what is not friction or impact takes some
@@ -97,7 +97,7 @@ def test_a_block_that_slides_over_an_edge_and_back_stands_on_the_points_that_nev
     """Its outer points come back to where the others have sunk in: let in there, they would be
     pushed up and make energy. They stay open until it lifts off.
     """
-    block = box(0.4, 0.4, 0.2, gives=1e-6, per_side=5)
+    block = box_model(0.4, 0.4, 0.2, gives=1e-6, per_side=5)
     made = engine(
         [part("low", block, (0, 0, 0)), part("up", block, (0, 0, 0.2))],
         [joint(0, GROUND, block), joint(1, 0, block, friction=0.1)],
@@ -125,7 +125,7 @@ def test_a_block_that_slides_over_an_edge_and_back_stands_on_the_points_that_nev
 
 def test_a_structure_rocks_the_same_wherever_it_stands():
     """A frame 70 m from the origin, whose slab's contacts count from the slab."""
-    ground = pulse(4.0, 1.0, 600)
+    ground = sine_pulse(4.0, 1.0, 600)
     here, there = (frame(2, at=at)[0].advance(ground)[0] for at in ((0, 0, 0), (60.0, -40.0, 0)))
     assert np.abs(here[:, 1:4]).max() > 0.05
     np.testing.assert_allclose(there[:, 1:4], here[:, 1:4], rtol=0, atol=1e-7)
@@ -157,7 +157,7 @@ def test_a_frame_rocks_at_the_frequency_of_its_theory():
     alpha, R = np.arctan(0.2 / 1.2), np.hypot(0.2, 1.2) / 2
     mass = slab.mass / (2 * column.mass)
     p_hat = np.sqrt(0.75 * G / R * (1 + 2 * mass) / (1 + 3 * mass))
-    rows, over = made.advance(pulse(2.1, 0.8, 3500, dt=5e-4))
+    rows, over = made.advance(sine_pulse(2.1, 0.8, 3500, dt=5e-4))
     assert not over
     tilt = rows[1700:, WIDTH + 3]
     top = np.argmax(tilt[:1000])
@@ -168,7 +168,7 @@ def test_a_frame_rocks_at_the_frequency_of_its_theory():
 
 @pytest.mark.parametrize("columns, order", [(2, [2, 0, 1]), (4, [3, 1, 4, 0, 2])])
 def test_motion_does_not_depend_on_the_order_of_bodies_and_contacts(columns, order):
-    ground = pulse(4.0, 1.0, 1000)
+    ground = sine_pulse(4.0, 1.0, 1000)
     first, other = (frame(columns, numbers)[0].advance(ground)[0] for numbers in (None, order))
     assert np.abs(first[:, 1:4]).max() > 0.05
     np.testing.assert_allclose(other[:, 1:4], first[:, 1:4], rtol=0, atol=1e-10)
@@ -176,7 +176,7 @@ def test_motion_does_not_depend_on_the_order_of_bodies_and_contacts(columns, ord
 
 def test_momentum_is_conserved_where_nothing_is_held():
     """Two blocks that collide in free flight: their common momentum and angular momentum stay."""
-    one = box(0.3, 0.4, 0.5)
+    one = box_model(0.3, 0.4, 0.5)
     lower = part("lower", one, (0, 0, 10.0), spin=(0.3, -0.2, 0.1))
     upper = replace(
         part("upper", one, (0.05, 0.08, 10.6), velocity=(0.1, 0.0, -1.5)),
@@ -228,13 +228,13 @@ def tie(**settings):
 
 
 def tied(link, steps=600, push=8.0):
-    block = box(0.3, 0.3, 0.8)
+    block = box_model(0.3, 0.3, 0.8)
     made = engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [link])
-    return made, made.advance(pulse(push, 0.5, steps))[0]
+    return made, made.advance(sine_pulse(push, 0.5, steps))[0]
 
 
 def test_a_tendon_that_is_tight_presses_the_block_down():
-    block = box(0.3, 0.3, 0.8)
+    block = box_model(0.3, 0.3, 0.8)
     tendon = tie(kind="tendon", arm_b=np.array([0.0, 0, 0.0]), prestress=500.0, pushes=False)
     made = engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [tendon])
     assert made.motion.forces[:, 2].sum() == pytest.approx(block.mass * G + 500.0, rel=1e-6)
@@ -270,7 +270,7 @@ def test_a_mass_that_a_yielding_spring_stops_has_lost_all_but_what_the_spring_th
     """Without friction, along x at the height of the centre of mass: F_y times the plastic way is m
     v^2 / 2 less F_y^2 / 2 k.
     """
-    block, speed, stiffness, yields = box(0.3, 0.3, 0.8), 0.5, 1e5, 1e3
+    block, speed, stiffness, yields = box_model(0.3, 0.3, 0.8), 0.5, 1e5, 1e3
     spring = tie(
         arm_a=np.zeros(3), arm_b=np.array([-2.0, 0, 0.4]), stiffness=stiffness, yield_n=yields
     )
@@ -300,7 +300,7 @@ def test_a_tendon_that_a_lean_has_stretched_is_loaded_from_the_start():
     2, which contact must not make.
     """
     breadth, tilt, stiffness = 0.3, 0.05, 2e5
-    block, turn = box(breadth, breadth, 0.8), rotation_matrix(np.array([0, tilt, 0]))
+    block, turn = box_model(breadth, breadth, 0.8), rotation_matrix(np.array([0, tilt, 0]))
     toe = np.array([breadth / 2, 0, 0])
     leaning = replace(
         part("block", block, (0, 0, 0)), center=toe + turn @ (block.center - toe), rotation=turn
@@ -327,7 +327,7 @@ def test_a_link_too_stiff_for_the_step_is_refused_by_name(settings, much):
     with pytest.raises(ValueError, match=f"links.tie: {much} .* needs steps of at most") as refused:
         tied(tie(**settings))
     longest = float(str(refused.value).split()[-2])
-    block = box(0.3, 0.3, 0.8)
+    block = box_model(0.3, 0.3, 0.8)
     engine(
         [part("block", block, (0, 0, 0))],
         [joint(0, GROUND, block)],
@@ -338,7 +338,7 @@ def test_a_link_too_stiff_for_the_step_is_refused_by_name(settings, much):
 
 def test_many_links_are_refused_where_one_of_them_would_do():
     """Sixteen tendons as stiff as one may be answer a step sixteen times as strongly."""
-    block = box(0.3, 0.3, 0.8)
+    block = box_model(0.3, 0.3, 0.8)
     one = tie(stiffness=0.9 * 4 * block.mass / 1e-3**2 / 4, arm_a=np.zeros(3))
     tied(one, steps=5)
     with pytest.raises(
@@ -351,7 +351,7 @@ def test_many_links_are_refused_where_one_of_them_would_do():
 @pytest.mark.parametrize("prestress, end", [(500.0, (0, 0, 0.0)), (0.0, (1.0, 0.3, 3.0))])
 def test_a_block_comes_to_rest_on_links_however_stiff(stiffness, prestress, end):
     """As stiff as its foot, along it or aslant; the tendon adds its prestress to the weight."""
-    block = box(0.3, 0.3, 0.8)
+    block = box_model(0.3, 0.3, 0.8)
     link = tie(stiffness=stiffness, prestress=prestress, arm_b=np.array(end))
     made = engine([part("block", block, (0, 0, 0))], [joint(0, GROUND, block)], [link], dt=1e-4)
     assert made.motion.forces[:, 2].sum() == pytest.approx(

@@ -67,12 +67,13 @@ def test_movie_of_fields_is_as_slow_as_asked_and_comes_as_gif(drum):
 
 def test_stills_and_sequence_of_the_instants_asked_for(drum):
     files = render(drum, Wish(only="pictures", instants=(0.0, 0.11)), quiet=True)
+    # the fields' instants
     assert [file.name for file in files] == [
         "sequence.pdf",
         "sequence.png",
         "still_0.000s.png",
         "still_0.120s.png",
-    ]  # the fields' instants
+    ]
     assert files[0].read_bytes().startswith(b"%PDF") and all(
         file.stat().st_size > 10_000 for file in files
     )
@@ -97,9 +98,8 @@ def test_every_view_looks_elsewhere_and_shows_the_column(block):
 
 def test_instants_are_chosen_at_peaks_within_the_time_shown(block):
     times = chosen_instants(read_result(block), 0.0, 0.2)
-    assert (
-        0 < len(times) <= 5 and (np.diff(times) > 0).all() and times[0] == 0.0
-    )  # released from its largest tilt
+    # released from its largest tilt
+    assert 0 < len(times) <= 5 and (np.diff(times) > 0).all() and times[0] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -190,9 +190,8 @@ def test_displacement_colours_the_points_of_a_tube_that_has_as_many_points_as_fa
         analysed(tube | {"integration": {"engine": "rigid", "duration_s": 0.02}}, tmp_path / "run")
     )
     surface = result.scene.surface
-    assert len(surface.nodes) == len(
-        surface.faces
-    )  # of a torus, what a tube's surface is; both have a value for each
+    # of a torus, what a tube's surface is; both have a value for each
+    assert len(surface.nodes) == len(surface.faces)
     frames = Frames(result, np.array([0.0]), 0.04)
     with Canvas(frames, camera.camera(result, "lean", frames.times, 1.0), (128, 128)) as scene:
         assert (

@@ -1,4 +1,6 @@
-"""Pictures of structures of many bodies: movies, stills, files for ParaView; and what is refused."""
+"""Pictures of structures of many bodies: movies, stills, files for ParaView; and what is
+refused.
+"""
 
 import shutil
 
@@ -28,10 +30,11 @@ def test_movie_of_a_gate_shows_its_motion_and_the_pressure_on_its_joints(gate):
     (file,) = render(gate, Wish(only="movie", speed=0.25, exaggerate="auto", **SMALL), quiet=True)
     pictures = _pictures(file)
     assert len(pictures) == 5 and pictures[0].shape == (240, 360, 3)
+    # the structure, and the joints in plan
     for part in (
         np.s_[20:210, :140],
         np.s_[110:190, 290:],
-    ):  # the structure, and the joints in plan
+    ):
         assert (
             np.ptp(pictures[0][part]) > 100
             and np.abs(pictures[0][part] - pictures[-1][part]).mean() > 0.5
@@ -96,7 +99,9 @@ def test_paraview_opens_a_structure_as_a_time_series(gate, building):
 
 
 def test_fields_that_an_analysis_wrote_are_drawn_as_its_states_are(gate, tmp_path):
-    """As the full-order engine writes them: here from the states, so that both must show the same."""
+    """As the full-order engine writes them: here from the states, so that both must show the
+    same.
+    """
     render(gate, Wish(paraview=True), quiet=True)
     folder = shutil.copytree(
         gate, tmp_path / "run", ignore=shutil.ignore_patterns("render", "states.h5")
@@ -143,8 +148,8 @@ def test_what_cannot_be_drawn_of_a_structure_is_one_line(gate, capsys, options, 
     assert told in error and error.count("\n") == 1
 
 
-def test_a_body_of_a_single_column_is_refused(block):
-    with pytest.raises(InputError, match="--body = 'block': is for structures"):
+def test_a_body_that_a_single_column_has_not_is_refused(block):
+    with pytest.raises(InputError, match="--body = 'block': no such body; there are column"):
         read_result(block, "block")
 
 

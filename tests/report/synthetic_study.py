@@ -10,7 +10,7 @@ import math
 import random
 from pathlib import Path
 
-from fecolumn.study.outcome import FAILED, Outcome, finished
+from fecolumn.study.outcome import FAILED, TaskOutcome, finished_outcome
 from fecolumn.study.plan import read_plan
 from fecolumn.study.store import Store
 
@@ -76,7 +76,9 @@ def write_synthetic(
                 continue
             if place in fails:
                 store.end(
-                    Outcome(analysis.id, FAILED, "StepFailed: <no convergence> at t = 1.2 s", 1.0)
+                    TaskOutcome(
+                        analysis.id, FAILED, "StepFailed: <no convergence> at t = 1.2 s", 1.0
+                    )
                 )
                 continue
             result = store.result_folder(analysis.id)
@@ -88,7 +90,7 @@ def write_synthetic(
             (result / "summary.json").write_text(
                 json.dumps(summary | also(analysis.values, summary))
             )
-            store.end(finished(analysis.id, result))
+            store.end(finished_outcome(analysis.id, result))
     return folder / "out"
 
 

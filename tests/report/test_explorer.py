@@ -21,7 +21,9 @@ MOTIONS = 9
 
 
 def write_history(folder, peak: float, duration: float, rows: int = 3000) -> None:
-    """A rocking of a given peak [m] as history.h5: a wobble that decays, with the kinks of impacts."""
+    """A rocking of a given peak [m] as history.h5: a wobble that decays, with the kinks of
+    impacts.
+    """
     time = np.linspace(0.0, duration, rows)
     size = np.sin(np.pi * time / duration) * np.exp(-time / duration)
     u = np.column_stack(
@@ -148,9 +150,8 @@ def test_embedded_histories_miss_no_row_of_the_stored_ones_by_more_than_the_page
                 (np.hypot(*u[:, :2].T), np.hypot(*drawn["u_top"].T), scale),
                 (tilt, drawn["tilt"], min(tilt.max(), 0.09)),
             ):
-                shift = (
-                    time[-1] / 65535 / 2
-                )  # of a time that is rounded, a move of the speed times this
+                # of a time that is rounded, a move of the speed times this
+                shift = time[-1] / 65535 / 2
                 rounding = (
                     np.abs(np.gradient(stored, time)).max() * shift + np.abs(stored).max() / 32767
                 )

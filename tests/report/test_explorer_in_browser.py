@@ -132,7 +132,9 @@ class Reader:
         return [button.text for button in self.part("list").find_elements("css selector", "button")]
 
     def lines(self, name: str) -> list[str]:
-        """Points of the lines of a chart that are not black (foot and critical displacement are)."""
+        """Points of the lines of a chart that are not black (foot and critical displacement
+        are).
+        """
         return [
             one.get_attribute("points")
             for one in self.part(name).find_elements("css selector", "polyline")
@@ -251,9 +253,8 @@ def test_a_reader_with_a_mouse_marks_what_overturned_and_sees_where_it_ended(bro
         "plan"
     ).find_elements("css selector", "path.end")
     assert "A cross: overturned, followed up to" in page.part("marks").text
-    followed = [
-        float(text) for text in page.part("top").text.split() if text.isdigit()
-    ]  # ticks, of time and of displacement
+    # ticks, of time and of displacement
+    followed = [float(text) for text in page.part("top").text.split() if text.isdigit()]
     assert max(followed) < 1.3 * max(page.data["end_mm"], page.data["critical_mm"])
     drawn = page.lines("top")
     page.window.find_element("css selector", "#explorer-quantity option[value='1']").click()

@@ -1,4 +1,6 @@
-"""Fragility in the report: intensities of the motions the analyses name, pooled over their scales."""
+"""Fragility in the report: intensities of the motions the analyses name, pooled over their
+scales.
+"""
 
 import csv
 

@@ -84,9 +84,8 @@ def test_an_engine_with_fewer_motions_is_measured_on_those_and_its_number_is_tol
     )
     page = write_report(out, files=())
     words = " ".join(page.read_text().split())
-    assert (
-        words.count("the same 40 motions (finite elements, full order: 12 of them)") == 3
-    )  # in the text, below the figure and in its place
+    # in the text, below the figure and in its place
+    assert words.count("the same 40 motions (finite elements, full order: 12 of them)") == 3
     rows = {row["engine"]: row for row in rows_of(page)}
     assert {name: int(row["n"]) for name, row in rows.items()} == {
         "housner": 40,
@@ -97,9 +96,8 @@ def test_an_engine_with_fewer_motions_is_measured_on_those_and_its_number_is_tol
         kolmogorov_smirnov(kept["full"], kept["reduced"][:12]).statistic
     )
     assert float(rows["full"]["distance"]) <= float(rows["full"]["not_excluded"]) <= 1
-    medians = [
-        sorted(sample)[5] for sample in (kept["full"], kept["reduced"][:12])
-    ]  # the sixth of twelve: no interpolation
+    # the sixth of twelve: no interpolation
+    medians = [sorted(sample)[5] for sample in (kept["full"], kept["reduced"][:12])]
     assert float(rows["full"]["e50"]) == pytest.approx(abs(medians[0] - medians[1]) / medians[1])
     assert int(rows["full"]["reference_overturned"]) == np.isinf(kept["reduced"][:12]).sum()
     assert float(rows["housner"]["distance"]) == pytest.approx(

@@ -1,4 +1,6 @@
-"""fecolumn compare of two analyses: when they part, by how much, and what of their cases differs."""
+"""fecolumn compare of two analyses: when they part, by how much, and what of their cases
+differs.
+"""
 
 import csv
 import json
@@ -10,7 +12,7 @@ import pytest
 
 from fecolumn.case import case_from_tables
 from fecolumn.cli import main
-from fecolumn.results.parting import Pair, differing_keys
+from fecolumn.results.parting import QuantityPair, differing_keys
 from fecolumn.simulation import run
 
 BLOCK = {
@@ -52,17 +54,19 @@ def _compared(capsys, *arguments) -> str:
 
 def test_parting_is_the_first_difference_beyond_the_tolerance_of_the_larger_peak():
     time = np.linspace(0, 10, 1001)
-    pair = Pair.of(np.sin(time), np.sin(time) + 0.01 * time**2, 0.05)  # the peak of b is near 1.45
+    pair = QuantityPair.of(
+        np.sin(time), np.sin(time) + 0.01 * time**2, 0.05
+    )  # the peak of b is near 1.45
     assert pair.peak == pytest.approx(np.abs(np.sin(time) + 0.01 * time**2).max())
     assert time[pair.parted] == pytest.approx(np.sqrt(5 * pair.peak), abs=0.0101) and time[
         pair.parted
     ] >= np.sqrt(5 * pair.peak)
-    assert Pair.of(np.sin(time), np.sin(time) * 1.04, 0.05).parted is None
+    assert QuantityPair.of(np.sin(time), np.sin(time) * 1.04, 0.05).parted is None
 
 
 def test_directions_count_columns_that_lean_to_opposite_sides_have_parted():
     lean = np.column_stack([np.linspace(0, 1, 11), np.zeros(11)])
-    assert Pair.of(lean, -lean, 0.05).parted == 1
+    assert QuantityPair.of(lean, -lean, 0.05).parted == 1
 
 
 def test_an_analysis_and_itself_do_not_part(folders, capsys):
@@ -121,9 +125,8 @@ def test_other_cases_and_engines_are_compared_in_their_common_time(folders, caps
             "integration.duration_s",
         )
     )
-    assert (
-        "from 0 to 0.2 s" in said and "They part at 0.0000 s, first in top displacement" in said
-    )  # 0.05 and 0.055 rad are a tenth apart
+    # 0.05 and 0.055 rad are a tenth apart
+    assert "from 0 to 0.2 s" in said and "They part at 0.0000 s, first in top displacement" in said
 
 
 def test_a_column_that_only_stands_has_no_tilt_to_part(tmp_path, capsys):

@@ -167,7 +167,7 @@ def test_folder_of_nothing_is_refused(tmp_path):
 def test_analysis_without_history_says_so(tmp_path):
     (tmp_path / "case.json").write_text("{}")
     with pytest.raises(InputError, match="not written yet"):
-        fecolumn.load(tmp_path).time
+        _ = fecolumn.load(tmp_path).time
 
 
 def test_study_gives_rows_distributions_and_figure(study):
@@ -219,3 +219,4 @@ def test_names_of_the_package_exist():
     assert all(hasattr(fecolumn, name) for name in fecolumn.__all__) and set(
         fecolumn.__all__
     ) <= set(dir(fecolumn))
+    assert set(fecolumn.__all__) == set(fecolumn._HOMES)

@@ -52,7 +52,7 @@ def test_islands_of_the_one_cosine_lie_where_an_adaptive_solver_finds_them(
 
 
 @pytest.mark.parametrize("shape", ["symmetric_ricker", "antisymmetric_ricker"])
-def test_ricker_wavelets_overturn_after_several_impacts_above_their_islands_and_the_one_sine_does_not(
+def test_ricker_wavelets_overturn_after_impacts_above_their_islands_and_the_one_sine_does_not(
     shape,
 ):
     several = [

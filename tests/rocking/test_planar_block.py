@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from fecolumn.case import GRAVITY
 from fecolumn.motions.pulses import Pulse, sample
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.block import Block, BlockSection
+from fecolumn.rocking.block import BlockSection, RockingBlock
 from fecolumn.rocking.impact import (
     body_restitution,
     housner_restitution,
@@ -22,7 +22,7 @@ TALL = dict(width_m=0.4, height_m=1.2, density_kg_m3=2700.0)
 
 
 def block(**keys):
-    return Block.of_section(BlockSection(**{**TALL, **keys}), "block.toml")
+    return RockingBlock.of_section(BlockSection(**{**TALL, **keys}), "block.toml")
 
 
 def still(duration, dt=1e-3):
@@ -74,7 +74,7 @@ def test_density_of_a_free_block_changes_no_motion():
 
 @pytest.mark.parametrize("alpha, radius", [(0.1, 0.5), (0.3, 2.0)])
 def test_slenderness_and_half_diagonal_make_the_block_of_that_width_and_height(alpha, radius):
-    found = Block.of_section(
+    found = RockingBlock.of_section(
         BlockSection(slenderness_rad=alpha, half_diagonal_m=radius), "block.toml"
     ).describe()
     assert found["slenderness alpha"][0] == pytest.approx(alpha) and found["R"][0] == pytest.approx(
@@ -92,7 +92,9 @@ def test_restoring_moment_is_the_slope_of_the_potential(keys):
     rocker = block(**keys).planes[0].rocker
     for side in (1, -1):
         for lean in (0.05, 0.2, 0.6):
-            work = quad(lambda phi: float(rocker.restoring(phi, side)), 0, lean, epsabs=1e-9)[0]
+            work = quad(
+                lambda phi, side=side: float(rocker.restoring(phi, side)), 0, lean, epsabs=1e-9
+            )[0]
             assert sum(rocker.potential(lean, side)) == pytest.approx(work, rel=1e-9)
 
 
@@ -144,7 +146,7 @@ def test_eccentric_roof_makes_the_block_fall_to_its_side_and_other_impacts():
     assert plane.edges[0] < plane.edges[1] and plane.uplift(1) < plane.uplift(-1)
     mirrored = block(roof_mass_kg=500.0, roof_eccentricity_m=-0.15)
     motion = shaken(3)
-    one = Block((plane,)).respond(motion)
+    one = RockingBlock((plane,)).respond(motion)
     other = mirrored.respond(GroundMotion(motion.acceleration * [-1, 1, 1], motion.dt, "", ""))
     assert one.coordinates["theta_x"] == pytest.approx(-other.coordinates["theta_x"], abs=1e-9)
 

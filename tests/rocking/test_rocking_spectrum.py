@@ -145,10 +145,13 @@ def test_tilt_in_a_pulse_is_that_of_an_adaptive_solver_with_events():
     start, end = brentq(lambda t: ground(t) - threshold, 0, 0.25), clock[-1]
     state, side, times, tilts = [0.0, 0.0], -1.0, [], []
     for _ in range(5):
-        impact = lambda t, y: side * y[0]  # noqa: E731
+
+        def impact(t, y, side=side):
+            return side * y[0]
+
         impact.terminal, impact.direction = True, -1
         done = solve_ivp(
-            lambda t, y: [
+            lambda t, y, side=side: [
                 y[1],
                 -(p**2)
                 * (

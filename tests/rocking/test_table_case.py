@@ -143,9 +143,8 @@ def test_the_same_frame_in_bodies_and_as_a_model_is_told_apart_by_the_engine(tmp
     tables = tomllib.loads(FRAME.read_text())
     bodies = case_from_tables(tables, FRAME)
     both = merge(tables, MODEL)
-    assert (
-        case_from_tables(both, FRAME).id == bodies.id
-    )  # the model's table changes nothing of the bodies
+    # the model's table changes nothing of the bodies
+    assert case_from_tables(both, FRAME).id == bodies.id
     model = case_from_tables(
         merge(both, {"integration": {"engine": "wobbling_frame"}, "initial": {"tilt_rad": 0.03}}),
         FRAME,

@@ -7,7 +7,6 @@ import pytest
 from scipy.stats import binom, binomtest
 
 from fecolumn.statistics.bands import (
-    bootstrap_band,
     clopper_pearson,
     dkw,
     dkw_distance,
@@ -72,30 +71,14 @@ def test_simultaneous_band_holds_the_whole_curve_in_95_of_100_ensembles(share):
         u = rng.random(n)
         f = ecdf(u, u > 1 - share)
         lower, upper = dkw(f)
-        edges = np.append(
-            f.x, 1 - share
-        )  # F is continuous: the worst is at a step or just before it
+        # F is continuous: the worst is at a step or just before it
+        edges = np.append(f.x, 1 - share)
         before = np.concatenate([[0.0], upper]) if upper.size else [dkw_distance(n)]
         before[0] = dkw_distance(n)
         inside.append((lower <= f.x).all() and (edges <= before).all())
     error = 3 * math.sqrt(0.05 * 0.95 / 1500)
     assert np.mean(inside) > 0.95 - error
     assert share or np.mean(inside) < 0.97 + error
-
-
-def test_bootstrap_band_is_greenwoods_for_many_runs_and_knows_overturned_ones():
-    rng = np.random.default_rng(1)
-    u = rng.lognormal(-3, 1, 2000)
-    overturned, grid = u > 0.1, np.array([0.02, 0.05, 0.0999])
-    lower, upper = bootstrap_band(np.where(overturned, np.nan, u), overturned, grid, 0.95, 4000, 7)
-    expected = greenwood([np.mean(u <= x) for x in grid], u.size)
-    np.testing.assert_allclose(lower, expected[0], atol=0.002)
-    np.testing.assert_allclose(upper, expected[1], atol=0.002)
-    assert (
-        bootstrap_band([0.1, 0.2], [False, True], [0.5, 9.0], seed=3)[1].max() == 1.0
-    )  # both runs drawn standing, at times
-    same = bootstrap_band(u, overturned, grid, 0.95, 100, 7)
-    np.testing.assert_array_equal(same, bootstrap_band(u, overturned, grid, 0.95, 100, 7))
 
 
 def test_counts_beyond_the_sample_are_refused():

@@ -71,9 +71,8 @@ def test_percentiles_are_the_inverse_of_the_ecdf():
     assert [percentile(u, standing, q) for q in (0.16, 0.5, 0.84)] == [0.04, 0.13, 0.21]
     for q in (0.16, 0.5, 0.84):
         assert percentile(u, standing, q) == np.quantile(u, q, method="inverted_cdf")
-    assert (
-        percentile(np.arange(1, 101) / 100, np.zeros(100, bool), 0.07) == 0.07
-    )  # 0.07 * 100 > 7 in binary
+    # 0.07 * 100 > 7 in binary
+    assert percentile(np.arange(1, 101) / 100, np.zeros(100, bool), 0.07) == 0.07
     assert percentile(u, u > 0.2, 0.84) == math.inf and percentile(u, u > 0.2, 0.5) == 0.13
 
 

@@ -240,9 +240,8 @@ def test_displacements_with_overturned_runs_censored_are_unbiased():
         np.mean(inside, axis=0), 0.95, atol=3 * math.sqrt(0.05 * 0.95 / 400) + 0.01
     )
     im, u, overturned = draw(rng, 5000)
-    assert (
-        np.polyfit(np.log(im[~overturned]), np.log(u[~overturned]), 1)[0] < 1.3
-    )  # without the censored runs: biased
+    # without the censored runs: biased
+    assert np.polyfit(np.log(im[~overturned]), np.log(u[~overturned]), 1)[0] < 1.3
 
 
 def test_displacements_without_overturns_are_least_squares():

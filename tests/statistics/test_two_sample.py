@@ -34,7 +34,9 @@ def test_kolmogorov_smirnov_without_overturns_is_scipys_exact_one(n, m):
 
 
 def test_kolmogorov_smirnov_with_overturns_counts_all_orders():
-    """All 252 ways to deal ten runs, six of them overturned, to two settings, counted one by one."""
+    """All 252 ways to deal ten runs, six of them overturned, to two settings, counted one by
+    one.
+    """
     pooled = np.array([1, 2, 3, 4] + [math.inf] * 6)
     a, b = pooled[[0, 1, 2, 4, 5]], pooled[[3, 6, 7, 8, 9]]
 
@@ -46,9 +48,8 @@ def test_kolmogorov_smirnov_with_overturns_counts_all_orders():
     expected = np.mean(np.array(deals) >= distance((0, 1, 2, 4, 5)) - 1e-12)
     result = kolmogorov_smirnov(a, b)
     assert result.statistic == pytest.approx(0.6) and result.p == pytest.approx(expected, rel=1e-12)
-    assert (
-        result.p < stats.ks_2samp(a, b, method="exact").pvalue
-    )  # made for continuous variables: too large here
+    # made for continuous variables: too large here
+    assert result.p < stats.ks_2samp(a, b, method="exact").pvalue
 
 
 def test_statistics_without_overturns_are_scipys():

@@ -26,9 +26,9 @@ from fecolumn.verification.structures_feet import (
     DRUM,
     TUBE,
     Rolling,
-    advanced,
-    alone,
-    closure,
+    alone_on_ground,
+    closure_over_kinetic,
+    columns_and_rows,
     falls,
     kept,
     narrower_case,
@@ -80,11 +80,11 @@ def test_a_dome_touches_the_ground_with_its_lowest_point(edge, turn):
 
 def test_small_swings_on_a_dome_have_the_closed_form():
     """w^2 = m g (rho - h) / (I + m h^2), and nothing is lost in three periods."""
-    case = alone(DOMED, "rigid", 2e-3)
+    case = alone_on_ground(DOMED, "rigid", 2e-3)
     rolling = Rolling(structure_model(case).parts[0].model, RADIUS)
     period, amplitude = 2 * np.pi / rolling.rate, 0.02
-    rows, columns = advanced(
-        alone(
+    rows, columns = columns_and_rows(
+        alone_on_ground(
             DOMED, "rigid", 2e-3, spin_rad_s=[0.0, rolling.spin(rolling.potential(amplitude)), 0.0]
         ),
         3.6 * period,
@@ -92,14 +92,16 @@ def test_small_swings_on_a_dome_have_the_closed_form():
     found = passages(rows)
     assert (found[5] - found[1]) / 2 == pytest.approx(period, rel=1e-3)
     assert kept(rows, columns, 2e-3) == pytest.approx(1.0, abs=1e-5)
-    assert closure(columns) < CLOSED
+    assert closure_over_kinetic(columns) < CLOSED
 
 
 def test_the_foot_of_a_swing_stays_where_it_rolls():
     """The slide of the foot's lowest point is what turning takes it along; a body that rolls comes
     back to it.
     """
-    rows, _ = advanced(alone(DOMED, "rigid", 2e-3, spin_rad_s=[0.3, 0.5, 0.0]), 4.0)
+    rows, _ = columns_and_rows(
+        alone_on_ground(DOMED, "rigid", 2e-3, spin_rad_s=[0.3, 0.5, 0.0]), 4.0
+    )
     turned = rows["body/body/tilt"]
     way = np.linalg.norm(rows["interface/foot: body on ground/slide"], axis=1)
     # of a cycloid: rho (q - sin q)
@@ -109,10 +111,11 @@ def test_the_foot_of_a_swing_stays_where_it_rolls():
 
 
 def test_a_body_whose_centre_is_above_that_of_its_sphere_falls():
-    case = alone(TUBE | dict(foot_radius_m=0.01), "rigid", 1e-3)
+    case = alone_on_ground(TUBE | dict(foot_radius_m=0.01), "rigid", 1e-3)
     rolling = Rolling(structure_model(case).parts[0].model, 0.01)
-    rows, _ = advanced(
-        alone(TUBE | dict(foot_radius_m=0.01), "rigid", 1e-3, spin_rad_s=[0.0, 0.5, 0.0]), 0.6
+    rows, _ = columns_and_rows(
+        alone_on_ground(TUBE | dict(foot_radius_m=0.01), "rigid", 1e-3, spin_rad_s=[0.0, 0.5, 0.0]),
+        0.6,
     )
     leaned, tilt = rows["body/body/tilt"], 0.5
     end = int(np.argmax(leaned > tilt)) + 1
@@ -125,20 +128,26 @@ def test_a_body_whose_centre_is_above_that_of_its_sphere_falls():
 
 def test_a_drum_goes_over_the_edge_of_its_dome_and_back_without_loss():
     body = DRUM | dict(foot_radius_m=1.2)
-    rolling = Rolling(structure_model(alone(body, "rigid", 2e-3)).parts[0].model, 1.2, 0.25)
+    rolling = Rolling(
+        structure_model(alone_on_ground(body, "rigid", 2e-3)).parts[0].model, 1.2, 0.25
+    )
     tilt = np.arcsin(0.25 / 1.2) + 0.03
-    rows, columns = advanced(
-        alone(body, "rigid", 2e-3, spin_rad_s=[0.0, rolling.spin(rolling.potential(tilt)), 0.0]),
+    rows, columns = columns_and_rows(
+        alone_on_ground(
+            body, "rigid", 2e-3, spin_rad_s=[0.0, rolling.spin(rolling.potential(tilt)), 0.0]
+        ),
         4.5,
     )
     assert rows["body/body/tilt"].max() == pytest.approx(tilt, rel=1e-3)
     assert len(passages(rows)) >= 2 and kept(rows, columns, 2e-3) == pytest.approx(1.0, abs=1e-4)
-    assert closure(columns) < CLOSED
+    assert closure_over_kinetic(columns) < CLOSED
 
 
 def test_what_slides_on_a_dome_is_braked_by_coulombs_law():
-    rows, _ = advanced(
-        alone(DRUM | dict(foot_radius_m=1.2), "rigid", 2e-4, 0.1, velocity_m_s=[0.6, 0.8, 0.0]),
+    rows, _ = columns_and_rows(
+        alone_on_ground(
+            DRUM | dict(foot_radius_m=1.2), "rigid", 2e-4, 0.1, velocity_m_s=[0.6, 0.8, 0.0]
+        ),
         0.02,
     )
     lost = np.array([0.6, 0.8]) * rows["time"][-1] - rows["body/body/displacement"][-1, :2]
@@ -149,16 +158,16 @@ def test_what_slides_on_a_dome_is_braked_by_coulombs_law():
 
 def test_a_block_rolls_on_its_rounded_edge():
     body = WIDE | dict(edge_radius_m=0.05)
-    rows, columns = advanced(alone(body, "rigid", 1e-3, tilt_rad=0.1), 0.4)
-    model = structure_model(alone(body, "rigid", 1e-3)).parts[0].model
+    rows, columns = columns_and_rows(alone_on_ground(body, "rigid", 1e-3, tilt_rad=0.1), 0.4)
+    model = structure_model(alone_on_ground(body, "rigid", 1e-3)).parts[0].model
     assert passages(rows)[0] == pytest.approx(falls(model, 0.15, 0.05, 0.1), abs=2e-3)
     # with a sharp edge it takes 0.05 s less
     assert passages(rows)[0] > falls(model, 0.2, 0.0, 0.1) + 0.04
-    assert closure(columns) < CLOSED
+    assert closure_over_kinetic(columns) < CLOSED
 
 
 def test_a_drum_with_a_rounded_edge_tips_where_its_centre_is_over_that_of_the_edge():
-    case = alone(DRUM | dict(edge_radius_m=0.04), "rigid", 1e-3)
+    case = alone_on_ground(DRUM | dict(edge_radius_m=0.04), "rigid", 1e-3)
     model = structure_model(case)
     assert stances(model, standing_of(case, model))[0].critical == pytest.approx(
         np.arctan(0.21 / (0.8 - 0.04)), rel=1e-4
@@ -172,7 +181,9 @@ def test_a_solid_on_a_dome_has_the_mass_of_its_shape():
     """
     radius, height, rho = 0.25, 1.6, 0.3
     mesh = drawing(
-        alone(DRUM | dict(foot_radius_m=rho, element_size_m=0.05), "rigid", 1e-3), "body", "case"
+        alone_on_ground(DRUM | dict(foot_radius_m=rho, element_size_m=0.05), "rigid", 1e-3),
+        "body",
+        "case",
     ).shape.mesh
     rise = rho - np.sqrt(rho**2 - radius**2)
     exact = np.pi * radius**2 * (height - rise) + np.pi * rise**2 * (rho - rise / 3)
@@ -182,7 +193,11 @@ def test_a_solid_on_a_dome_has_the_mass_of_its_shape():
         and scaled_jacobian(mesh).min() > 0.1
     )
     # a closed tube: a shell of half a sphere and of the cylinder around it weigh the same
-    tube = structure_model(alone(TUBE | dict(foot_radius_m=0.01), "rigid", 1e-3)).parts[0].model
+    tube = (
+        structure_model(alone_on_ground(TUBE | dict(foot_radius_m=0.01), "rigid", 1e-3))
+        .parts[0]
+        .model
+    )
     assert tube.mass == pytest.approx(
         2500 * np.pi * (0.01**2 - 0.0085**2) * 0.15, rel=1e-6
     ) and tube.center[2] == pytest.approx(0.075, rel=1e-6)
@@ -207,7 +222,7 @@ def test_a_dome_gives_as_hertz_says():
     assert hertz(radius, load, stone, stone)[2] == pytest.approx(
         2 ** (2 / 3) * hertz(radius, load, stone)[2], rel=1e-12
     )
-    case = alone(DOMED, "reduced", 1e-3)
+    case = alone_on_ground(DOMED, "reduced", 1e-3)
     model = structure_model(case)
     assert model.joints[0].law[0] == pytest.approx(
         hertz(RADIUS, model.parts[0].model.mass * GRAVITY, stone), rel=1e-12
@@ -216,7 +231,7 @@ def test_a_dome_gives_as_hertz_says():
 
 @pytest.mark.parametrize("foot", [dict(foot_radius_m=RADIUS), dict(edge_radius_m=0.05)])
 def test_what_goes_on_from_a_saved_motion_rolls_on_as_if_nothing_had_been(foot):
-    case = alone(WIDE | foot, "rigid", 2e-3, spin_rad_s=[0.3, 0.5, 0.0])
+    case = alone_on_ground(WIDE | foot, "rigid", 2e-3, spin_rad_s=[0.3, 0.5, 0.0])
     whole, first, second = (engine_of(case, structure_model(case), "case") for _ in range(3))
     exact, _ = whole.advance(np.zeros((80, 3)))
     first.advance(np.zeros((40, 3)))
@@ -228,7 +243,9 @@ def test_what_goes_on_from_a_saved_motion_rolls_on_as_if_nothing_had_been(foot):
 
 
 def test_a_leaning_body_has_rolled_there():
-    part = structure_model(alone(DOMED, "rigid", 1e-3, tilt_rad=0.1, direction_deg=30.0)).parts[0]
+    part = structure_model(
+        alone_on_ground(DOMED, "rigid", 1e-3, tilt_rad=0.1, direction_deg=30.0)
+    ).parts[0]
     center = part.center - part.rotation @ part.model.center + part.rotation @ [0.0, 0.0, RADIUS]
     assert center == pytest.approx(
         [0.1 * RADIUS * np.cos(np.pi / 6), 0.1 * RADIUS * np.sin(np.pi / 6), RADIUS], abs=1e-12
@@ -237,7 +254,7 @@ def test_a_leaning_body_has_rolled_there():
 
 def test_a_leaning_rounded_edge_has_rolled_there():
     part = structure_model(
-        alone(WIDE | dict(edge_radius_m=0.05), "rigid", 1e-3, tilt_rad=0.1)
+        alone_on_ground(WIDE | dict(edge_radius_m=0.05), "rigid", 1e-3, tilt_rad=0.1)
     ).parts[0]
     center = part.center + part.rotation @ (np.array([0.15, 0.0, 0.05]) - part.model.center)
     assert center == pytest.approx([0.15 + 0.1 * 0.05, 0.0, 0.05], abs=1e-9)
@@ -318,7 +335,7 @@ def test_a_block_on_a_narrower_one_rocks_about_the_edge_of_that(overhanging):
     )
     edge = model.parts[1].center + model.parts[1].rotation @ [half, 0.0, -height]
     assert edge == pytest.approx([half, 0.0, 0.3], abs=1e-12)
-    rows, columns = advanced(case, 0.45)
+    rows, columns = columns_and_rows(case, 0.45)
     upright = passages(rows, "wide")[0]
     assert upright == pytest.approx(falls(wide, half, 0.0, 0.05), abs=2e-3)
     inertia, mass = wide.inertia[1, 1], wide.mass
@@ -331,7 +348,7 @@ def test_a_block_on_a_narrower_one_rocks_about_the_edge_of_that(overhanging):
         ((inertia + mass * (height**2 - half**2)) / (inertia + mass * (height**2 + half**2))) ** 2,
         rel=5e-3,
     )
-    assert closure(columns) < CLOSED
+    assert closure_over_kinetic(columns) < CLOSED
 
 
 def test_the_edge_below_a_face_is_an_interface_of_its_own_name():
@@ -347,7 +364,7 @@ def test_the_edge_below_a_face_is_an_interface_of_its_own_name():
         "joint, edge: wide on narrow",
     ]
     edge, other = model.joints[2], model.parts[1].model
-    assert edge.pair == 1 and [len(corners) for corners in edge.corners] == [4, 4]
+    assert edge.pair == 1 and [len(sides) for sides in edge.outlines] == [4, 4]
     places = other.arms[other.surfaces[edge.slave_surface].nodes]
     # both blocks are equally deep: sides that the narrow one may slide over
     assert np.abs(places[:, 1]).max() == pytest.approx(0.2)
@@ -423,7 +440,7 @@ def test_a_slab_that_overhangs_rests_and_its_weight_is_shared():
         interfaces=dict(foot=dict(slave="low", on="ground"), joint=dict(slave="slab", on="low")),
         contact=dict(interior_points=4),
     )
-    rows, columns = advanced(case, 0.1)
+    rows, columns = columns_and_rows(case, 0.1)
     carried = sum(
         values[-1]
         for name, values in rows.items()

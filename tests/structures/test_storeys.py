@@ -39,7 +39,9 @@ def test_building_has_its_period_on_a_fixed_slab(profile):
 
 
 def test_triangular_building_moves_in_a_triangle():
-    """On a slab that is too heavy to move, the drifts of all storeys are alike in the first mode."""
+    """On a slab that is too heavy to move, the drifts of all storeys are alike in the first
+    mode.
+    """
     model = _model(profile="triangular", **HEAVY).model
     assert model.frequencies[:2] == pytest.approx([2 * np.pi / 0.3] * 2, rel=1e-4)
     drifts = np.linalg.norm(model.storeys.drifts[:, :, 0], axis=1)

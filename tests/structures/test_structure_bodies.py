@@ -275,6 +275,5 @@ def test_labels_of_a_picture_stand_on_the_side_of_what_they_name():
         if text != "slab"
     )
     named = {text: tuple(np.round(point, 6)) for text, point, _, _ in labels}
-    assert len(set(named.values())) == len(
-        labels
-    )  # a tendon in a column is named beside the column's name
+    # a tendon in a column is named beside the column's name
+    assert len(set(named.values())) == len(labels)

@@ -94,7 +94,7 @@ def test_elements_that_would_not_fit_are_refused_at_once_with_a_size_that_fits(k
         dict(outer_diameter_m=0.3, height_m=0.5)
         if kind in ("cylinder", "tube")
         else dict(length_m=0.3, width_m=0.2)
-        | dict({"thickness_m" if kind == "plate" else "height_m": 0.1})
+        | {"thickness_m" if kind == "plate" else "height_m": 0.1}
     )
 
     def case(value):
@@ -153,9 +153,10 @@ def test_coarse_size_alone_is_named_where_it_is_the_cause():
 
 def test_limit_is_a_key_that_makes_no_other_case(tmp_path):
     with pytest.raises(InputError, match="mesh.limit_dofs allows 100;"):
+        # of no test before, whose meshes are kept
         structure_model(
             structure(**block(height_m=1.2345), mesh=dict(limit_dofs=100)), "small.toml"
-        )  # of no test before, whose meshes are kept
+        )
     assert structure(**stack(), mesh=dict(limit_dofs=10**6)).id == structure(**stack()).id
     (tmp_path / "case.toml").write_text(
         '[bodies.block]\nkind = "block"\nlength_m = 0.4\nwidth_m = 0.4\nheight_m = '

@@ -20,7 +20,9 @@ LENGTH, BREADTH, TILT, G, DT = 1.0, 0.02, float(np.arctan(0.5)), 9.80665, 1e-4
 
 
 def answers(slip: float, gap: float) -> dict:
-    """Forces that obey the laws for a point which moves so far [m] without contact, in closed form."""
+    """Forces that obey the laws for a point which moves so far [m] without contact, in closed
+    form.
+    """
     found = dict(open=np.zeros(3))
     stuck = -np.linalg.solve(W, [slip, 0.0, gap])
     if stuck[2] > 0 and abs(stuck[0]) <= MU * stuck[2]:
@@ -40,7 +42,9 @@ def test_a_point_stays_in_the_answer_it_was_in(name, change):
 
 
 def test_it_leaves_its_answer_where_that_ends_and_does_not_return():
-    """Stuck while slip >= gap (MU - 0.8) / (0.8 MU - 1) = 2 gap: from 2.95 down to 1.45 and back."""
+    """Stuck while slip >= gap (MU - 0.8) / (0.8 MU - 1) = 2 gap: from 2.95 down to 1.45 and
+    back.
+    """
     there, forces, found = np.arange(2.95, 1.4, -0.1), answers(3.0, 1.0)["stuck"][None], []
     for slip in (*there, *there[::-1]):
         forces = solve_contact(W, [[slip, 0.0, 1.0]], MU, forces).forces

@@ -2,8 +2,6 @@
 every engine, whichever body is named first.
 """
 
-import warnings
-
 import numpy as np
 import pytest
 
@@ -12,9 +10,9 @@ from fecolumn.reduced.observe import PER_BODY, WIDTH
 from fecolumn.simulation import run
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
-from fecolumn.verification.joint_bodies import arms, region, rocked, rocks, two
+from fecolumn.verification.joint_bodies import arms, region, rocked_block, rocks, two
 from fecolumn.verification.joints import displaced as errors_of
-from fecolumn.verification.multi_drum import column_case, pulse
+from fecolumn.verification.multi_drum import drum_case, drum_pulse
 
 
 @pytest.mark.parametrize("displaced", [0.0, 1e-12, -1e-9, 1e-6, -1e-6, 1e-3, 1e-2, -1e-2])
@@ -129,11 +127,11 @@ def test_the_multi_drum_column_overturns_where_three_other_programs_say(
     """UDEC .27 and .20, HybriDFEM .25 and .21, LMGC90 .25 and .21 g; an independent planar program
     .253 and .205.
     """
-    case = column_case(tmp_path)
+    case = drum_case(tmp_path)
     model = structure_model(case)
     for level, overturns in ((stands, False), (falls, True)):
         assert (
-            engine_of(case, model, "drums.toml").advance(pulse(level, time, 7.0 - 3 * time))[1]
+            engine_of(case, model, "drums.toml").advance(drum_pulse(level, time, 7.0 - 3 * time))[1]
             == overturns
         )
 
@@ -198,49 +196,4 @@ def test_a_landing_in_a_part_of_a_step_is_plastic(displaced):
         initial=dict(up=dict(tilt_rad=0.05)),
         integration=dict(engine="rigid", dt_s=5e-4, duration_s=1.0, substeps="impacts"),
     )
-    assert abs(rocked(made, rocks(*arms(displaced)), 0.0)[3]) < 1e-5
-
-
-def test_outlines_that_cross_of_faces_that_are_not_convex_are_told(tmp_path):
-    import meshio
-
-    across = np.array([-0.3, -0.1, 0.1, 0.3])
-    columns = [(i, j) for i in range(3) for j in range(3) if 1 in (i, j)]
-    corners = ((0, 0), (1, 0), (1, 1), (0, 1))
-    points = [
-        (across[i + a], across[j + b], z)
-        for i, j in columns
-        for z in (0.0, 0.2)
-        for a, b in corners
-    ]
-    places, cells = np.unique(np.array(points), axis=0, return_inverse=True)
-    meshio.Mesh(places, [("hexahedron", cells.reshape(-1, 8))]).write(tmp_path / "plus.vtk")
-    plus = dict(
-        kind="mesh",
-        mesh_file=str(tmp_path / "plus.vtk"),
-        density_kg_m3=2000.0,
-        youngs_modulus_pa=1e10,
-        poissons_ratio=0.2,
-    )
-
-    def model(turned):
-        return structure_model(
-            case_from_tables(
-                dict(
-                    bodies=dict(low=plus, up=plus | dict(at_m=[0.0, 0.0, 0.2], turned_deg=turned)),
-                    interfaces=dict(
-                        feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])
-                    ),
-                ),
-                "a test",
-            )
-        )
-
-    with pytest.warns(
-        UserWarning,
-        match='interfaces.joint: outlines of "up" and "low" cross, and one of them is not convex',
-    ):
-        model(45.0)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        model(0.0)
+    assert abs(rocked_block(made, rocks(*arms(displaced)), 0.0)[3]) < 1e-5

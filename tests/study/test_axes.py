@@ -25,7 +25,9 @@ def _plan(tmp_path, text):
 def test_zipped_lists_go_together_and_multiply_with_the_rest(tmp_path):
     plan = _plan(tmp_path, '[axes]\n"integration.alpha_hht" = [0, -0.1, -0.2]\n' + ZIP)
     assert len(plan.analyses) == 6
-    assert {(a.case.column.height_m, a.case.column.fine_height_m) for a in plan.analyses} == {
+    assert {
+        (a.case.short.column.height_m, a.case.short.column.fine_height_m) for a in plan.analyses
+    } == {
         (1.0, 0.01),
         (1.5, 0.02),
     }
@@ -48,7 +50,9 @@ def test_zipped_values_may_repeat_and_several_zips_multiply(tmp_path):
 def test_latin_hypercube_has_one_sample_in_each_slice_of_every_range(tmp_path):
     plan = _plan(tmp_path, LATIN)
     friction = np.array([a.case.contact.friction_coefficient for a in plan.analyses])
-    stiffness = np.array([math.log10(a.case.material.youngs_modulus_pa) for a in plan.analyses])
+    stiffness = np.array(
+        [math.log10(a.case.short.material.youngs_modulus_pa) for a in plan.analyses]
+    )
     assert sorted(np.floor((friction - 0.2) / 0.6 * 20)) == list(range(20))
     assert sorted(np.floor((stiffness - 9) / 2 * 20)) == list(range(20))
     assert abs(np.corrcoef(friction, stiffness)[0, 1]) < 0.5

@@ -1,4 +1,6 @@
-"""fecolumn compare: studies, settings of a study, and an experiment's maxima, by the same command."""
+"""fecolumn compare: studies, settings of a study, and an experiment's maxima, by the same
+command.
+"""
 
 import csv
 import io
@@ -9,7 +11,7 @@ import pytest
 from fecolumn.cli import main
 from fecolumn.schema import InputError
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.sample import _motion_name, read_sample
 
 STUDY_TESTS = Path(__file__).parent
@@ -25,7 +27,9 @@ def study(tmp_path_factory):
         from study_files import write_study
 
         plan = read_plan(write_study(folder, dt=(0.02, 5e-3), alpha=(0, -0.2), pulses=range(60)))
-        run_study(plan, folder / "out", workers=1, entry="rocking_block:run", stream=io.StringIO())
+        complete_study(
+            plan, folder / "out", workers=1, entry="rocking_block:run", stream=io.StringIO()
+        )
     return folder / "out"
 
 

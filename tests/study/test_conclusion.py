@@ -8,7 +8,7 @@ from study_files import SPECIMEN, write_study
 
 from fecolumn.study.conclusion import conclusion
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 
 
 def _said(tmp_path, change=None, **axes):
@@ -74,7 +74,7 @@ def test_few_motions_give_no_verdict(tmp_path, pulses, sentences):
 
 def test_a_real_study_is_concluded(tmp_path):
     plan = read_plan(write_study(tmp_path, alpha=(0,), pulses=range(8)))
-    rows = run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO())
+    rows = complete_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=io.StringIO())
     assert "P(overturn) is the same at every setting, such as" in conclusion(plan, rows)
 
 

@@ -16,9 +16,9 @@ from study_files import write_study
 
 from fecolumn.cli import main
 from fecolumn.schema import InputError
-from fecolumn.study.outcome import finished
+from fecolumn.study.outcome import finished_outcome
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.store import Store, read_study
 
 
@@ -30,7 +30,7 @@ def done(tmp_path_factory):
     return (
         file,
         folder / "out",
-        run_study(read_plan(file), folder / "out", entry=ENTRY, stream=io.StringIO()),
+        complete_study(read_plan(file), folder / "out", entry=ENTRY, stream=io.StringIO()),
     )
 
 
@@ -137,7 +137,7 @@ def test_summary_that_is_none_is_made_again(study, wrong):
         else json.dumps(summary | wrong)
     )
     file.write_text(text)
-    assert finished(before[0]["id"], file.parent) is None
+    assert finished_outcome(before[0]["id"], file.parent) is None
     rows, missing = _reopened(plan, folder)
     assert missing == {before[0]["id"]} and rows[0]["state"] == "planned"
 
@@ -255,7 +255,7 @@ def test_full_and_read_only_file_systems_are_told_and_cost_nothing(
 ):
     file = write_study(tmp_path, dt=[0.02], alpha=[0], pulses=range(4))
     (small_disk / "filler").write_bytes(bytes(800_000))
-    run_study(read_plan(file), small_disk / "out", entry=ENTRY, stream=io.StringIO())
+    complete_study(read_plan(file), small_disk / "out", entry=ENTRY, stream=io.StringIO())
     before = {row["id"]: row["summary"] for row in read_study(small_disk / "out").rows}
     with open(small_disk / "filler", "ab", buffering=0) as filler, pytest.raises(OSError):
         while True:

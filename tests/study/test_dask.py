@@ -21,7 +21,7 @@ from fecolumn.cli import main
 from fecolumn.schema import InputError
 from fecolumn.study import dask
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import StudyError, run_study
+from fecolumn.study.run import StudyError, complete_study
 from fecolumn.study.store import read_study
 from fecolumn.study.table import write_tables
 
@@ -132,7 +132,7 @@ def _local(tmp_path, study) -> list[bytes]:
     plan = read_plan(study)
     write_tables(
         plan,
-        run_study(plan, tmp_path / "local", workers=2, entry=ENTRY, stream=io.StringIO()),
+        complete_study(plan, tmp_path / "local", workers=2, entry=ENTRY, stream=io.StringIO()),
         tmp_path / "local",
     )
     return _tables(tmp_path / "local")
@@ -162,9 +162,8 @@ def test_whatever_is_killed_the_tables_are_those_of_local_processes(tmp_path, cl
     assert {pid for pids in calls.values() for pid in pids} == {
         str(worker.pid) for worker in three.workers
     }
-    assert (
-        sum(map(len, calls.values())) <= 28 + 2 * 4 + 2 + 4
-    )  # else only what was in hand, and what diverges
+    # else only what was in hand, and what diverges
+    assert sum(map(len, calls.values())) <= 28 + 2 * 4 + 2 + 4
     assert _tables(out) == _local(tmp_path, study)
 
 
@@ -315,7 +314,7 @@ def test_workers_that_all_leave_stop_the_study(tmp_path, cluster, monkeypatch):
         team = dask.DaskTeam(client, ENTRY, tmp_path / "out", None, plan.file)
         one.workers[0].kill()
         with pytest.raises(StudyError, match="has had no workers for 2 s"):
-            run_study(plan, tmp_path / "out", entry=ENTRY, stream=io.StringIO(), team=team)
+            complete_study(plan, tmp_path / "out", entry=ENTRY, stream=io.StringIO(), workers=team)
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from fecolumn._mpi import launch_environment
 from fecolumn.cli import main
 from fecolumn.schema import InputError
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.store import Store, read_study
 from fecolumn.study.table import write_tables
 
@@ -58,7 +58,7 @@ def expected(tmp_path_factory):
     plan = read_plan(write_study(folder, pulses=[*range(6), "diverges"]))
     write_tables(
         plan,
-        run_study(plan, folder / "out", workers=2, entry=ENTRY, stream=io.StringIO()),
+        complete_study(plan, folder / "out", workers=2, entry=ENTRY, stream=io.StringIO()),
         folder / "out",
     )
     return _tables(folder / "out")
@@ -80,9 +80,8 @@ def test_ranks_of_mpirun_give_the_tables_of_local_processes(tmp_path, study, exp
     done = subprocess.run(
         list(map(str, command)), capture_output=True, text=True, env=_environment(), timeout=120
     )
-    assert done.returncode == 1 and "step 17 did not converge" in done.stderr, (
-        done.stderr
-    )  # as said of four analyses
+    # as said of four analyses
+    assert done.returncode == 1 and "step 17 did not converge" in done.stderr, done.stderr
     assert _tables(tmp_path / "out") == expected
     workers = {file.read_text().split()[0] for file in tmp_path.glob("out/analyses/*/calls")}
     assert len(workers) == 2 and set(_calls(tmp_path / "out").values()) == {1}
@@ -171,9 +170,8 @@ def test_tasks_of_a_job_array_work_in_one_folder_at_once(tmp_path, study, expect
         for index in range(3)
     ]
     said = [task.communicate(timeout=60) for task in tasks]
-    assert [task.returncode for task in tasks] == [1, 1, 1], (
-        said
-    )  # each share holds one that diverges
+    # each share holds one that diverges
+    assert [task.returncode for task in tasks] == [1, 1, 1], said
     assert "share 1 of 3: 8 of 9 analyses done" in said[1][0]
     assert (
         len(read_study(tmp_path / "out").rows) == 28
@@ -183,9 +181,8 @@ def test_tasks_of_a_job_array_work_in_one_folder_at_once(tmp_path, study, expect
         list(map(str, command)), capture_output=True, text=True, env=_environment(), timeout=60
     )
     assert last.returncode == 1 and _tables(tmp_path / "out") == expected
-    assert set(_calls(tmp_path / "out").values()) == {
-        1
-    }  # nothing was run again for the tables, not even what failed
+    # nothing was run again for the tables, not even what failed
+    assert set(_calls(tmp_path / "out").values()) == {1}
     assert [file.name for file in (tmp_path / "out").glob("study*.sqlite*")] == ["study.sqlite"]
 
 

@@ -17,9 +17,9 @@ import pytest
 from rocking_block import ENTRY
 from study_files import write_study
 
-from fecolumn.study.outcome import finished
+from fecolumn.study.outcome import finished_outcome
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import StudyError, run_study
+from fecolumn.study.run import StudyError, complete_study
 from fecolumn.study.store import read_study
 from fecolumn.study.table import write_tables
 
@@ -98,14 +98,13 @@ def test_killed_at_random_moments_a_study_gives_the_bytes_of_an_uninterrupted_on
     plan, draw = read_plan(study), random.Random(seed)
     write_tables(
         plan,
-        run_study(plan, tmp_path / "whole", workers=2, entry=ENTRY, stream=io.StringIO()),
+        complete_study(plan, tmp_path / "whole", workers=2, entry=ENTRY, stream=io.StringIO()),
         tmp_path / "whole",
     )
 
     out, kept, kills = tmp_path / "out", {}, 0
-    for turn in range(
-        8
-    ):  # that all is done before the last one, two workers at 0.2 s an analysis are too slow by design
+    # two workers at 0.2 s an analysis are too slow to be done before the last turn
+    for turn in range(8):
         driver = _driver(study, out, "--retry-failed", sleep_s=0.2)
         if turn % 3:  # in the middle of the work, however fast the machine is; else while it starts
             _wait_for_results(driver, out, len(kept) + draw.randint(1, 12))
@@ -117,13 +116,12 @@ def test_killed_at_random_moments_a_study_gives_the_bytes_of_an_uninterrupted_on
             driver.wait(draw.uniform(0.1, 1.0))
         with contextlib.suppress(ProcessLookupError):
             driver.kill()
-        driver.communicate(
-            timeout=60
-        )  # workers left alone go too, and so does their end of the pipe
+        # workers left alone go too, and so does their end of the pipe
+        driver.communicate(timeout=60)
         for name, content in kept.items():  # nothing finished is lost or done again
             assert (out / "analyses" / name / "summary.json").read_bytes() == content
         for file in out.glob("analyses/*/summary.json"):
-            assert finished(file.parent.name, file.parent), "half a summary"
+            assert finished_outcome(file.parent.name, file.parent), "half a summary"
             kept[file.parent.name] = file.read_bytes()
         if (out / "study.json").exists():
             assert {row["id"] for row in read_study(out).rows if row["state"] == "done"} <= set(
@@ -138,9 +136,8 @@ def test_killed_at_random_moments_a_study_gives_the_bytes_of_an_uninterrupted_on
         file.parent.name: len(file.read_text().splitlines())
         for file in out.glob("analyses/*/calls")
     }
-    assert (
-        sum(calls.values()) - len(calls) <= 4 * 9 + 2 * 8 * 3
-    )  # what diverges is tried again each time, else only what was in hand
+    # what diverges is tried again each time, else only what was in hand
+    assert sum(calls.values()) - len(calls) <= 4 * 9 + 2 * 8 * 3
 
 
 def _limit_file_size():
@@ -185,7 +182,10 @@ def test_small_disk_stops_the_study_cleanly_and_more_room_lets_it_go_on(tmp_path
         _, err = (driver := _driver(study, disk / "out")).communicate(timeout=60)
         assert driver.returncode == 1 and "the disk is full" in err and "Traceback" not in err, err
         before = {file: file.read_bytes() for file in disk.glob("out/analyses/*/summary.json")}
-        assert all(finished(file.parent.name, file.parent) for file in before) and len(before) < 400
+        assert (
+            all(finished_outcome(file.parent.name, file.parent) for file in before)
+            and len(before) < 400
+        )
         subprocess.run(["mount", "-o", "remount,size=60m", disk], check=True)
         _, err = (driver := _driver(study, disk / "out")).communicate(timeout=60)
         assert driver.returncode == 0, err
@@ -197,4 +197,4 @@ def test_small_disk_stops_the_study_cleanly_and_more_room_lets_it_go_on(tmp_path
 def test_full_disk_is_told_to_a_caller(tmp_path):
     plan = read_plan(write_study(tmp_path, pulses=["full"]))
     with pytest.raises(StudyError, match="disk is full.*No space left"):
-        run_study(plan, tmp_path / "out", entry=ENTRY, stream=io.StringIO())
+        complete_study(plan, tmp_path / "out", entry=ENTRY, stream=io.StringIO())

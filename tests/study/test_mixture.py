@@ -14,7 +14,7 @@ from fecolumn.report.document import Paragraph
 from fecolumn.report.gallery import Gallery
 from fecolumn.report.sweep import read_sweep
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 
 STUDY = """
 title = "Three tilts"
@@ -40,13 +40,13 @@ def finished(tmp_path_factory):
     folder = tmp_path_factory.mktemp("mixture")
     (folder / "study.toml").write_text(STUDY)
     plan, stream = read_plan(folder / "study.toml"), io.StringIO()
-    run_study(plan, folder / "out", workers=1, stream=stream)
+    complete_study(plan, folder / "out", workers=1, stream=stream)
     return plan, folder / "out", stream.getvalue()
 
 
 def _again(plan, folder):
     stream = io.StringIO()
-    return run_study(plan, folder, workers=1, stream=stream), stream.getvalue()
+    return complete_study(plan, folder, workers=1, stream=stream), stream.getvalue()
 
 
 def test_study_of_one_code_says_nothing_of_it_and_its_audit_names_it(finished, tmp_path):

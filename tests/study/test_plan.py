@@ -30,7 +30,7 @@ def test_axes_are_multiplied_out_in_the_order_of_the_file(tmp_path):
         last.case.motion.source,
     ) == (1e-3, -0.2, "pulse:2")
     assert last.combination == {"integration.dt_s": 1e-3, "integration.alpha_hht": -0.2}
-    assert last.case.column.outer_diameter_m == 0.1016
+    assert last.case.short.column.outer_diameter_m == 0.1016
 
 
 def test_small_steps_are_the_longest_analyses(tmp_path):
@@ -56,8 +56,8 @@ def test_inline_tables_override_the_extended_case(tmp_path):
         )
     )
     assert (
-        plan.analyses[0].case.column.height_m == 1.5
-        and plan.analyses[0].case.column.wall_m == 0.005
+        plan.analyses[0].case.short.column.height_m == 1.5
+        and plan.analyses[0].case.short.column.wall_m == 0.005
     )
 
 
@@ -165,9 +165,10 @@ def test_longer_motions_are_longer_analyses_whatever_their_scale(tmp_path):
         )
     )
     check_motions(plan)
+    # a second of free vibration included
     assert [round(a.duration_s, 1) for a in plan.analyses] == [
         2.0,
         2.0,
         4.0,
         4.0,
-    ]  # a second of free vibration included
+    ]

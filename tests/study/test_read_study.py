@@ -9,13 +9,15 @@ from study_files import write_study
 
 from fecolumn.schema import InputError
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 from fecolumn.study.store import Store, read_study
 
 
 def test_a_finished_study_is_read_back_from_its_folder_alone(tmp_path):
     study = write_study(tmp_path / "files", extra="")
-    rows = run_study(read_plan(study), tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w"))
+    rows = complete_study(
+        read_plan(study), tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w")
+    )
     study.unlink()
     found = read_study(tmp_path / "out")
     assert found.title == "study" and found.rows == rows
@@ -33,7 +35,7 @@ def test_a_study_at_work_is_read_without_disturbing_it(tmp_path):
 
 def test_a_damaged_ledger_is_told_put_aside_and_made_anew_from_the_results(tmp_path):
     plan = read_plan(write_study(tmp_path))
-    before = run_study(plan, tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w"))
+    before = complete_study(plan, tmp_path / "out", entry=ENTRY, stream=open(os.devnull, "w"))
     ledger = tmp_path / "out" / "study.sqlite"
     damaged = b"no database at all, but long enough" * 100
     ledger.write_bytes(damaged)
@@ -50,7 +52,7 @@ def test_a_damaged_ledger_is_told_put_aside_and_made_anew_from_the_results(tmp_p
 
 
 def test_a_ledger_just_being_made_has_no_rows_yet(tmp_path):
-    run_study(
+    complete_study(
         plan := read_plan(write_study(tmp_path)),
         tmp_path / "out",
         entry=ENTRY,
@@ -63,7 +65,7 @@ def test_a_ledger_just_being_made_has_no_rows_yet(tmp_path):
 
 
 def test_ledger_tells_where_each_analysis_was_done(tmp_path):
-    for row in run_study(
+    for row in complete_study(
         read_plan(write_study(tmp_path, pulses=[1, "diverges"])),
         tmp_path / "out",
         entry=ENTRY,

@@ -15,11 +15,11 @@ from study_files import write_study
 from fecolumn import _compiled
 from fecolumn.lock import alone
 from fecolumn.schema import InputError
-from fecolumn.study.outcome import Outcome
+from fecolumn.study.outcome import TaskOutcome
 from fecolumn.study.plan import read_plan
 from fecolumn.study.preparation import COMPILING, MODELLING, preparation
-from fecolumn.study.progress import Progress
-from fecolumn.study.run import StudyError, run_study
+from fecolumn.study.progress import StudyProgress
+from fecolumn.study.run import StudyError, complete_study
 from fecolumn.study.store import Store
 from fecolumn.study.table import table_text, write_tables
 
@@ -40,7 +40,7 @@ if __name__ == "__main__":
 
 
 def _run(study, folder, workers=2, **options):
-    return run_study(
+    return complete_study(
         read_plan(study), folder, workers=workers, entry=ENTRY, stream=io.StringIO(), **options
     )
 
@@ -251,7 +251,7 @@ def test_folder_of_another_study_is_refused_and_left_alone(tmp_path):
     with pytest.raises(InputError, match="holds another study"):
         _run(write_study(tmp_path / "b", alpha=[0, -0.1]), tmp_path / "out")
     with pytest.raises(InputError, match="run by rocking_block:run"):
-        run_study(
+        complete_study(
             read_plan(write_study(tmp_path / "a")),
             tmp_path / "out",
             entry="other:run",
@@ -283,7 +283,7 @@ def test_second_driver_on_one_folder_is_refused(tmp_path):
 def test_study_stops_when_no_worker_can_start(tmp_path):
     study = write_study(tmp_path)
     with pytest.raises(StudyError, match="no_such_module"):
-        run_study(
+        complete_study(
             read_plan(study), tmp_path / "out", entry="no_such_module:run", stream=io.StringIO()
         )
     ledger = sqlite3.connect(tmp_path / "out" / "study.sqlite")
@@ -313,9 +313,8 @@ def test_tables_count_what_failed_and_what_overturned(tmp_path):
         line.split(",") for line in (tmp_path / "out" / "analyses.csv").read_text().splitlines()
     ]
     analyses = [dict(zip(header, line)) for line in lines]
-    assert all(
-        (one["u_max_m"] == "") == (one["overturned"] != "0") for one in analyses
-    )  # what overturned, or failed, has no peak
+    # what overturned, or failed, has no peak
+    assert all((one["u_max_m"] == "") == (one["overturned"] != "0") for one in analyses)
     assert (
         "wall" not in ",".join(header) and "wall_s" in (tmp_path / "out" / "timing.csv").read_text()
     )
@@ -331,11 +330,12 @@ def test_nothing_done_still_makes_a_table(tmp_path):
 
 def test_progress_judges_the_rest_by_its_effort(tmp_path):
     plan = read_plan(write_study(tmp_path, dt=[0.02, 1e-3], alpha=[0], pulses=[1]))
-    progress = Progress({"planned": 2}, sum(a.effort for a in plan.analyses), 2, io.StringIO())
+    progress = StudyProgress({"planned": 2}, sum(a.effort for a in plan.analyses), 2, io.StringIO())
     long = plan.analyses[1]
+    # 2000 of 3050
     progress.count(
-        Outcome(long.id, "done", wall_s=90.0, started=1.0, overturned=True), long.effort
-    )  # 2000 of 3050
+        TaskOutcome(long.id, "done", wall_s=90.0, started=1.0, overturned=True), long.effort
+    )
     assert (
         progress.line(100.0)
         == "1/2 analyses, 0.6 a minute, 52 s to go, 1 overturned, 0 failed, workers 45 % busy"
@@ -344,7 +344,7 @@ def test_progress_judges_the_rest_by_its_effort(tmp_path):
 
 def test_time_in_which_the_engine_is_compiled_is_told_and_no_analysis_pays_for_it(tmp_path):
     plan = read_plan(write_study(tmp_path, dt=[0.02, 1e-3], alpha=[0], pulses=[1]))
-    progress = Progress({"planned": 2}, sum(a.effort for a in plan.analyses), 2, io.StringIO())
+    progress = StudyProgress({"planned": 2}, sum(a.effort for a in plan.analyses), 2, io.StringIO())
     progress.prepare(MODELLING, 10.0)
     progress.prepare(COMPILING, 20.0)
     progress.prepare(COMPILING, 60.0)
@@ -353,7 +353,7 @@ def test_time_in_which_the_engine_is_compiled_is_told_and_no_analysis_pays_for_i
     long = plan.analyses[1]
     said = json.dumps({"wall_s": 90.0})  # of 160 s of its worker's
     progress.count(
-        Outcome(long.id, "done", wall_s=160.0, started=1.0, summary=said, overturned=True),
+        TaskOutcome(long.id, "done", wall_s=160.0, started=1.0, summary=said, overturned=True),
         long.effort,
     )
     assert (
@@ -396,7 +396,7 @@ def test_what_a_new_machine_makes_first_is_seen_in_its_cache(
         _compiled.compiled_folder.cache_clear()
 
 
-def test_a_model_is_being_made_while_a_process_holds_its_lock_and_not_where_a_killed_one_left_the_file(
+def test_a_model_is_being_made_while_a_process_holds_its_lock_and_not_after_that_was_killed(
     tmp_path, monkeypatch
 ):
     monkeypatch.setenv("FECOLUMN_CACHE", str(tmp_path))
@@ -413,7 +413,7 @@ def test_a_model_is_being_made_while_a_process_holds_its_lock_and_not_where_a_ki
 
 def test_log_file_gets_few_plain_lines(tmp_path):
     stream = io.StringIO()
-    run_study(
+    complete_study(
         read_plan(write_study(tmp_path)), tmp_path / "out", workers=2, entry=ENTRY, stream=stream
     )
     lines = stream.getvalue().splitlines()
@@ -435,7 +435,7 @@ def test_columns_that_slide_off_are_counted_as_such_and_not_as_failures(tmp_path
         write_study(tmp_path, dt=[1e-3], alpha=[0], pulses=["slides 1", "slides 2", *range(6)])
     )
     stream = io.StringIO()
-    rows = run_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=stream)
+    rows = complete_study(plan, tmp_path / "out", workers=1, entry=ENTRY, stream=stream)
     assert [row["state"] for row in rows] == ["done"] * 8
     assert "2 slid off, 0 failed" in stream.getvalue().splitlines()[-1]
     write_tables(plan, rows, tmp_path)

@@ -8,10 +8,10 @@ from pathlib import Path
 SCRIPT = """
 import sys
 from fecolumn.study.plan import read_plan
-from fecolumn.study.run import run_study
+from fecolumn.study.run import complete_study
 
 print("the script runs", file=sys.stderr)
-rows = run_study(read_plan("study.toml"), "out", workers=2, entry="rocking_block:run")
+rows = complete_study(read_plan("study.toml"), "out", workers=2, entry="rocking_block:run")
 print([row["state"] for row in rows])
 """
 

@@ -11,10 +11,11 @@ from fecolumn.case import GRAVITY
 from fecolumn.dynamics.gravity import standing
 from fecolumn.verification.models import column_system, shaking
 from fecolumn.verification.moving_base import InertialTrial, by_hht
-from fecolumn.verification.rocking import leaning, rocked
+from fecolumn.verification.rocking import leaning_start, rocked_trial
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.sliding import FRICTION, RESISTANCE, block, centre
-from fecolumn.verification.trial import RigidRocking, Trial, begin, solver_drift
+from fecolumn.verification.trial import RigidRocking, Trial, solver_drift
+from fecolumn.verification.trials import begin_trial
 from fecolumn.verification.wobbling import impact_allowance, roll, rolling
 
 ENGINES = ("corotated", "reduced", "rigid")
@@ -55,8 +56,8 @@ def test_an_impact_takes_what_housner_says(rocking, engine, share):
     In the step of the impact the tube falls freely for a while, at most g dt^2 / 2: 0.07 to 0.08 %
     of the loss, to either side. The releases differ by where in a step the impact falls.
     """
-    rigid, trial = RigidRocking(rocking), begin(engine, rocking, leaning(share))
-    _, lost = rocked(trial, share)
+    rigid, trial = RigidRocking(rocking), begin_trial(engine, rocking, leaning_start(share))
+    _, lost = rocked_trial(trial, share)
     exact, dt = rigid.energy(share * rigid.slenderness) * (1 - rigid.restitution**2), rocking.hht.dt
     assert lost == pytest.approx(exact, rel=0, abs=rocking.weight * GRAVITY * dt**2 / 2)
 
@@ -92,7 +93,7 @@ def test_a_sliding_block_is_slowed_by_mu_g_and_stops_after_v2_over_2_mu_g(plate,
         state.v[:, 0] += speed
         return state
 
-    trial, allowed = begin(engine, plate, pushed), RESISTANCE * DT**2 / 2
+    trial, allowed = begin_trial(engine, plate, pushed), RESISTANCE * DT**2 / 2
     first = moved(trial, 50)
     assert first == pytest.approx(
         speed * trial.state.time - RESISTANCE * trial.state.time**2 / 2, rel=0, abs=allowed
@@ -119,7 +120,7 @@ def test_a_block_sticks_on_ground_that_shakes_with_less_than_mu_g_and_slides_abo
             state.a[:, 0] -= ground
             return state
 
-        return begin(engine, plate, start)
+        return begin_trial(engine, plate, start)
 
     assert moved(shaken(0.99 * RESISTANCE), 100, 0.99 * RESISTANCE) == pytest.approx(0.0, abs=SHEAR)
     time, driven = 100 * DT, 0.01 * RESISTANCE
@@ -136,11 +137,11 @@ def rolled(circle):
     nodes on the rim.
     """
     system = tube(1e-3)
-    rim, corners = RollingRim.of(system), len(system.interface.rim.nodes)
+    rim, corners = RollingRim.of(system), len(system.laws["rim"].nodes)
     spin = rim.untwisted(TILT)
     system = tube(2 * np.pi / rim.rate(TILT, spin) / (STEPS * corners))
     if not circle:
-        system.interface.take_rim_as_polygon()
+        system.take_rim_as_polygon()
     return system, rim, spin, corners
 
 

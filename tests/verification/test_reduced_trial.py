@@ -9,7 +9,8 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.fem.modes import free_modes
 from fecolumn.verification.bar_impact import FORCE, SPEED, strike
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.trial import afloat, begin
+from fecolumn.verification.trial import afloat
+from fecolumn.verification.trials import begin_trial
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +25,7 @@ def system():
 
 def moving(system):
     """Turned and vibrating in its second elastic mode, flying and spinning."""
-    column, shape = system.column, free_modes(system.column, 9).shapes[7]
+    column, shape = system.body, free_modes(system.body, 9).shapes[7]
     arm = column.X - column.center
     turn = np.array([[np.cos(0.3), -np.sin(0.3), 0], [np.sin(0.3), np.cos(0.3), 0], [0, 0, 1.0]])
     moved = (arm + 1e-5 * shape) @ turn.T - arm + [0.02, 0.0, 0.0]
@@ -39,7 +40,7 @@ def moving(system):
 
 def test_projection_keeps_energy_and_place_of_a_state_within_its_modes(system):
     """Kinetic, strain and gravity energy as in full order, and the nodes back where they were."""
-    full, reduced = begin("corotated", system, moving), begin("reduced", system, moving)
+    full, reduced = begin_trial("corotated", system, moving), begin_trial("reduced", system, moving)
     for term in ("kinetic", "strain", "gravity"):
         assert reduced.energy()[term] == pytest.approx(full.energy()[term], rel=1e-7), term
     np.testing.assert_allclose(reduced.state.x, full.state.x, atol=1e-12)
@@ -51,23 +52,23 @@ def test_projection_keeps_energy_and_place_of_a_state_within_its_modes(system):
 def test_gravity_equilibrium_is_that_of_the_full_order(system):
     """Found by the reduced engine itself or projected: the same contact forces."""
     own, projected = (
-        begin("reduced", system),
-        begin("reduced", system, lambda system: standing(system)),
+        begin_trial("reduced", system),
+        begin_trial("reduced", system, lambda system: standing(system)),
     )
     # laws of contact hold to SOLVED of the foot's width, across a point's stiffness
     compliance = system.interface.static_compliance(np.array([0]))
     np.testing.assert_allclose(
         own.state.forces,
         projected.state.forces,
-        atol=SOLVED * system.interface.width / compliance[0, 0],
+        atol=SOLVED * system.interface.interfaces["width"][0] / compliance[0, 0],
     )
     np.testing.assert_allclose(own.state.x, projected.state.x, atol=1e-12)
 
 
 def test_a_copied_state_starts_the_same_trial(system):
-    first = begin("reduced", system, moving)
+    first = begin_trial("reduced", system, moving)
     first.step()
-    second = begin("reduced", system, lambda _: first.state.copy())
+    second = begin_trial("reduced", system, lambda _: first.state.copy())
     for _ in range(5):
         first.step(), second.step()
     np.testing.assert_allclose(second.state.x, first.state.x, atol=1e-12)

@@ -5,14 +5,14 @@ import pytest
 from fecolumn.cli import main
 from fecolumn.verification import suite
 from fecolumn.verification.result import Row
-from fecolumn.verification.suite import Finding, count, lines, run_case, tasks
+from fecolumn.verification.suite import Finding, finding_lines, run_case, tasks, verdict
 
 
 @pytest.mark.verification
 @pytest.mark.parametrize("case, engine", tasks())
 def test_case_holds(case, engine):
     finding = run_case(case, engine)
-    assert finding.ok, "\n" + lines(finding)
+    assert finding.ok, "\n" + finding_lines(finding)
 
 
 HOLDS, MISSES, UNKNOWN = (
@@ -28,14 +28,14 @@ def test_the_suite_ends_with_a_count_and_the_names_of_what_does_not_hold():
         Finding("frames", "reduced", (HOLDS, MISSES, UNKNOWN), 1.0),
         Finding("hertz", "corotated", (), 1.0, "RuntimeError: it does not start\nat all"),
     ]
-    assert count(findings).splitlines() == [
+    assert verdict(findings).splitlines() == [
         "does not hold:",
         "  frames, reduced: drift [m]",
         "  frames, reduced: loss [J]",
         "  hertz, corotated: RuntimeError: it does not start",
         "3 of 5 rows hold, 2 of 3 cases do not",
     ]
-    assert count(findings[:1]) == "2 of 2 rows hold, 0 of 1 cases do not"
+    assert verdict(findings[:1]) == "2 of 2 rows hold, 0 of 1 cases do not"
 
 
 @pytest.mark.parametrize("row, code", [(HOLDS, 0), (MISSES, 1)])

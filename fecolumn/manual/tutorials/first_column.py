@@ -4,10 +4,12 @@
 #     formats: py:percent
 # ---
 
-# %% [markdown] # From a mesh to a distribution  A marble drum stands on the ground. It is shaken by
-# one motion, then by ten, and what comes out is a distribution of how far its top moves. Everything
-# is in SI units. The file is a notebook in text: open it with Jupyter and jupytext, or run it with
-# Python.
+# %% [markdown]
+# # From a mesh to a distribution
+#
+# A marble drum stands on the ground. It is shaken by one motion, then by ten, and what comes out is
+# a distribution of how far its top moves. Everything is in SI units. The file is a notebook in
+# text: open it with Jupyter and jupytext, or run it with Python.
 
 # %%
 from pathlib import Path
@@ -16,8 +18,11 @@ import fecolumn
 
 folder = Path("results/first_column")
 
-# %% [markdown] ## The column  A case is a table of keys, as in a TOML file; `fecolumn keys` prints
-# them all. What is left open, such as the sizes of the bricks, follows the column.
+# %% [markdown]
+# ## The column
+#
+# A case is a table of keys, as in a TOML file; `fecolumn keys` prints them all. What is left open,
+# such as the sizes of the bricks, follows the column.
 
 # %%
 drum = fecolumn.case_from_tables(
@@ -68,8 +73,11 @@ sine = fecolumn.motion_file(folder / "sine.csv", 3.0 * np.sin(2 * np.pi * time /
 fecolumn.run(drum.replace(motion={"source": sine, "scale": 1.0}), folder / "sine")
 print(fecolumn.load(folder / "sine"))
 
-# %% [markdown] ## Ten motions  One rocking analysis is chaotic and says little. A study is a file,
-# so that it can be stopped, gone on with, and shown to others.
+# %% [markdown]
+# ## Ten motions
+#
+# One rocking analysis is chaotic and says little. A study is a file, so that it can be stopped,
+# gone on with, and shown to others.
 
 # %%
 study = folder / "drum-study.toml"

@@ -4,9 +4,11 @@
 #     formats: py:percent
 # ---
 
-# %% [markdown] # A column of one's own under records of one's own, to a fragility curve  A museum's
-# glass case stands on a steel pedestal. Its records are text files with one row a sample. How
-# likely is it to overturn, at which peak ground velocity?
+# %% [markdown]
+# # A column of one's own under records of one's own, to a fragility curve
+#
+# A museum's glass case stands on a steel pedestal. Its records are text files with one row a
+# sample. How likely is it to overturn, at which peak ground velocity?
 
 # %%
 from pathlib import Path
@@ -17,8 +19,11 @@ import fecolumn
 
 folder = Path("results/fragility")
 
-# %% [markdown] ## Records  Here they are made: modulated noise of a fixed seed. Yours are files as
-# they come, `.AT2`, `.csv` or text.
+# %% [markdown]
+# ## Records
+#
+# Here they are made: modulated noise of a fixed seed. Yours are files as they come, `.AT2`, `.csv`
+# or text.
 
 # %%
 rng, dt = np.random.default_rng(1), 0.01
@@ -48,7 +53,9 @@ integration.engine = "rigid"
 motion = {source = "record-1.csv"}
 
 [axes]
-"motion.source" = ["record-1.csv", "record-2.csv", "record-3.csv", "record-4.csv", "record-5.csv", "record-6.csv"]
+"motion.source" = [
+    "record-1.csv", "record-2.csv", "record-3.csv", "record-4.csv", "record-5.csv", "record-6.csv",
+]
 "motion.scale" = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0]
 """)
 pedestal = fecolumn.run_study(study, folder / "study")
@@ -57,8 +64,11 @@ pedestal
 # %%
 pedestal.plot.cdf()
 
-# %% [markdown] ## The fragility  `fecolumn report` fits it over the intensity of the motions, with
-# intervals, and draws the IDA curves.
+# %% [markdown]
+# ## The fragility
+#
+# `fecolumn report` fits it over the intensity of the motions, with intervals, and draws the IDA
+# curves.
 
 # %%
 print(pedestal.report())

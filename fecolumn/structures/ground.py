@@ -1,0 +1,226 @@
+"""The grounds of a structure: how their tops give under all feet that stand on them."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn._compiled import cache_folder
+from fecolumn.contact.unbounded_base import rigid_base, unbounded_base, window
+from fecolumn.lock import alone
+from fecolumn.mesh.base_plate import depths, plate_line
+from fecolumn.schema import InputError
+from fecolumn.structures.keys import Ground
+from fecolumn.structures.model import GROUND
+from fecolumn.structures.store import key_of
+
+# Fine elements along the side of a foot, by its area and at least; coarse ones are so much larger
+_ALONG, _LEAST, _COARSE = 12, 4, 6
+
+
+@dataclasses.dataclass(frozen=True)
+class Sized:
+    """A plate or a layer with all its sizes, each [m]: grid lines x, y of a plate's top and levels
+    z of the nodes, falling from 0; fine size of the elements; allowance of sliding.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    z: np.ndarray
+    fine: float
+    allowance: float
+
+
+def bases_of(case, standing, joints, reach: np.ndarray, file, say=lambda text: None) -> tuple:
+    """What each ground of a case is to those that stand on it: a `contact.base_plate.BasePlate` or
+    what answers as it does.
+
+    Parameters
+    ----------
+    standing, joints
+        parts as they stand, and their joints.
+    reach
+        (n, 3) places of the structure [m].
+    say
+        told what takes long.
+    """
+    return tuple(
+        _base(case, name, feet_on(standing, joints, place), reach, file, say)
+        for place, name in enumerate(case.grounds)
+    )
+
+
+def feet_on(standing, joints, ground: int) -> list[np.ndarray]:
+    """Places (n, 3) [m] of the nodes of each foot on a ground."""
+    return [
+        standing[joint.slave].center
+        + standing[joint.slave].model.arms[
+            standing[joint.slave].model.surfaces[joint.slave_surface].nodes
+        ]
+        for joint in joints
+        if joint.master == GROUND and joint.ground == ground
+    ]
+
+
+def _base(case, name: str, feet, reach, file, say):
+    """As `bases_of`, of one ground below feet, each (n, 3) [m]."""
+    ground = case.grounds[name]
+    if ground.kind in ("rigid", "pad") or not feet:
+        return rigid_base(reach)
+    sized = sized_ground(name, ground, feet, file)
+    everything = np.concatenate(feet)
+    if ground.kind == "unbounded":
+        travel = sized.allowance if len(feet) > 1 else 0.0
+        try:
+            return unbounded_base(sized.fine, sized.z, ground, everything, len(feet), travel)
+        except ValueError as error:
+            raise InputError(
+                file,
+                f"grounds.{name}.thickness_m",
+                ground.thickness_m,
+                f"{error}; its feet span {2 * window(sized.fine, everything)} of them",
+            ) from None
+    return _plate(case, name, ground, sized, feet, file, say)
+
+
+def sized_ground(name: str, ground: Ground, feet: list[np.ndarray], file) -> Sized:
+    """A ground with the sizes that it leaves open, from the feet (n, 3) [m] on it.
+
+    Raises
+    ------
+    InputError
+        a plate too small for its feet.
+    """
+    sides = np.array([np.ptp(foot[:, :2], axis=0) for foot in feet])
+    smallest = sides[np.argmin(sides.min(axis=1))]
+    shorter, longer = sides.min(), sides.max()
+
+    def stated(key, value):
+        given = getattr(ground, key)
+        return value if given is None else given
+
+    fine = stated(
+        "element_size_m", min(math.sqrt(smallest.prod()) / _ALONG, smallest.min() / _LEAST)
+    )
+    largest = max(stated("coarse_size_m", _COARSE * fine), fine)
+    everything = np.concatenate(feet)[:, :2]
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    lengths = ground.length_m, ground.width_m
+    room = [(length - own) / 2 for length, own in zip(lengths, high - low) if length is not None]
+    allowance = stated("slide_allowance_m", max(0.0, min(shorter / 4, *room, shorter / 4)))
+    lines = []
+    for axis, length in enumerate(lengths):
+        own = high[axis] - low[axis]
+        length = own + max(3 * longer, 2 * allowance) if length is None else length
+        if length < (own + 2 * allowance) * (1 - 1e-9) and ground.kind == "plate":
+            raise InputError(
+                file,
+                f"grounds.{name}.{('length_m', 'width_m')[axis]}",
+                length,
+                f"must be at least the feet and twice slide_allowance_m, {own + 2 * allowance:g} m",
+            )
+        middle = (low[axis] + high[axis]) / 2
+        spans = _joined(
+            [(foot[:, axis].min() - allowance, foot[:, axis].max() + allowance) for foot in feet],
+            fine,
+        )
+        lines.append(plate_line(spans, middle - length / 2, middle + length / 2, fine, largest))
+    thickness = stated("thickness_m", shorter / 4)
+    return Sized(*lines, depths(thickness, fine, largest), fine, allowance)
+
+
+def _joined(spans, fine: float) -> list[tuple[float, float]]:
+    """Spans (start, end) [m] one after another; those less than two fine elements apart are one."""
+    found = []
+    for start, end in sorted(spans):
+        if found and start < found[-1][1] + 2 * fine:
+            found[-1] = found[-1][0], max(found[-1][1], end)
+        else:
+            found.append((start, end))
+    return found
+
+
+def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
+    """The plate as `reduced.cache.KnownBase` keeps it, its compliance found if it is not on disk."""
+    from fecolumn.reduced.cache import LEAST_REACH, KnownBase, keep_base, under
+
+    count = 3 * len(sized.x) * len(sized.y) * len(sized.z)
+    if count > case.mesh.limit_dofs:
+        raise InputError(
+            file,
+            f"grounds.{name}.element_size_m",
+            ground.element_size_m,
+            f"makes a plate of {count:,} degrees of freedom with elements of {sized.fine:.3g} m; "
+            f"mesh.limit_dofs allows {case.mesh.limit_dofs:,}",
+        )
+    material = {
+        key: getattr(ground, key)
+        for key in ("youngs_modulus_pa", "poissons_ratio", "density_kg_m3")
+    }
+    lines = [line.tolist() for line in (sized.x, sized.y, sized.z)]
+    key = key_of([lines, material, sized.allowance, [foot[:, :2].tolist() for foot in feet]])
+    folder = cache_folder() / f"ground-{key}"
+
+    def make():
+        return plate_of(sized, ground)
+
+    if not folder.is_dir():
+        with alone(folder):
+            if not folder.is_dir():
+                say(f'finding how the plate "{name}" gives below its feet (once)')
+                plate = make()
+                widest = max(np.ptp(foot[:, 0]) for foot in feet)
+                allowance = max(sized.allowance, LEAST_REACH * widest)
+                plate.need(under(plate.grid.points, feet, allowance))
+                base = dict(
+                    points=plate.grid.points,
+                    frequency=plate.frequency,
+                    dofs=plate.dofs,
+                    foot=np.concatenate(feet),
+                    firsts=np.cumsum([0] + [len(foot) for foot in feet[:-1]]),
+                    allowance=allowance,
+                )
+                _keep(folder, base, plate, keep_base)
+    return KnownBase(folder, make)
+
+
+def plate_mesh(sized: Sized):
+    """Mesh of a plate of these sizes, its top at z = 0."""
+    from fecolumn.mesh.bricks import BASE
+    from fecolumn.mesh.gmsh_section import swept_grid
+
+    return swept_grid(sized.x, sized.y, sized.z[::-1], BASE)
+
+
+def plate_of(sized: Sized, ground: Ground):
+    """The BasePlate of a ground of these sizes, its top at z = 0."""
+    from mpi4py import MPI
+
+    from fecolumn.contact.base_plate import BasePlate
+    from fecolumn.fem.body import Body
+
+    def held(body):
+        bottom = body.all_X[:, 2].min()
+        return {}, np.flatnonzero(body.all_X[:, 2] < bottom - 1e-9 * sized.z[-1])
+
+    return BasePlate(Body(MPI.COMM_SELF, plate_mesh(sized), ground, 1, held))
+
+
+def _keep(folder: Path, base: dict, plate, keep_base) -> None:
+    """Write a plate and what is known of it, all at once."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+    partial.chmod(0o755)
+    try:
+        with open(partial / "base.npz", "wb") as file:
+            np.savez(file, **base)
+        keep_base(plate, lambda name: partial / f"{name}-0.npy")
+        os.replace(partial, folder)
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)

@@ -1,0 +1,116 @@
+"""Pads and soil below the joints of a structure."""
+
+from __future__ import annotations
+
+import dataclasses
+import warnings
+
+import numpy as np
+
+from fecolumn.analysis import FEW_STEPS, FEWEST_STEPS
+from fecolumn.case import GRAVITY
+from fecolumn.contact.pad import pad_below
+from fecolumn.schema import InputError
+from fecolumn.structures.model import GROUND, Joint, StructureModel
+from fecolumn.structures.place import Standing, loads
+
+
+def pad_keys(case, interface):
+    """Where the keys of the pad below an interface are stated, and their names' beginning: the
+    interface's own, or its ground; None, "" without a pad.
+    """
+    keys = case.interfaces[interface]
+    if keys.stiffness_n_m3 is not None:
+        return keys, f"interfaces.{interface}"
+    ground = case.grounds.get(keys.on)
+    if ground is not None and ground.kind == "pad":
+        return ground, f"grounds.{keys.on}"
+    return None, ""
+
+
+def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, file) -> list[Joint]:
+    """The joints, those on a pad with its springs; interfaces: names of theirs.
+
+    One relaxation time for all joints of a pad: that at which the dashpots give what the pad
+    carries, on all its area, the stated damping ratio.
+
+    Raises
+    ------
+    InputError
+        a pad that yields under the weight on it.
+    """
+    pads = [pad_keys(case, name) for name in interfaces]
+    found, carried = list(joints), loads(standing, joints)
+    for where in dict.fromkeys(where for _, where in pads if where):
+        own = [k for k, (_, other) in enumerate(pads) if other == where]
+        areas = [
+            standing[joints[k].slave].model.surfaces[joints[k].slave_surface].areas for k in own
+        ]
+        # several faces of one body on another carry its load together
+        load = {(joints[k].slave, joints[k].master): carried[k] for k in own}
+        mass = sum(load.values()) / GRAVITY / sum(one.sum() for one in areas)
+        for k, area in zip(own, areas):
+            keys, pressure = pads[k][0], carried[k] / area.sum()
+            if keys.yield_pa and pressure >= keys.yield_pa:
+                raise InputError(
+                    file,
+                    f"{where}.yield_pa",
+                    keys.yield_pa,
+                    f'must be more than {pressure:.4g} Pa, with which "'
+                    f'{standing[joints[k].slave].name}" presses on it at rest',
+                )
+            found[k] = dataclasses.replace(
+                joints[k],
+                pad=pad_below(pads[k][0], area, mass or _own_mass(standing, joints[k], area)),
+                restitution=0.0,
+                rolling=0.0,
+                # a node of a rim that comes down on a pad presses a spring
+                round=False,
+            )
+    return found
+
+
+def _own_mass(standing, joint: Joint, areas: np.ndarray) -> float:
+    """Mass over area [kg/m2] of the bodies of a joint that carries nothing at rest."""
+    masses = [standing[joint.slave].model.mass]
+    masses += [standing[joint.master].model.mass] if joint.master != GROUND else []
+    return min(masses) / areas.sum()
+
+
+def warn_of_grounds(case, structure: StructureModel, file) -> None:
+    """Tell of a step that resolves the vibration of a plate, or not that of what stands on a pad.
+
+    Raises
+    ------
+    InputError
+        a pad so stiff that its vibration is less than a few steps.
+    """
+    dt, told = case.integration.dt_s, set()
+    for joint in structure.joints:
+        if joint.pad is None:
+            continue
+        keys, where = pad_keys(case, joint.name.partition(":")[0])
+        steps = 1 / (joint.pad.frequency * dt)
+        text = f"the vertical vibration on it, of {joint.pad.frequency:.3g} Hz, takes {steps:.2g} steps"
+        if steps < FEWEST_STEPS:
+            raise InputError(
+                file,
+                f"{where}.stiffness_n_m3",
+                keys.stiffness_n_m3,
+                f"{text}; at least {FEWEST_STEPS} are needed: integration.dt_s at most "
+                f"{1 / (FEWEST_STEPS * joint.pad.frequency):.2g} s",
+            )
+        if steps < FEW_STEPS and where not in told:
+            told.add(where)
+            warnings.warn(
+                f"{file}: {where}: {text}; with fewer than {FEW_STEPS} its frequency is off by "
+                "more than 3 %",
+                stacklevel=2,
+            )
+    frequency = min(base.frequency for base in structure.bases)
+    if dt < 1 / frequency:
+        warnings.warn(
+            f"{file}: integration.dt_s = {dt:g} s resolves the ground's own vibration (period "
+            f"{1 / frequency:.2g} s), which is left out: it responds statically",
+            stacklevel=2,
+        )

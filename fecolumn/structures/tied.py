@@ -1,0 +1,96 @@
+"""Bodies of two grids: a finely meshed lower part, to which a coarser upper part is tied, on its
+flange and below its cap.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fecolumn.case import Cap, Flange
+from fecolumn.content import content
+from fecolumn.mesh.estimate import body_counts
+from fecolumn.mesh.specimen import body_mesh
+from fecolumn.schema import InputError
+from fecolumn.short_form import Base, Column, Heights, Mesh
+from fecolumn.sizes import sized
+from fecolumn.structures.keys import Block, Cylinder, Meshed
+
+
+@dataclass(frozen=True, slots=True)
+class Built(Heights):
+    """Sections of the short form that say what a column is built of."""
+
+    column: Column
+    mesh: Mesh
+    flange: Flange | None
+    cap: Cap | None
+
+
+def is_tied(body) -> bool:
+    """Whether a body is of two grids, or has a plate that its own grid cannot have."""
+    if isinstance(body, Meshed):
+        return body.cap is not None
+    if getattr(body, "fine_height_m", None) is not None:
+        return True
+    return isinstance(body, Block) and (body.flange is not None or body.cap is not None)
+
+
+def built_of(body) -> Built:
+    """What a body is built of, all sizes known.
+
+    Raises
+    ------
+    InputError
+        a mesh of one's own cannot be read.
+    """
+    if isinstance(body, Meshed):
+        column = Column(mesh_file=body.mesh_file)
+    elif isinstance(body, Block):
+        column = Column(
+            shape="block",
+            length_m=body.length_m,
+            width_m=body.width_m,
+            height_m=body.height_m,
+            fine_height_m=body.fine_height_m,
+        )
+    else:
+        column = Column(
+            shape="solid" if isinstance(body, Cylinder) else "tube",
+            outer_diameter_m=body.outer_diameter_m,
+            wall_m=getattr(body, "wall_m", None),
+            height_m=body.height_m,
+            fine_height_m=body.fine_height_m,
+        )
+    mesh = Mesh(
+        fine_size_m=body.element_size_m,
+        coarse_size_m=body.coarse_size_m,
+        cap_size_m=body.cap_size_m,
+        element_order=body.element_order,
+    )
+    flange = getattr(body, "flange", None)
+    known = content(column.mesh_file) if column.mesh_file else ""
+    column, _, mesh = sized(column, flange, body.cap, Base(), mesh, known)
+    return Built(column, mesh, flange, body.cap)
+
+
+def tied_mesh(key: str, body, file):
+    """Mesh of a body of two grids, its ties, order of its elements and element size at its foot
+    [m].
+
+    Raises
+    ------
+    InputError
+        parts that cannot be tied.
+    """
+    built = built_of(body)
+    try:
+        mesh, ties = body_mesh(built)
+    except InputError as error:
+        raise InputError(file, f"{key}: {error.key}", error.value, error.allowed) from None
+    return mesh, ties, 1 if body.rigid else built.mesh.element_order, built.mesh.fine_size_m
+
+
+def tied_counts(body) -> tuple[int, int]:
+    """Elements and nodes of a body of two grids, told without making them."""
+    elements, nodes, _ = body_counts(built_of(body))
+    return sum(elements.values()), sum(nodes.values())

@@ -1,0 +1,191 @@
+"""Grounds below structures: elastic ones under several feet, several grounds at their heights with
+motions of their own, and sliding off.
+"""
+
+import numpy as np
+import pytest
+from small_grounds import BLOCK, HEIGHT, MASS, SETTLED, SUBGRADE, WEIGHT, analysed
+from small_structures import structure
+
+from fecolumn.case import GRAVITY
+from fecolumn.structures.structure import structure_model
+
+SOFT = dict(youngs_modulus_pa=5e7, poissons_ratio=0.3, thickness_m=0.6, element_size_m=0.1)
+DEEP = SOFT | dict(thickness_m=2.4)
+
+
+def on_elastic(places, ground):
+    """Tables of blocks at places x [m] on an elastic ground."""
+    names = [f"block{k}" for k in range(len(places))]
+    return dict(
+        bodies={name: BLOCK | dict(at_m=[x, 0, 0]) for name, x in zip(names, places)},
+        interfaces={f"foot{k}": dict(between=[name, "soil"]) for k, name in enumerate(names)},
+        grounds=dict(soil=ground),
+        integration=dict(duration_s=1e-3, dt_s=1e-3),
+    )
+
+
+def settlements(folder, places, ground):
+    """Rise [m] at rest of blocks at places x [m]."""
+    _, rows = analysed(folder, **on_elastic(places, ground))
+    return [rows[f"interface/foot{k}: block{k} on soil/rise"][0] for k in range(len(places))]
+
+
+@pytest.mark.filterwarnings("ignore:.*resolves the ground's own vibration")
+@pytest.mark.parametrize("kind", ["unbounded", "plate"])
+def test_each_of_two_blocks_settles_as_alone_and_by_what_the_other_one_adds(tmp_path, kind):
+    """What the other one adds is that of its weight on one node, up to the square of size over
+    distance.
+    """
+    ground = DEEP | dict(kind=kind)
+    if kind == "plate":
+        ground |= dict(length_m=4.8, width_m=2.4, coarse_size_m=0.3)
+    (alone,) = settlements(tmp_path / "alone", [0.0], ground)
+    near = settlements(tmp_path / "near", [-0.6, 0.6], ground)
+    model = structure_model(structure(**on_elastic([-0.6, 0.6], ground)))
+    below = [
+        int(np.argmin(np.linalg.norm(model.base.grid.points[:, :2] - [x, 0], axis=1)))
+        for x in (-0.6, 0.6)
+    ]
+    model.base.need(np.array(below))
+    one, other = model.base.slot[below]
+    added = -WEIGHT * model.base.compliance[one, other, 2, 2]
+    assert near[0] == pytest.approx(near[1], rel=1e-3)
+    assert abs(added) > 0.05 * abs(alone)
+    # of a plate, whose edges are nearer to one that stands aside, alone is another place
+    assert near[0] - alone == pytest.approx(added, rel=0.15 if kind == "unbounded" else 0.35)
+
+
+@pytest.mark.filterwarnings("ignore:.*resolves the ground's own vibration")
+@pytest.mark.parametrize("kind", ["unbounded", "plate"])
+def test_blocks_far_apart_settle_as_alone(tmp_path, kind):
+    ground = SOFT | dict(kind=kind)
+    if kind == "plate":
+        ground |= dict(length_m=8.0, width_m=3.0, coarse_size_m=0.3)
+    (alone,) = settlements(tmp_path / "alone", [0.0], ground)
+    far = settlements(tmp_path / "far", [-2.5, 2.5], ground)
+    assert far == pytest.approx([alone, alone], rel=0.01)
+
+
+def test_two_blocks_on_one_pad_settle_each_by_its_own_weight(tmp_path):
+    low = BLOCK | dict(height_m=HEIGHT / 3, at_m=[1.0, 0, 0])
+    _, rows = analysed(
+        tmp_path / "run",
+        bodies=dict(high=BLOCK, low=low),
+        interfaces={name: dict(between=[name, "soil"]) for name in ("high", "low")},
+        grounds=dict(soil=dict(kind="pad", stiffness_n_m3=SUBGRADE)),
+        integration=dict(duration_s=1e-3),
+    )
+    assert rows["interface/high: high on soil/rise"][0] == pytest.approx(-SETTLED, rel=1e-6)
+    assert rows["interface/low: low on soil/rise"][0] == pytest.approx(-SETTLED / 3, rel=1e-6)
+
+
+@pytest.mark.filterwarnings("ignore:.*resolves the ground's own vibration")
+def test_a_block_that_slides_over_the_edge_of_its_plate_is_told_by_name(tmp_path):
+    summary, _ = analysed(
+        tmp_path / "run",
+        bodies=dict(block=BLOCK),
+        interfaces=dict(foot=dict(between=["block", "slab"])),
+        grounds=dict(slab=SOFT | dict(kind="plate", length_m=1.0, width_m=1.0)),
+        initial=dict(block=dict(velocity_m_s=[1.0, 0, 0])),
+        contact=dict(friction_coefficient=0.05),
+        integration=dict(duration_s=0.4),
+    )
+    assert summary["slid_off"] and '"block"' in summary["ended_by"]
+    # 0.2 m of room, at 1 m/s and a deceleration of mu g
+    way = 1.0 / (0.05 * GRAVITY) * (1 - np.sqrt(1 - 2 * 0.05 * GRAVITY * 0.2))
+    assert summary["duration_s"] == pytest.approx(way, abs=0.02)
+
+
+@pytest.fixture(scope="module")
+def shaken(tmp_path_factory):
+    """A motion of one sine wave that begins and ends softly: its file, times, displacements."""
+    folder = tmp_path_factory.mktemp("motion")
+    times = 1e-3 * np.arange(401)
+    w = 2 * np.pi / 0.4
+    # displacement d (1 - cos w t)^2, at rest at both ends
+    displacement = 2e-4 * (1 - np.cos(w * times)) ** 2
+    acceleration = 2e-4 * 2 * w**2 * (np.cos(w * times) - np.cos(2 * w * times))
+    file = folder / "wave.csv"
+    rows = "\n".join(f"{t:.6f},{a:.15e},0.0" for t, a in zip(times, acceleration))
+    file.write_text(f"t,ax,ay\n{rows}\n", encoding="utf-8")
+    return file, times, displacement
+
+
+def test_a_bridge_on_unlike_supports_is_stretched_by_their_relative_displacement(tmp_path, shaken):
+    """Two piers that stick to their grounds, 0.5 m apart in height, one moved against the other:
+    the force of the spring between them is its stiffness times how far the grounds move apart.
+    """
+    file, times, displacement = shaken
+    motion, stiffness = dict(source=str(file), units="m/s2", free_vibration_s=0.05), 1e5
+    summary, rows = analysed(
+        tmp_path / "run",
+        bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[4.0, 0, 0.5])),
+        interfaces=dict(
+            left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])
+        ),
+        grounds=dict(valley={}, hill=dict(level_m=0.5, motion=motion | dict(scale=-0.5))),
+        links=dict(
+            deck=dict(
+                kind="spring",
+                body="right",
+                point_m=[0, 0, 0.05],
+                to="left",
+                to_point_m=[-4.0, 0, 0.05],
+                stiffness_n_m=stiffness,
+            ),
+            anchor=dict(
+                kind="spring",
+                body="left",
+                point_m=[0, 0, 0.1],
+                to="hill",
+                to_point_m=[3.0, 0, 0.1],
+                stiffness_n_m=stiffness,
+            ),
+        ),
+        motion=motion,
+        integration=dict(dt_s=1e-3, duration_s=0.0),
+    )
+    apart = np.interp(rows["time"], times, -1.5 * displacement)
+    assert rows["link/deck/tension"] == pytest.approx(
+        stiffness * apart, abs=2e-3 * stiffness * np.abs(apart).max()
+    )
+    assert rows["link/anchor/tension"] == pytest.approx(
+        stiffness * apart, abs=2e-3 * stiffness * np.abs(apart).max()
+    )
+    # relative to the first ground, all of the right pier goes along with its own
+    assert rows["body/right/displacement"][:, 0] == pytest.approx(apart, abs=2e-6)
+    assert np.abs(rows["interface/right: right on hill/slide"]).max() < 2e-6
+    assert np.abs(rows["body/left/displacement"][:, 0]).max() < 2e-6
+    assert summary["energy_closure_rel"] < 1e-8
+    assert abs(summary["energy_j"]["contact"]) < 1e-3 * MASS * 1e-4
+
+
+def test_a_block_slides_on_a_ground_that_moves_by_itself_as_by_the_motion_of_all(tmp_path, shaken):
+    """On the second ground, the first at rest, it does what it does on the only one."""
+    file = shaken[0]
+    motion = dict(source=str(file), units="m/s2", free_vibration_s=0.1, scale=15.0)
+    sliding = dict(contact=dict(friction_coefficient=0.1), integration=dict(duration_s=0.0))
+    _, alone = analysed(
+        tmp_path / "alone",
+        bodies=dict(block=BLOCK),
+        interfaces=dict(foot=dict(between=["block", "ground"])),
+        motion=motion,
+        **sliding,
+    )
+    summary, rows = analysed(
+        tmp_path / "two",
+        bodies=dict(still=BLOCK | dict(at_m=[3.0, 0, 0]), block=BLOCK | dict(at_m=[0, 0, 0.5])),
+        interfaces=dict(
+            rest=dict(between=["still", "rock"]), foot=dict(between=["block", "table"])
+        ),
+        grounds=dict(rock={}, table=dict(level_m=0.5, motion=motion)),
+        motion=motion | dict(scale=0.0),
+        **sliding,
+    )
+    slide = rows["interface/foot: block on table/slide"][:, 0]
+    exact = alone["interface/foot: block on ground/slide"][:, 0]
+    assert np.abs(exact).max() > 1e-3
+    assert slide == pytest.approx(exact, abs=1e-3 * np.abs(exact).max())
+    assert summary["energy_closure_rel"] < 1e-8
+    assert rows["energy/friction"][-1] == pytest.approx(alone["energy/friction"][-1], rel=2e-3)

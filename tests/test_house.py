@@ -1,0 +1,101 @@
+"""Form, types, imports that go down, arguments of functions, names defined once."""
+
+import ast
+import collections
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PACKAGE = ROOT / "fecolumn"
+
+#: What is left to mend. These numbers may only shrink.
+FOLDERS, MODULES = 18, 31
+LONG_CALLS = 6
+NAMES_TWICE = 28
+#: Arguments of a function, self and cls left out
+ARGUMENTS = 8
+# Each command has these two functions, each verification case the third
+OF_EVERY_COMMAND_OR_CASE = {"add_arguments", "main", "run"}
+
+
+def _modules():
+    """Path, below the package, and syntax tree of each module."""
+    for file in sorted(PACKAGE.rglob("*.py")):
+        if "tutorials" not in file.parts:
+            yield file.relative_to(PACKAGE), ast.parse(file.read_text(encoding="utf-8"))
+
+
+def _said(*command: str) -> str:
+    """What a command of the environment prints; empty where it is content."""
+    done = subprocess.run(
+        [str(Path(sys.executable).with_name(command[0])), *command[1:]],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+    )
+    return "" if done.returncode == 0 else done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "ruff format --check --no-cache .",
+        "ruff check --no-cache --output-format concise .",
+        "lint-imports --no-cache --no-logo",
+        "mypy --no-incremental",
+    ],
+)
+def test_house_rules(command):
+    """Settings of all of them: pyproject.toml."""
+    if said := _said(*command.split()):
+        pytest.fail(f"{command}\n{said}", pytrace=False)
+
+
+def _arguments(function) -> int:
+    given = function.args
+    named = [one.arg for one in (*given.posonlyargs, *given.args, *given.kwonlyargs)]
+    return len(named) - (named[:1] in (["self"], ["cls"]))
+
+
+def _is_kernel(function) -> bool:
+    return any("njit" in ast.unparse(one) for one in function.decorator_list)
+
+
+def test_functions_have_few_arguments():
+    """Compiled kernels aside, whose arguments are arrays."""
+    long = [
+        f"{file}:{node.lineno} {node.name}: {_arguments(node)}"
+        for file, tree in _modules()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.FunctionDef)
+        and _arguments(node) > ARGUMENTS
+        and not _is_kernel(node)
+    ]
+    assert len(long) <= LONG_CALLS, "\n".join(long)
+
+
+def test_a_public_name_is_defined_once():
+    """Functions and classes of modules, whatever the folder."""
+    homes = collections.defaultdict(list)
+    for file, tree in _modules():
+        for node in tree.body:
+            if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name[0] != "_":
+                homes[node.name].append(str(file))
+    twice = {
+        name: files
+        for name, files in homes.items()
+        if len(files) > 1 and name not in OF_EVERY_COMMAND_OR_CASE
+    }
+    text = "\n".join(f"{name}: {', '.join(files)}" for name, files in sorted(twice.items()))
+    assert len(twice) <= NAMES_TWICE, text
+
+
+def test_there_are_few_rooms():
+    """Folders and loose modules directly below the package."""
+    folders = [one.name for one in PACKAGE.iterdir() if any(one.glob("*.py"))]
+    modules = [one.name for one in PACKAGE.glob("*.py") if one.name != "__init__.py"]
+    assert len(folders) <= FOLDERS, sorted(folders)
+    assert len(modules) <= MODULES, sorted(modules)
