@@ -74,13 +74,6 @@ class FullAnalysis(Analysis):
         start = self.case.initial
         return gravity.begin(self.system, start) if start.tilt_rad or start.moves else standing
 
-    def drawn(self):
-        """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
-        from fecolumn.post.fields import SpecimenFields
-
-        plate = self.system.base if len(self.specimen.base.cells) else None
-        return SpecimenFields(self.system.body, plate, self.system.footprint, self.specimen)
-
     def warn_of_grounds(self, file) -> None:
         """Tell of a step that resolves the vibration of the base, or not that of its pad."""
         self.warn_of_base(self.system.base.frequency, self.system.laws.get("pad"), file)
@@ -149,19 +142,12 @@ class FullAnalysis(Analysis):
             system.kinematics.local_displacement(state.x),
         )
         rest = self.rest.displacement(at_nodes, R)
-        sunk = (
-            interface.positions(state.x, R, interface.poses(state.x, R))
-            if getattr(self.fields.fields, "plate", None)
-            else None
+        drawn = self.fields.fields
+        positions = (
+            interface.positions(state.x, R, interface.poses(state.x, R)) if drawn.grounds else None
         )
-        self.fields.write(
-            state.time,
-            state.x + out_of_frames(rest, R, rows),
-            local + rest,
-            sunk,
-            state.forces,
-            at_nodes,
-        )
+        moved = state.x + out_of_frames(rest, R, rows)
+        self.fields.add(state.time, drawn.values(moved, local + rest, positions, state.forces))
 
     def run(self, stop) -> dict:
         from fecolumn.dynamics.cuts import StepFailed

@@ -67,22 +67,24 @@ ENERGY = WIDTH - len(TERMS)
 #: A point of a body that is watched: arm: (3,) from its centre of mass in its frame [m].
 MARK = record(("body", "i8"), ("arm", "f8", 3))
 #: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its
-#: centre of mass [m] and tilt [rad]; of each interface tilt of the slave from the master [rad],
-#: rise of the middle of its foot and its slide along two tangents [m], normal force [N]; of each
-#: mark its displacement [m]; of each link tension [N], elongation from its unstressed length and
-#: the part of it that has yielded [m], energy that it has taken [J], whether it is broken.
+#: centre of mass [m], tilt [rad] and rotation vector [rad]; of each interface tilt of the slave from
+#: the master [rad], rise of the middle of its foot and its slide along two tangents [m], normal
+#: force [N]; of each mark its displacement [m]; of each link tension [N], elongation from its
+#: unstressed length and the part of it that has yielded [m], energy that it has taken [J], whether
+#: it is broken.
 OF_BODY, OF_INTERFACE, OF_MARK = (
-    (("displacement", 3), ("tilt", 1)),
+    (("displacement", 3), ("tilt", 1), ("rotation", 3)),
     (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)),
     (("displacement", 3),),
 )
 OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("broken", 1))
-# Numbers in a row of each of them
-_N_BODY, _N_INTERFACE, _N_MARK, _N_LINK = (
+#: Numbers in a row of each of them
+PER_BODY, _N_INTERFACE, _N_MARK, _N_LINK = (
     sum(count for _, count in columns) for columns in (OF_BODY, OF_INTERFACE, OF_MARK, OF_LINK)
 )
-_BODY_TILT, _RISE, _SHIFT, _NORMAL = (
+_BODY_TILT, _TURN, _RISE, _SHIFT, _NORMAL = (
     place_of("tilt", OF_BODY),
+    place_of("rotation", OF_BODY),
     *(place_of(name, OF_INTERFACE) for name in ("rise", "slide", "force")),
 )
 
@@ -121,7 +123,7 @@ class View(NamedTuple):
             WIDTH
             if not len(self.limits)
             else WIDTH
-            + _N_BODY * len(self.center)
+            + PER_BODY * len(self.center)
             + _N_INTERFACE * len(self.feet)
             + _N_MARK * len(self.marks)
             + _N_LINK * self.links
@@ -186,7 +188,13 @@ def _observe_all(structure, points, poses, eye, motion, row):
         for a in range(3):
             row[place + a] = motion.frames[b].center[a] - eye.center[b, a]
         row[place + _BODY_TILT] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
-        place += _N_BODY
+        # sine and cosine of the angle of the rotation, along its axis the first
+        x, y, z = (R[2, 1] - R[1, 2]) / 2, (R[0, 2] - R[2, 0]) / 2, (R[1, 0] - R[0, 1]) / 2
+        sine, cosine = np.sqrt(x * x + y * y + z * z), (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
+        factor = np.arctan2(sine, cosine) / sine if sine > 0 else 1.0
+        row[place + _TURN], row[place + _TURN + 1] = factor * x, factor * y
+        row[place + _TURN + 2] = factor * z
+        place += PER_BODY
     find_poses(structure.interfaces, motion.grounds, motion.frames, motion.rotation, poses)
     first = place
     for k in range(len(structure.interfaces)):
@@ -237,7 +245,7 @@ def lost(eye, motion, row, steepest):
         for b in range(len(eye.limits)):
             if motion.frames[b].center[2] < eye.levels.min():
                 return FELL
-            if row[WIDTH + _N_BODY * b + _BODY_TILT] > eye.limits[b] or gone(
+            if row[WIDTH + PER_BODY * b + _BODY_TILT] > eye.limits[b] or gone(
                 eye.standing, eye.corners, motion.rotation, spins, b, force, steepest
             ):
                 return NO_RETURN

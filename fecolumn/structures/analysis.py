@@ -38,6 +38,12 @@ class OfStructure:
             f"{len(self.case.links)} kinds of links, {self.case.integration.engine} engine"
         )
 
+    def scene(self):
+        """`post.scene.Scene` of the case."""
+        from fecolumn.post.structure_scene import scene_of
+
+        return scene_of(self.case, self.structure, self.folder / "case.json")
+
     @property
     def barrier_j(self) -> float:
         """As `barrier.least_barrier`: below a share of it the structure is at rest."""
@@ -134,7 +140,8 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
     """Rows (k, width) of the engine as columns by name: those of any analysis, and of the
     structure's parts.
 
-    "body/NAME/displacement" of the centre of mass [m] and "body/NAME/tilt" [rad];
+    "body/NAME/displacement" of the centre of mass [m], "body/NAME/tilt" [rad] and
+    "body/NAME/rotation", the rotation vector [rad] from where the body stood upright;
     "interface/NAME/tilt" of the slave from the master [rad], "rise" of the middle of its foot [m],
     "slide" along two tangents [m], normal "force" [N]; "mark/NAME.MARK/displacement" [m];
     "link/NAME/tension" [N], "elongation" from its unstressed length and the part of it that has

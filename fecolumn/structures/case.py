@@ -534,13 +534,6 @@ def _check_integration(case, refuse) -> None:
                 value,
                 f"must be {needed} where integration.engine = {plan.engine!r}",
             )
-    if (value := case.output.fields_every_s) and plan.engine != "full":
-        refuse(
-            "output.fields_every_s",
-            value,
-            "must be 0 for a structure of [bodies] where integration.engine = "
-            f"{plan.engine!r}: fecolumn render --paraview makes fields of its states",
-        )
     for key in FULL_ORDER_KEYS if plan.engine != "full" else ():
         if (value := getattr(plan, key)) != DEFAULT[key]:
             refuse(

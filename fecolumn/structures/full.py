@@ -66,11 +66,12 @@ class FullStructureAnalysis(OfStructure, FullAnalysis):
         return released(self.system, self.structure.parts, None if self.leans else standing)
 
     def drawn(self):
+        from fecolumn.post.structure_scene import scene_of
         from fecolumn.structures.fields import StructureFields
 
-        return StructureFields(
-            self.system.bodies, self.meshed, self.standing, self.system.interface.points
-        )
+        scene = scene_of(self.case, self.standing, self.folder / "case.json")
+        points = self.system.interface.points
+        return StructureFields(scene, self.system.bodies, self.meshed, self.standing, points)
 
     def warn_of_grounds(self, file) -> None:
         warn_of_grounds(self.case, self.structure, file)

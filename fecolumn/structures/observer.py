@@ -5,6 +5,7 @@ bodies' mean motion and the tops' nodes.
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from fecolumn._compiled import interpreted
 from fecolumn.contact.points import BASE
@@ -86,6 +87,7 @@ class StructureObserver:
             row |= {
                 f"body/{part.name}/displacement": moved[b],
                 f"body/{part.name}/tilt": tilt_angle(R[b]),
+                f"body/{part.name}/rotation": Rotation.from_matrix(R[b]).as_rotvec(),
                 f"mark/{part.name}.top/displacement": tops[b],
             }
         poses = poses_of(interface.interfaces, moved + self._centers, R, state.grounds)

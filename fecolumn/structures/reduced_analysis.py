@@ -37,8 +37,8 @@ class ReducedAnalysis(OfStructure, Analysis):
 
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
-        self.structure, self.fields = structure_model(case, file, self.say), None
-        self.states = self._states()
+        self.structure = structure_model(case, file, self.say)
+        self.fields, self.states = self._fields() if self.field_steps else None, self._states()
         self.bases = self.structure.bases
         warn_of_grounds(case, self.structure, file)
         if not compiled(advance):
@@ -70,6 +70,13 @@ class ReducedAnalysis(OfStructure, Analysis):
             return engine_of(self.case, upright(self.case, self.structure), file).mechanical()
         except NoEquilibrium:
             return 0.0
+
+    def _fields(self):
+        """Writer of the fields, and what expands a state to them."""
+        from fecolumn.post.fields import FieldWriter
+
+        fields = self.scene().fields()
+        return FieldWriter(self.folder / "fields", fields), fields
 
     def _states(self) -> States | None:
         every = self.case.output.states_every_s
