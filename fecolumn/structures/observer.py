@@ -15,8 +15,8 @@ from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.structures.analysis import of_both_sides
 
 
-class StructureObserver:
-    """Measures states of a System of many bodies.
+class Observer:
+    """Measures states of a System.
 
     Parameters
     ----------
@@ -49,9 +49,15 @@ class StructureObserver:
             system.interface.interfaces, self._centers, upright, grounds_at(structure.levels)
         )
         self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
-        standing = [joint for joint in structure.joints if joint.slave == self.body]
-        nodes = part.model.surfaces[standing[0].slave_surface].nodes if standing else []
-        self._foot_arm = part.model.arms[nodes].mean(axis=0) if standing else np.zeros(3)
+        #: First foot of the observed body, if it has one.
+        self._surface = next(
+            (
+                part.model.surfaces[joint.slave_surface]
+                for joint in structure.joints
+                if joint.slave == self.body
+            ),
+            None,
+        )
 
     def measure(self, state) -> dict:
         """Measures of a state by the names of the history file, in SI units; as
@@ -75,7 +81,7 @@ class StructureObserver:
             u_top=tops[self.body],
             tilt=tilt_angle(own),
             twist=twist_angle(own),
-            slide=(moved[self.body] + (own - np.eye(3)) @ self._foot_arm)[:2],
+            slide=self._slid(state.x, moved)[:2],
             contact_force=forces[carries & (interface.points["master"] == BASE)].sum(axis=0),
             active_nodes=int(carries.sum()),
             penetration=max(
@@ -118,6 +124,21 @@ class StructureObserver:
                 f"link/{link.name}/broken": int(tie["broken"])
             }
         return of_both_sides(row, structure)
+
+    def _slid(self, x: np.ndarray, moved: np.ndarray) -> np.ndarray:
+        """Displacement (3,) [m] of the middle of the observed body's foot, on the mean over its
+        area; of its centre of mass, as `moved` (nb, 3) has it, where it has none.
+        """
+        if self._surface is None:
+            return moved[self.body]
+        one, part, rows = (
+            self._meshed[self.body],
+            self.structure.parts[self.body],
+            self.system.bodies.rows[self.body],
+        )
+        share = self._surface.areas / self._surface.areas.sum()
+        places = one.body.gather(one.nodes[self._surface.nodes], x[rows])
+        return share @ (places - part.center - part.model.arms[self._surface.nodes])
 
     def _top(self, b: int, x: np.ndarray) -> np.ndarray:
         """Displacement (3,) [m] of the mean of a body's top face."""
