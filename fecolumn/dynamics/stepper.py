@@ -7,24 +7,14 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn._compiled import interpreted
-from fecolumn.contact.impact import (
-    LANDS,
-    NOTHING,
-    find_impact,
-    landing_moment,
-    mark_landing,
-    mark_turning,
-    touched,
-    what_happens,
-)
-from fecolumn.contact.pose import frames_at, move_grounds
-from fecolumn.contact.problem import OK
+from fecolumn.contact.pose import move_grounds
 from fecolumn.contact.rolling import least_rim_width, part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
-from fecolumn.contact.work import book_impulses, losses, move_anchors
+from fecolumn.contact.work import move_anchors
+from fecolumn.dynamics.booking import Made, book
+from fecolumn.dynamics.collision import collide
 from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
 from fecolumn.dynamics.stage import Stage, carried, equilibrate
 from fecolumn.dynamics.system import State
@@ -261,21 +251,22 @@ class Stepper:
             # the same at alpha = 0
             drags = [damped, damping.force(after.v - dt * al**2 / (4 * be) * w, after.rotation)]
         inner, drag = (self._halfway(forces, start, after, R) for forces in (ends, drags))
-        contact_work = self._book(
-            start,
-            before,
-            after,
-            hht,
-            (first, last),
-            F0 + F1 - inner,
-            untwists,
-            beside,
-            within,
-            done,
-            drag,
-            resisted,
-            springs,
+        made = Made(
+            start=start,
+            before=before,
+            after=after,
+            hht=hht,
+            ends=(first, last),
+            load_sum=F0 + F1 - inner,
+            untwists=untwists,
+            beside=beside,
+            within=within,
+            carried=done,
+            damped=drag,
+            resisted=resisted,
+            springs=springs,
         )
+        contact_work = self._book(made)
         width = interpreted(least_rim_width)(interface.interfaces)
         if self.plastic and rolled and contact_work > CREATED * system.weight * width:
             # several points of the rim carry while it rolls fast: they stay for this step
@@ -283,7 +274,7 @@ class Stepper:
             return self._hht_step(start, ground, hht, rolls=False)
         if self.plastic:
             try:
-                self._collide(start, before, after, hht, springs, contact_work, booked)
+                collide(system, made, contact_work, booked, self.ledger, self.record)
             except StepFailed:
                 self.ledger.work.update(booked)
                 raise
@@ -300,173 +291,6 @@ class Stepper:
             ]
         return sum(forces)
 
-    def _book(
-        self,
-        start,
-        before,
-        after,
-        hht,
-        ends,
-        load_sum,
-        untwists,
-        beside,
-        within,
-        carried_by,
-        damped,
-        resisted,
-        springs,
-    ) -> float:
-        """Energy of an HHT step; returns the work of contact [J].
-
-        From the identity dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean =
-        (1-ga) a0 + ga a1, push of contact and of what takes the moment of the internal forces away,
-        which does no work but theirs.
-
-        ends: a0 and a1 (n_owned, 3) as they act in the step [m/s2]. load_sum: sum of loads less
-        internal forces at both ends,
-            untwists: what takes the moment of these away, beside: contact and all else that does
-            not belong to a0 and a1, within: contact that does, carried_by: work [J] of grounds
-            that move, damped: sum of damping forces,
-            resisted: rolling resistance, part of `beside`, each (n_owned, 3) [N] or 0.
-        """
-        bodies, interface, step = self.system.bodies, self.system.interface, after.x - start.x
-        mean = bodies.momentum((1 - hht.gamma) * ends[0] + hht.gamma * ends[1])
-        worked = within + beside
-        algorithmic = bodies.dot(step, mean - within - load_sum / 2)
-        algorithmic -= (
-            hht.dt**2 * hht.alpha**2 / 4 * bodies.dot(ends[1] - ends[0], mean + beside + untwists)
-        )
-        shaken = bodies.sum(bodies.unit_loads.reshape(3, -1) @ step.ravel())
-        damping = -bodies.dot(step, damped) / 2 if self.system.damping else 0.0
-        rolling = bodies.dot(step, resisted) if self.system.resistance else 0.0
-        taken = 0.0
-        if self.system.links:
-            tied, taken = end_links(
-                self.system.links.links,
-                after.grounds,
-                frames_at(bodies.centers(after.x)),
-                after.rotation,
-                start.ties,
-                after.ties,
-                hht.dt,
-            )
-            after.static += tied
-        contact = bodies.dot(step, worked) - rolling + after.static - start.static + taken
-        contact -= carried_by
-        friction, landed, dashpots = losses(
-            interface.points,
-            interface.interfaces,
-            springs,
-            interface.near,
-            before,
-            after.contact,
-            contact,
-        )
-        self.ledger.add(
-            base_work=carried_by - np.dot((start.ground + after.ground)[:3] / 2, shaken),
-            algorithmic=algorithmic - damping,
-            friction=friction,
-            impact=landed,
-            contact=contact - friction - landed + dashpots,
-            damping=damping - dashpots,
-            rolling=rolling,
-            links=-taken,
-        )
-        return contact
-
-    def _collide(self, start, before, after, hht, springs, contact_work, booked) -> None:
-        """Take the velocities of `after` anew where a point lands or slip ends; booked: works of
-        the ledger at the start of the step.
-
-        Raises
-        ------
-        StepFailed
-            no impulses were found that obey the laws of impact and friction.
-        """
-        system, interface, bodies, R = (
-            self.system,
-            self.system.interface,
-            self.system.bodies,
-            after.rotation,
-        )
-        landing, turning = np.zeros(interface.size, bool), np.zeros(interface.size, bool)
-        # the springs of a pad bring a landing foot to rest in their own time: there is no impact
-        on_pad = interface.interfaces["on_pad"][interface.points["interface"][interface.near]]
-        listed = interface.near[~on_pad]
-        lands = mark_landing(
-            interface.interfaces, interface.points, listed, before, after.contact, landing
-        )
-        if not mark_turning(interface.points, listed, before, after.contact, turning) and not lands:
-            return
-        # each in the frame of its own time: turned by another one a rotation looks like a strain,
-        # which the foot's filter takes away
-        poses = interface.poses(after.x, R)
-        early, late = (
-            interface.velocities(
-                start.v, start.rotation, interface.poses(start.x, start.rotation), True
-            ),
-            interface.velocities(after.v, R, poses),
-        )
-        happens = what_happens(
-            interface.interfaces,
-            interface.points,
-            listed,
-            before,
-            after.contact,
-            hht.dt,
-            early,
-            late,
-            landing,
-            turning,
-        )
-        if happens == NOTHING:
-            return
-        union, moment = interpreted(touched)(listed, before, after.contact), np.nan
-        if happens == LANDS:
-            moment = interpreted(landing_moment)(
-                union, before, after.contact, early, landing, hht.dt
-            )
-        answer, pushed, impulses = find_impact(
-            interface.bodies,
-            interface.surface,
-            interface.points,
-            interface.interfaces,
-            springs,
-            union,
-            interface.points["arm"].copy(),
-            poses,
-            before,
-            after.contact,
-            early,
-            late,
-            landing,
-            turning,
-            moment,
-            hht.dt,
-            contact_work,
-            interface.counts,
-        )
-        self.record.contact_iterations += interface.spent()
-        if answer != OK:
-            raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: the impulses of an impact")
-        if not pushed:
-            return
-        jump = interface.acceleration(impulses, R, False)
-        brought = interface.brought(impulses)
-        gained = bodies.dot(after.v + jump / 2, bodies.momentum(jump)) - brought
-        self.ledger.add(base_work=brought)
-        names = (
-            ("impact", "contact", "friction")
-            if happens == LANDS
-            else ("friction", "contact", "impact")
-        )
-        terms = interpreted(book_impulses)(
-            gained, *(self.ledger.work[name] - booked[name] for name in names)
-        )
-        self.ledger.work.update(
-            {name: booked[name] + float(term) for name, term in zip(names, terms)}
-        )
-        after.v = after.v + jump
-        if system.damping:
-            after.a = after.a - hht.stiffness_factor * system.damping.acceleration(jump, R)
-        self.record.impacts += happens == LANDS
+    def _book(self, made: Made) -> float:
+        """As `booking.book`."""
+        return book(self.system, made, self.ledger)

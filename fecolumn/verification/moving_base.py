@@ -104,10 +104,8 @@ class MovingStepper(Stepper):
         self.base, after.ground = last, np.array(ground, float)
         return after
 
-    def _book(self, start, before, after, *rest):
-        return super()._book(start, before, after, *rest) - float(
-            after.forces.sum(axis=0) @ self._moved
-        )
+    def _book(self, made):
+        return super()._book(made) - float(made.after.forces.sum(axis=0) @ self._moved)
 
 
 class InertialTrial:
