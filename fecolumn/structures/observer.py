@@ -50,8 +50,11 @@ class StructureObserver:
         )
         self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
         standing = [joint for joint in structure.joints if joint.slave == self.body]
-        nodes = part.model.surfaces[standing[0].slave_surface].nodes if standing else []
-        self._foot_arm = part.model.arms[nodes].mean(axis=0) if standing else np.zeros(3)
+        #: Rows of the model in the foot of the body that is watched, and their shares in its mean.
+        self._foot, self._shares = np.zeros(0, np.int64), np.zeros(0)
+        if standing:
+            surface = part.model.surfaces[standing[0].slave_surface]
+            self._foot, self._shares = surface.nodes, surface.areas / surface.areas.sum()
 
     def measure(self, state) -> dict:
         """Measures of a state by the names of the history file, in SI units; as
@@ -75,7 +78,7 @@ class StructureObserver:
             u_top=tops[self.body],
             tilt=tilt_angle(own),
             twist=twist_angle(own),
-            slide=(moved[self.body] + (own - np.eye(3)) @ self._foot_arm)[:2],
+            slide=self._slide(moved[self.body], state.x)[:2],
             contact_force=forces[carries & (interface.points["master"] == BASE)].sum(axis=0),
             active_nodes=int(carries.sum()),
             penetration=max(
@@ -118,6 +121,16 @@ class StructureObserver:
                 f"link/{link.name}/broken": int(tie["broken"])
             }
         return of_both_sides(row, structure)
+
+    def _slide(self, moved: np.ndarray, x: np.ndarray) -> np.ndarray:
+        """Displacement (3,) [m] of the mean of the foot of the body that is watched; of its centre
+        of mass, `moved`, where it has none.
+        """
+        if not len(self._foot):
+            return moved
+        one, part = self._meshed[self.body], self.structure.parts[self.body]
+        places = one.body.gather(one.nodes[self._foot], x[self.system.bodies.rows[self.body]])
+        return self._shares @ (places - part.center - part.model.arms[self._foot])
 
     def _top(self, b: int, x: np.ndarray) -> np.ndarray:
         """Displacement (3,) [m] of the mean of a body's top face."""
