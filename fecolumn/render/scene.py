@@ -147,19 +147,19 @@ class Scene:
             )
             self._plotter.add_mesh(mesh, **look)
             return mesh
-        low, high, square = self._frames.result.ground
-        square = max(square, float((high - low).max()) / 200)
-        low, high = np.floor(low / square) * square, np.ceil(high / square) * square
-        count = np.round((high - low) / square).astype(int)
-        plane = pyvista.Plane(
-            center=(*((low + high) / 2), 0.0),
-            direction=(0, 0, 1),
-            i_size=float(np.ptp([low[0], high[0]])),
-            j_size=float(np.ptp([low[1], high[1]])),
-            i_resolution=int(count[0]),
-            j_resolution=int(count[1]),
-        )
-        self._plotter.add_mesh(plane, **look)
+        for low, high, square, level in self._frames.result.grounds:
+            square = max(square, float((high - low).max()) / 200)
+            low, high = np.floor(low / square) * square, np.ceil(high / square) * square
+            count = np.round((high - low) / square).astype(int)
+            plane = pyvista.Plane(
+                center=(*((low + high) / 2), level),
+                direction=(0, 0, 1),
+                i_size=float(np.ptp([low[0], high[0]])),
+                j_size=float(np.ptp([low[1], high[1]])),
+                i_resolution=int(count[0]),
+                j_resolution=int(count[1]),
+            )
+            self._plotter.add_mesh(plane, **look)
         return None
 
     def _light_and_look(self) -> None:

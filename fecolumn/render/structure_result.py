@@ -16,6 +16,7 @@ from fecolumn.render.structure_solid import StructureSolid, structure_solid
 from fecolumn.render.structure_states import StructureStates
 from fecolumn.schema import InputError, meant
 from fecolumn.structures.case import StructureCase
+from fecolumn.structures.model import GROUND
 
 # Ground that is shown around a structure, over its width [-], and how many of its squares go into
 # this width
@@ -118,6 +119,34 @@ class StructureResult:
         )
         return low, high, square
 
+    @property
+    def grounds(self) -> list[tuple[np.ndarray, np.ndarray, float, float]]:
+        """Of each piece of ground that is shown corners and squares as of `ground`, and its height
+        [m]; of several each is seen around the feet on it.
+        """
+        low, high, square = self.ground
+        structure = self.solid.structure
+        if len(structure.levels) == 1:
+            return [(low, high, square, structure.levels[0])]
+        found = []
+        for place, level in enumerate(structure.levels):
+            feet = [
+                (structure.parts[one.slave], one.slave_surface)
+                for one in structure.joints
+                if one.master == GROUND and one.ground == place
+            ]
+            if feet:
+                places = np.concatenate(
+                    [
+                        part.center + part.model.arms[part.model.surfaces[name].nodes]
+                        for part, name in feet
+                    ]
+                )[:, :2]
+                margin = np.ptp(places, axis=0).max() / 2
+                own = places.min(axis=0) - margin, places.max(axis=0) + margin
+                found.append((np.maximum(own[0], low), np.minimum(own[1], high), square, level))
+        return found
+
     def _reached(self, rows) -> np.ndarray:
         """Corners (n, 3) [m] of the boxes around all bodies at the states `rows`."""
         found = []
@@ -150,7 +179,12 @@ class StructureResult:
         return np.concatenate(
             [
                 self._reached(rows),
-                [[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])],
+                [
+                    [x, y, level]
+                    for level in self.solid.structure.levels
+                    for x in (low[0], high[0])
+                    for y in (low[1], high[1])
+                ],
             ]
         )
 
