@@ -96,9 +96,9 @@ def run(
 def _analysis_class(case, comm, file) -> type[Analysis]:
     check_duration(case, file)
     if case.integration.engine == "full":
-        from fecolumn.structures.full import FullStructureAnalysis
+        from fecolumn.structures.full_analysis import FullAnalysis
 
-        return FullStructureAnalysis
+        return FullAnalysis
     if comm.size > 1:
         raise InputError(
             file,

@@ -14,7 +14,7 @@ import numpy as np
 
 from fecolumn.case import case_from_tables
 from fecolumn.schema import merge
-from fecolumn.structures.full import FullStructureAnalysis
+from fecolumn.structures.full_analysis import FullAnalysis
 
 CASE = Path(__file__).parents[2] / "meshes" / "temple_column.toml"
 #: Height of a drum [m]; element size [m] that makes 225,000 degrees of freedom; how far points may
@@ -59,7 +59,7 @@ def costs(comm, standing: int = 20, rocking: int = 50) -> dict:
     """
     began, case = time.perf_counter(), temple_case()
     with tempfile.TemporaryDirectory() as folder:
-        analysis = FullStructureAnalysis(case, Path(folder), comm, "large", True)
+        analysis = FullAnalysis(case, Path(folder), comm, "large", True)
         start, dt = time.perf_counter() - began, case.integration.dt_s
         spent, iterations = [], []
         for step in range(1, standing + ROCKS + rocking + 1):

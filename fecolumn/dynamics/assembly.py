@@ -133,6 +133,20 @@ def foot_of(case: ShortForm, specimen: SpecimenMesh, column: Body) -> Footprint:
     return footprint(foot, column.all_X[foot], areas, on_outline, case.contact.interior_points)
 
 
+def top_of(column, specimen) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (k,) of the top's face and their shares (k,) in its mean."""
+    mesh = specimen.body
+    part = mesh.top_part
+    height = mesh.points[:, 2].max()
+    quads = boundary_faces(mesh, part, height, 1e-6 * height)
+    found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
+    nodes, position = np.unique(found, return_inverse=True)
+    areas = nodal_areas(
+        mesh.points[quads], position.reshape(len(quads), -1), len(nodes), column.order
+    )
+    return nodes, areas / areas.sum()
+
+
 def build_system(case: ShortForm, comm, specimen: SpecimenMesh | None = None) -> System:
     """Bodies, contact and loads of a case."""
     specimen = specimen or share_specimen_mesh(case, comm)

@@ -15,8 +15,8 @@ from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.structures.analysis import of_both_sides
 
 
-class StructureObserver:
-    """Measures states of a System of many bodies.
+class Observer:
+    """Measures states of a System.
 
     Parameters
     ----------
@@ -49,12 +49,15 @@ class StructureObserver:
             system.interface.interfaces, self._centers, upright, grounds_at(structure.levels)
         )
         self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
-        standing = [joint for joint in structure.joints if joint.slave == self.body]
-        #: Rows of the model in the foot of the body that is watched, and their shares in its mean.
-        self._foot, self._shares = np.zeros(0, np.int64), np.zeros(0)
-        if standing:
-            surface = part.model.surfaces[standing[0].slave_surface]
-            self._foot, self._shares = surface.nodes, surface.areas / surface.areas.sum()
+        #: First foot of the observed body, if it has one.
+        self._surface = next(
+            (
+                part.model.surfaces[joint.slave_surface]
+                for joint in structure.joints
+                if joint.slave == self.body
+            ),
+            None,
+        )
 
     def measure(self, state) -> dict:
         """Measures of a state by the names of the history file, in SI units; as
@@ -78,7 +81,7 @@ class StructureObserver:
             u_top=tops[self.body],
             tilt=tilt_angle(own),
             twist=twist_angle(own),
-            slide=self._slide(moved[self.body], state.x)[:2],
+            slide=self._slid(state.x, moved)[:2],
             contact_force=forces[carries & (interface.points["master"] == BASE)].sum(axis=0),
             active_nodes=int(carries.sum()),
             penetration=max(
@@ -122,15 +125,20 @@ class StructureObserver:
             }
         return of_both_sides(row, structure)
 
-    def _slide(self, moved: np.ndarray, x: np.ndarray) -> np.ndarray:
-        """Displacement (3,) [m] of the mean of the foot of the body that is watched; of its centre
-        of mass, `moved`, where it has none.
+    def _slid(self, x: np.ndarray, moved: np.ndarray) -> np.ndarray:
+        """Displacement (3,) [m] of the middle of the observed body's foot, on the mean over its
+        area; of its centre of mass, as `moved` (nb, 3) has it, where it has none.
         """
-        if not len(self._foot):
-            return moved
-        one, part = self._meshed[self.body], self.structure.parts[self.body]
-        places = one.body.gather(one.nodes[self._foot], x[self.system.bodies.rows[self.body]])
-        return self._shares @ (places - part.center - part.model.arms[self._foot])
+        if self._surface is None:
+            return moved[self.body]
+        one, part, rows = (
+            self._meshed[self.body],
+            self.structure.parts[self.body],
+            self.system.bodies.rows[self.body],
+        )
+        share = self._surface.areas / self._surface.areas.sum()
+        places = one.body.gather(one.nodes[self._surface.nodes], x[rows])
+        return share @ (places - part.center - part.model.arms[self._surface.nodes])
 
     def _top(self, b: int, x: np.ndarray) -> np.ndarray:
         """Displacement (3,) [m] of the mean of a body's top face."""

@@ -203,3 +203,36 @@ def test_a_block_slides_on_a_ground_that_moves_by_itself_as_by_the_motion_of_all
     assert slide == pytest.approx(exact, abs=2e-3 * np.abs(exact).max())
     assert summary["energy_closure_rel"] < 1e-6
     assert rows["energy/friction"][-1] == pytest.approx(alone["energy/friction"][-1], rel=5e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("below", ["ground", "drum"])
+def test_a_drum_loses_the_resistance_times_its_weight_per_length_rolled(tmp_path, below):
+    """On the ground and on another drum, much heavier, wobbling steadily."""
+    radius, tilt, resistance = 0.3, 0.05, 1e-3
+    sizes = dict(kind="cylinder", element_size_m=0.15, density_kg_m3=2700.0)
+    stone = dict(youngs_modulus_pa=5e10, poissons_ratio=0.2)
+    small = dict(outer_diameter_m=2 * radius, height_m=0.6) | sizes | stone
+    large = small | dict(outer_diameter_m=1.2, height_m=0.9, density_kg_m3=9e4)
+    drums = dict(up=small | (dict(at_m=[0, 0, 0.9]) if below == "drum" else {}))
+    joints = dict(joint=dict(between=["up", below], rolling_resistance=resistance))
+    if below == "drum":
+        drums["drum"] = large
+        joints["foot"] = dict(between=["drum", "ground"])
+    summary, rows = analysed(
+        tmp_path / "run",
+        bodies=drums,
+        interfaces=joints,
+        initial=dict(up=dict(tilt_rad=tilt, spin_rad_s=[20 * tilt, 0.0, 0.0])),
+        contact=dict(friction_coefficient=0.8, interior_points=0),
+        integration=dict(duration_s=0.3, dt_s=1e-3),
+        observed="up",
+    )
+    top = rows["u_top"][:, :2] - rows["interface/joint: up on " + below + "/slide"]
+    ahead = np.unwrap(np.arctan2(top[:, 1], top[:, 0])) - rows["twist"]
+    rolled = radius * np.abs(np.diff(ahead))
+    force = rows["interface/joint: up on " + below + "/force"]
+    lost = resistance * np.sum(rolled * (force[1:] + force[:-1]) / 2)
+    assert rolled.sum() > radius / 2
+    assert rows["energy/rolling"][-1] == pytest.approx(-lost, rel=0.07)
+    assert summary["energy_closure_rel"] < 1e-6

@@ -1,4 +1,4 @@
-"""One analysis with the full-order engine."""
+"""One analysis with the full-order engine, from a case to its result files."""
 
 from __future__ import annotations
 
@@ -8,15 +8,20 @@ import time
 import numpy as np
 
 from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
+from fecolumn.case import GRAVITY
 from fecolumn.fem.rotation import out_of_frames
+from fecolumn.schema import InputError
+from fecolumn.structures.analysis import OfStructure
+from fecolumn.structures.engine import leans, upright
+from fecolumn.structures.pads import warn_of_grounds
 
 
-class FullAnalysis(Analysis):
-    """A running analysis of the full-order engine, of a column on its base; of many bodies what
-    `structures.full` makes of it.
+class FullAnalysis(OfStructure, Analysis):
+    """A running analysis of bodies with all their degrees of freedom.
 
-    Attributes beside those of Analysis: system, state, ledger, stepper: of `dynamics`. observer:
-    measures states and says when all is lost.
+    Attributes beside those of Analysis: structure: StructureModel at its start, standing: the same
+    upright, meshed: `elements.Meshed` of each part. system, state, ledger, stepper: of `dynamics`.
+    observer: measures states and says when all is lost.
     """
 
     def __init__(self, case, folder, comm, file, quiet):
@@ -29,7 +34,7 @@ class FullAnalysis(Analysis):
         began = time.perf_counter()
         self.system.interface.prepare(self.say)
         self.began += time.perf_counter() - began  # what is compiled is so for all analyses
-        self.warn_of_grounds(file)
+        warn_of_grounds(case, self.structure, file)
         self.ledger = Ledger(self.system)
         self.stepper = Stepper(
             self.system,
@@ -45,7 +50,7 @@ class FullAnalysis(Analysis):
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
-            self.state = self.released(self._standing())
+            self.state = self._released(self._standing())
             self.state.ground = self.grounds(0)
             self.state.grounds["acceleration"] = self.state.ground.reshape(-1, 3)
             self.ledger.open(self.state)
@@ -55,32 +60,73 @@ class FullAnalysis(Analysis):
 
     def built(self, file):
         """The System of the case, and what observes it."""
-        from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
-        from fecolumn.dynamics.observer import Observer
+        from fecolumn.dynamics.hht import HHT
+        from fecolumn.dynamics.structure import kinematics_of, structure_system
+        from fecolumn.structures.elements import structure_of_elements
+        from fecolumn.structures.lost import limits_of
+        from fecolumn.structures.observer import Observer
+        from fecolumn.structures.structure import standing_of
 
-        self.specimen = share_specimen_mesh(self.case, self.comm)
-        system = build_system(self.case, self.comm, self.specimen)
-        return system, Observer(system, self.specimen, self.case.overturn.displacement_m)
+        case, plan = self.case, self.case.integration
+        self.structure, self.meshed = structure_of_elements(case, self.comm, file)
+        #: The structure before any body leans or moves: gravity energy and displacements are
+        #: measured from there.
+        self.standing = upright(case, self.structure)
+        damped = [case.modes_of(name) for name in case.bodies for _ in case.names_of(name)]
+        plastic = case.contact.impact == "plastic"
+        if not plastic and any(joint.pad for joint in self.structure.joints):
+            raise InputError(
+                file,
+                "contact.impact",
+                case.contact.impact,
+                "must be plastic where a joint has a pad, whose springs take the place of impacts",
+            )
+        try:
+            system = structure_system(
+                self.standing,
+                [one.body for one in self.meshed],
+                HHT(plan.dt_s, plan.alpha_hht),
+                np.array([0.0, 0.0, -GRAVITY]),
+                filtered=plastic,
+                nodes=[one.nodes for one in self.meshed],
+                damped=damped,
+                kinematics=kinematics_of(plan.kinematics),
+            )
+        except ValueError as error:
+            name, _, told = str(error).partition(": ")
+            raise InputError(file, name, None, told) from None
+        limits = limits_of(self.standing, standing_of(case, self.standing))
+        return system, Observer(
+            system, self.meshed, self.standing, limits, case.overturn.displacement_m
+        )
 
     @property
     def leans(self) -> bool:
         """Whether the start is not from gravity equilibrium, which may not exist then."""
-        return bool(self.case.initial.tilt_rad)
+        return leans(self.structure)
 
-    def released(self, standing):
+    def _released(self, standing):
         """The State that the case begins with, from that of gravity equilibrium."""
-        from fecolumn.dynamics import gravity
+        from fecolumn.dynamics.structure import released
 
-        start = self.case.initial
-        return gravity.begin(self.system, start) if start.tilt_rad or start.moves else standing
+        return released(self.system, self.structure.parts, None if self.leans else standing)
 
-    def warn_of_grounds(self, file) -> None:
-        """Tell of a step that resolves the vibration of the base, or not that of its pad."""
-        self.warn_of_base(self.system.base.frequency, self.system.laws.get("pad"), file)
+    def drawn(self):
+        """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
+        from fecolumn.post.structure_scene import scene_of
+        from fecolumn.structures.fields import StructureFields
+
+        scene = scene_of(self.case, self.standing, self.folder / "case.json")
+        points = self.system.interface.points
+        return StructureFields(scene, self.system.bodies, self.meshed, self.standing, points)
 
     def off_base(self, failure):
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""
-        return self.slid_off(failure, self.system.base, *self.foot(0, self.system.footprint.nodes))
+
+        def foot(joint, _, nodes):
+            return self.foot(joint.slave, self.meshed[joint.slave].nodes[nodes])
+
+        return self.off_ground(failure, self.system.bases, self.state.grounds, foot)
 
     def foot(self, part: int, nodes) -> tuple[np.ndarray, np.ndarray]:
         """Places (n, 3) [m] and velocities (n, 3) [m/s] of nodes (n,) of a body."""
