@@ -21,8 +21,8 @@ if TYPE_CHECKING:  # the command line asks for the names alone, and must not wai
 
 #: Name of each model: "module:class" in this package. The modules are imported only when asked for.
 MODELS = {
-    "housner": "block:Block",
-    "rocking_frame": "frame:Frame",
+    "housner": "block:RockingBlock",
+    "rocking_frame": "frame:RockingFrame",
     "wobbling": "wobbling:Wobbling",
     "wobbling_frame": "wobbling_frame:WobblingFrame",
     "podium": "podium:Podium",
