@@ -103,6 +103,10 @@ class Analysis:
             return np.zeros(3)
         return self.motion.acceleration[step]
 
+    def grounds(self, step: int) -> np.ndarray:
+        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
+        return self.ground(step)
+
     def steepest(self, step: int) -> float:
         """Tangent of the steepest inclination of apparent gravity from a step on; see
         `dynamics.overturning`.
@@ -334,6 +338,10 @@ class Analysis:
         """
         return None
 
+    def results(self, ending: Ending) -> dict:
+        """What the summary has beside what that of any analysis has."""
+        return {}
+
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
         """What the point of no return was, from the last row of the history and the last rotation
         (3, 3).
@@ -427,7 +435,7 @@ class Analysis:
             factorizations=factorizations,
             energy_closure_rel=energy_closure(rows),
             energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS},
-        )
+        ) | self.results(ending)
         self.write_history()
         if self.comm.rank == 0:
             write_json(self.folder / NAME, summary)

@@ -125,10 +125,11 @@ def _model_sections() -> dict[str, type]:
 
 def _of_structures() -> list[Table]:
     """Tables of a structure's case beside those that it has in common with a column's."""
-    from fecolumn.case import Cap, Flange, Initial, Material
+    from fecolumn.case import Cap, Flange, Initial, Material, Motion
     from fecolumn.structures.keys import (
         KINDS,
         Footed,
+        Ground,
         Interface,
         LinkKeys,
         Mesh,
@@ -162,6 +163,8 @@ def _of_structures() -> list[Table]:
         "bodies.NAME.flange": Flange,
         "bodies.NAME.cap": Cap,
         "materials.NAME": Material,
+        "grounds.NAME": Ground,
+        "grounds.NAME.motion": Motion,
         "interfaces.NAME": Interface,
         "links.NAME": LinkKeys,
         "initial.NAME": Initial,
@@ -176,7 +179,10 @@ def _of_structures() -> list[Table]:
             "structure",
         ),
         *bodies,
-        *(Table(name, _sentence(kind), _keys(kind), "structure") for name, kind in others.items()),
+        *(
+            Table(name, _sentence(kind), _keys(kind, skip=("motion",)), "structure")
+            for name, kind in others.items()
+        ),
     ]
 
 

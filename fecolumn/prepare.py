@@ -14,6 +14,13 @@ _TUBE = dict(
     base=dict(length_m=0.2, width_m=0.2, thickness_m=0.05),
     mesh=dict(fine_size_m=0.02, coarse_size_m=0.03, base_size_m=0.05),
 )
+# Two blocks, of which the upper one leans so far that it is lost
+_BLOCK = dict(kind="block", length_m=0.2, width_m=0.1, height_m=0.3, element_size_m=0.1)
+_STACK = dict(
+    bodies=dict(low=_BLOCK, up=_BLOCK | dict(at_m=[0.0, 0.0, 0.3])),
+    interfaces=dict(foot=dict(between=["low", "ground"]), joint=dict(between=["up", "low"])),
+    initial=dict(up=dict(tilt_rad=0.7)),
+)
 _PODIUM = dict(podium=dict(column_mass_kg=1.0, floor_mass_kg=10.0, width_m=0.1, height_m=0.5))
 
 
@@ -29,13 +36,18 @@ def prepare(say) -> None:
     from fecolumn.case import case_from_tables
     from fecolumn.simulation import run
 
-    for engine in ("full", "reduced", "housner", "wobbling", "podium"):
-        began = time.perf_counter()
-        case = case_from_tables(
-            (_PODIUM if engine == "podium" else _TUBE)
-            | dict(integration=dict(engine=engine, duration_s=1e-3, dt_s=1e-3)),
-            "fecolumn prepare",
-        )
+    for engine, tables in (
+        ("full", _TUBE),
+        ("full", _STACK),
+        ("reduced", _TUBE),
+        ("reduced", _STACK),
+        ("housner", _TUBE),
+        ("wobbling", _TUBE),
+        ("podium", _PODIUM),
+    ):
+        began, of = time.perf_counter(), " of structures" if tables is _STACK else ""
+        plan = dict(engine=engine, duration_s=1e-3, dt_s=1e-3)
+        case = case_from_tables(tables | dict(integration=plan), "fecolumn prepare")
         with tempfile.TemporaryDirectory() as folder:
             run(case, Path(folder) / engine, file="fecolumn prepare", quiet=True)
-        say(f"{engine} engine ready after {time.perf_counter() - began:.0f} s")
+        say(f"{engine} engine{of} ready after {time.perf_counter() - began:.0f} s")

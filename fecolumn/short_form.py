@@ -430,6 +430,7 @@ def full_tables(form: ShortForm) -> dict:
     column = short["column"]
     own = bool(column.get("mesh_file"))
     from fecolumn.sizes import is_solid
+    from fecolumn.structures.check_grounds import OF_KINDS
 
     solid = not own and form.column.shape != "block" and is_solid(form.column)
     kind = "mesh" if own else "block" if form.column.shape == "block" else "tube"
@@ -448,7 +449,12 @@ def full_tables(form: ShortForm) -> dict:
             continue
         full = merge(full, nested(other, value))
     full["bodies"]["column"] |= {"kind": kind, "material": "column"}
-    full["grounds"]["ground"]["element_size_m"] = form.mesh.fine_size_m
+    ground = full["grounds"]["ground"] | {"element_size_m": form.mesh.fine_size_m}
+    full["grounds"]["ground"] = {
+        key: value
+        for key, value in ground.items()
+        if form.base.kind in OF_KINDS.get(key, form.base.kind)
+    }
     full["joints"] = {"foot": {"between": ["column", "ground"]}}
     return full
 

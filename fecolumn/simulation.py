@@ -111,9 +111,9 @@ def _analysis_class(case, comm, file) -> type[Analysis]:
         from fecolumn.rocking.analysis import ModelAnalysis
 
         return ModelAnalysis
-    from fecolumn.structures.analysis import StructureAnalysis
+    from fecolumn.structures.reduced_analysis import ReducedAnalysis
 
-    return StructureAnalysis
+    return ReducedAnalysis
 
 
 def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:

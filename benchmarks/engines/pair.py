@@ -8,14 +8,15 @@ from pathlib import Path
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case import Case, case_from_tables, read_toml
+from fecolumn.case import case_from_tables
 from fecolumn.dynamics.assembly import build_system
 from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.reduced.analysis import engine_of
-from fecolumn.reduced.cache import load_model
 from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.observe import COLUMNS
-from fecolumn.schema import merge
+from fecolumn.schema import merge, read_toml
+from fecolumn.structures.case import StructureCase
+from fecolumn.structures.engine import engine_of
+from fecolumn.structures.structure import structure_model
 
 SPECIMEN = Path(__file__).parents[2] / "meshes" / "specimen.toml"
 # a base wide enough to slide on
@@ -23,7 +24,7 @@ WIDE = {"base": {"length_m": 0.4, "width_m": 0.4}, "integration": {"engine": "re
 _PLACES = dict(zip((name for name, _ in COLUMNS), np.cumsum([0, *(width for _, width in COLUMNS)])))
 
 
-def case_of(**tables) -> Case:
+def case_of(**tables) -> StructureCase:
     """Case of the specimen in the reduced engine."""
     return case_from_tables(merge(merge(read_toml(SPECIMEN), WIDE), tables), SPECIMEN)
 
@@ -31,18 +32,17 @@ def case_of(**tables) -> Case:
 @functools.cache
 def mesh():
     """SpecimenMesh of `case_of`."""
-    return specimen_mesh(case_of())
+    return specimen_mesh(case_of().short)
 
 
-def system_of(case: Case):
+def system_of(case: StructureCase):
     """Full-order system of a case of the specimen."""
-    return build_system(case, MPI.COMM_SELF, mesh())
+    return build_system(case.short, MPI.COMM_SELF, mesh())
 
 
-def engine(case: Case) -> Engine:
+def engine(case: StructureCase) -> Engine:
     """Reduced engine of a case at its start, from the model on disk."""
-    model, base, _ = load_model(case)
-    return engine_of(case, model, base)
+    return engine_of(case, structure_model(case), "specimen.toml")
 
 
 def column(rows: np.ndarray, name: str) -> np.ndarray:

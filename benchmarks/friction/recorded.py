@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -101,17 +101,20 @@ def column(file) -> Iterator[Problem]:
     tilt, reduced engine.
     """
     from fecolumn.case import read_case
-    from fecolumn.reduced.analysis import engine_of
-    from fecolumn.reduced.cache import load_model
+    from fecolumn.structures.engine import engine_of
+    from fecolumn.structures.structure import structure_model
+
+    def engine_at(case):
+        told = partial(print, file=sys.stderr)
+        return engine_of(case, structure_model(case, file, told), file)
 
     case = read_case(file)
-    model, base, _ = load_model(case, lambda text: print(text, file=sys.stderr))
-    yield from recorded(engine_of(case, model, base), "column, stands", _still(3), 1)
+    yield from recorded(engine_at(case), "column, stands", _still(3), 1)
     yield from recorded(
-        engine_of(case, model, base),
+        engine_at(case),
         "column, shaken",
         sine_pulse(4.0, 0.3, 400, case.integration.dt_s),
         20,
     )
-    released = replace(case, initial=replace(case.initial, tilt_rad=0.01))
-    yield from recorded(engine_of(released, model, base), "column, landing", _still(250), 25)
+    released = case.replace({"initial.tilt_rad": 0.01})
+    yield from recorded(engine_at(released), "column, landing", _still(250), 25)

@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.peers.theory import Housner, housner
-from fecolumn.case import GRAVITY, Case, case_from_tables, read_toml
+from fecolumn.case import GRAVITY, read_toml
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.mesh.quality import MassProperties, mass_properties
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.schema import merge
+from fecolumn.short_form import ShortForm, short_form
 
 SPECIMEN = Path(__file__).parents[2] / "meshes" / "stout.toml"
 IMPACTS = 10
@@ -50,7 +51,7 @@ class Release:
     """
 
     name: str
-    case: Case
+    case: ShortForm
     mesh: SpecimenMesh
     body: MassProperties
     rigid: Housner
@@ -126,7 +127,7 @@ def release(name: str) -> Release:
     if name == "pipe":
         tables = merge(tables, PIPE)
         del tables["cap"]
-    case = case_from_tables(tables, SPECIMEN)
+    case = short_form(tables, SPECIMEN)
     mesh = specimen_mesh(case)
     radius = float(np.linalg.norm(mesh.body.points[mesh.foot_nodes, :2], axis=1).max())
     body = mass_properties(mesh.body, case.material.density_kg_m3)
@@ -134,7 +135,7 @@ def release(name: str) -> Release:
     tilt = 0.02 if name == "pipe" else 0.4 * rigid.slenderness
     duration = round(float(rigid.impact_times(tilt, IMPACTS)[-1]) + 0.05, 3)
     tables = merge(tables, {"integration": {"duration_s": duration}, "initial": {"tilt_rad": tilt}})
-    return Release(name, case_from_tables(tables, SPECIMEN), mesh, body, rigid, radius)
+    return Release(name, short_form(tables, SPECIMEN), mesh, body, rigid, radius)
 
 
 CASES = ("pipe", "specimen")

@@ -70,21 +70,23 @@ def full(given: Release, steps: int):
 
 def reduced(given: Release, steps: int):
     """Rows of the track of a compiled engine."""
-    from fecolumn.reduced.analysis import engine_of
-    from fecolumn.reduced.cache import load_model
+    from fecolumn.case import case_from_tables
+    from fecolumn.structures.engine import engine_of
+    from fecolumn.structures.structure import structure_model
 
-    model, base, _ = load_model(given.case)
+    case = case_from_tables(given.case.tables(), "peers")
+    model = structure_model(case)
     still = np.zeros((steps, 3))
-    engine_of(given.case, model, base).advance(still)  # compiles
+    engine_of(case, model, "peers").advance(still)  # compiles
     spent = made = 0
     while spent < ENOUGH_S:
-        engine = engine_of(given.case, model, base)
+        engine = engine_of(case, model, "peers")
         began = time.process_time()
         engine.advance(still)
         spent += time.process_time() - began
         made += steps
-    engine = engine_of(given.case, model, base)
-    reference = model.reference
+    engine = engine_of(case, model, "peers")
+    reference = model.parts[0].model.reference
     toes, standing, seen = (
         toes_of(reference, given.radius),
         engine.mechanical() - given.rigid.energy(given.tilt),

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 from fecolumn.case import GRAVITY
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.overturning import Limits
 from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts
 from fecolumn.reduced.structure import structure_of, view_of
@@ -191,7 +192,12 @@ def engine_of(body: BodyModel, stone: Stone, dt: float, alpha: float = -0.05) ->
         HHT(dt, alpha),
         (0.0, 0.0, -GRAVITY),
     )
-    eye = view_of(model, structure_of(model, hht, gravity)[0], body.mass * GRAVITY, lost=OVERTURNED)
+    eye = view_of(
+        model,
+        structure_of(model, hht, gravity)[0],
+        body.mass * GRAVITY,
+        Limits.of_tilt(1, OVERTURNED),
+    )
     return Engine(
         lambda step: structure_of(model, step, gravity),
         base,

@@ -69,6 +69,9 @@ def footprint(
         middle = (plane.min(axis=0) + plane.max(axis=0)) / 2
         width = np.ptp(plane, axis=0).max()
         tree = cKDTree(plane)
+        # of points equally far the first from above, then from the left: no order of nodes decides
+        places = np.round(plane / width, 9)
+        inside = inside[np.lexsort([places[inside, 0], -places[inside, 1]])]
         away = cKDTree(plane[kept]).query(plane)[0] if kept.any() else np.full(len(nodes), np.inf)
         while kept[inside].sum() < interior:
             # rounded, so that rounding does not decide between mirror images

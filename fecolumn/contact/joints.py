@@ -83,8 +83,7 @@ def joints_of(parts, joints) -> Joints:
         slave = parts[joint.slave].model
         touching = slave.surfaces[joint.slave_surface]
         arms = slave.arms[touching.nodes]
-        # a node of a rim that comes down on a pad presses a spring
-        rim = Rim.find(arms) if joint.round and joint.pad is None else None
+        rim = Rim.find(arms) if joint.round else None
         interface = interface_of(
             arms, rim, joint.restitution, joint.rolling, joint.pad, joint.slave, joint.master
         )

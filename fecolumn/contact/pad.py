@@ -114,7 +114,7 @@ def springs_of(points: np.ndarray, interfaces: np.ndarray, dt: float) -> Springs
         own = points["interface"] == k
         relaxation = float(interfaces["relaxation"][k])
         give[own], kept[own] = Pad(points["springs"][own], relaxation).give(dt)
-    may = np.isfinite(points["bears"])
+    may = points["bears"] > 0
     flow[may] = YIELDED_GIVES * give[may, 2]
     return Springs(points["law"] + give, give, kept, flow, np.zeros(len(points), bool))
 

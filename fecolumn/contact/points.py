@@ -31,7 +31,7 @@ CONTACT = record(
 #: on which it stands where its master is one. node:
 #: row of the slave's node in whose place it is; friction: coefficient; law: compliance of the
 #: contact law [m/N], springs: stiffness of a pad [N/m], each in x, y, z; bears: force at which the
-#: pad yields [N], infinite where it never does. carriers, weights: the
+#: pad yields [N], 0 where it never does. carriers, weights: the
 #: slave's nodes that carry it, `count` of them; arm: from the slave's centre of mass in its frame
 #: [m]; lift: height given to it [m], rolls: whether it belongs to a contact that rolls on in this
 #: step, see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's
@@ -98,7 +98,6 @@ def node_points(
     points["count"], points["weights"][:, 0], points["carriers"] = 1, 1.0, points["node"][:, None]
     if law is not None:
         points["law"] = law
-    points["bears"] = np.inf
     if pad is not None:
         points["springs"] = pad.stiffness
         if pad.bears is not None:

@@ -50,6 +50,25 @@ def grounds_at(levels) -> np.ndarray:
 
 
 @njit
+def move_grounds(before, accelerations, dt, after):
+    """Carry grounds (G,) of GROUND to the end of a step, relative to the first one, which stays.
+
+    accelerations: (3 G,) of each at the end [m/s2], to which they change evenly in the step.
+    """
+    for g in range(len(before)):
+        after[g] = before[g]
+        for a in range(3):
+            after[g].acceleration[a] = accelerations[3 * g + a]
+            if g > 0:
+                first = before[g].acceleration[a] - before[0].acceleration[a]
+                last = after[g].acceleration[a] - accelerations[a]
+                way = dt * before[g].velocity[a] + dt**2 * (first / 3 + last / 6)
+                after[g].place[a] += way
+                after[g].moved[a] += way
+                after[g].velocity[a] += dt * (first + last) / 2
+
+
+@njit
 def find_poses(interfaces, grounds, frames, rotation, poses):
     """Find poses (ni,) of POSE where the bodies have `frames` (nb,), of PLACE or with more fields,
     and are turned by `rotation` (nb, 3, 3); grounds: (G,) of GROUND.

@@ -29,7 +29,7 @@ class FullAnalysis(Analysis):
         began = time.perf_counter()
         self.system.interface.prepare(self.say)
         self.began += time.perf_counter() - began  # what is compiled is so for all analyses
-        self.warn_of_base(self.system.base.frequency, self.system.laws.get("pad"), file)
+        self.warn_of_grounds(file)
         self.ledger = Ledger(self.system)
         self.stepper = Stepper(
             self.system,
@@ -46,7 +46,8 @@ class FullAnalysis(Analysis):
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
             self.state = self.released(self._standing())
-            self.state.ground = self.ground(0)
+            self.state.ground = self.grounds(0)
+            self.state.grounds["acceleration"] = self.state.ground.reshape(-1, 3)
             self.ledger.open(self.state)
             self._note(0)
             if self.fields:
@@ -73,19 +74,19 @@ class FullAnalysis(Analysis):
         start = self.case.initial
         return gravity.begin(self.system, start) if start.tilt_rad or start.moves else standing
 
-    def drawn(self):
-        """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
-        from fecolumn.post.fields import SpecimenFields
+    def warn_of_grounds(self, file) -> None:
+        """Tell of a step that resolves the vibration of the base, or not that of its pad."""
+        self.warn_of_base(self.system.base.frequency, self.system.laws.get("pad"), file)
 
-        plate = self.system.base if len(self.specimen.base.cells) else None
-        return SpecimenFields(self.system.body, plate, self.system.footprint, self.specimen)
+    def off_base(self, failure):
+        """The Ending of a step that failed because a foot met the edge of its ground, or None."""
+        return self.slid_off(failure, self.system.base, *self.foot(0, self.system.footprint.nodes))
 
-    def foot(self) -> tuple[np.ndarray, np.ndarray]:
-        """Places (n, 3) [m] of what stands on the base, and velocities (n, 3) [m/s]."""
-        return tuple(
-            self.system.body.gather(self.system.footprint.nodes, values)
-            for values in (self.state.x, self.state.v)
-        )
+    def foot(self, part: int, nodes) -> tuple[np.ndarray, np.ndarray]:
+        """Places (n, 3) [m] and velocities (n, 3) [m/s] of nodes (n,) of a body."""
+        bodies, state = self.system.bodies, self.state
+        own = bodies.rows[part]
+        return tuple(bodies.parts[part].gather(nodes, values[own]) for values in (state.x, state.v))
 
     def _standing(self):
         """Gravity equilibrium, its energy noted; None of what is released leaning and cannot stand."""
@@ -141,19 +142,12 @@ class FullAnalysis(Analysis):
             system.kinematics.local_displacement(state.x),
         )
         rest = self.rest.displacement(at_nodes, R)
-        sunk = (
-            interface.positions(state.x, R, interface.poses(state.x, R))
-            if system.base.body
-            else None
+        drawn = self.fields.fields
+        positions = (
+            interface.positions(state.x, R, interface.poses(state.x, R)) if drawn.grounds else None
         )
-        self.fields.write(
-            state.time,
-            state.x + out_of_frames(rest, R, rows),
-            local + rest,
-            sunk,
-            state.forces,
-            at_nodes,
-        )
+        moved = state.x + out_of_frames(rest, R, rows)
+        self.fields.add(state.time, drawn.values(moved, local + rest, positions, state.forces))
 
     def run(self, stop) -> dict:
         from fecolumn.dynamics.cuts import StepFailed
@@ -171,7 +165,7 @@ class FullAnalysis(Analysis):
         try:
             while self.step < self.steps and not over:
                 began, before = time.perf_counter(), self.stepper.record.iterations
-                state = self.stepper.step(self.state, self.ground(self.step + 1))
+                state = self.stepper.step(self.state, self.grounds(self.step + 1))
                 self.state, self.step = state, self.step + 1
                 self.stepping_s += time.perf_counter() - began
                 measures = self._note(self.stepper.record.iterations - before)
@@ -189,7 +183,7 @@ class FullAnalysis(Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            off = self.slid_off(failure, self.system.base, *self.foot())
+            off = self.off_base(failure)
             if off is None:
                 self._save()
                 raise AnalysisFailed(
@@ -197,7 +191,7 @@ class FullAnalysis(Analysis):
                 ) from None
         finally:
             progress.end()
-        dofs = 3 * self.system.bodies.n_nodes + self.system.base.dofs
+        dofs = 3 * self.system.bodies.n_nodes + sum(base.dofs for base in self.system.bases)
         return self.finish(
             off or self.ending(fallen, self.state.rotation[self.observer.body]),
             dofs,

@@ -12,9 +12,9 @@ from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded_base
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.structure import kinematics_of
 from fecolumn.dynamics.system import System, one_column
 from fecolumn.fem.body import Body
-from fecolumn.fem.corotated import Corotated
 from fecolumn.mesh.base_plate import levels
 from fecolumn.mesh.bricks import boundary_faces, outline_edges
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
@@ -137,10 +137,6 @@ def build_system(case: ShortForm, comm, specimen: SpecimenMesh | None = None) ->
     """Bodies, contact and loads of a case."""
     specimen = specimen or share_specimen_mesh(case, comm)
     column = column_body(case, specimen, comm)
-    if case.integration.kinematics == "total_lagrangian":
-        from fecolumn.fem.total_lagrangian import TotalLagrangian as kinematics
-    else:
-        kinematics = Corotated
     foot = foot_of(case, specimen, column)
     base = base_of(case, column.all_X[foot.nodes]) or BasePlate(base_body(case, specimen, comm))
     law = interface_compliance(
@@ -149,7 +145,7 @@ def build_system(case: ShortForm, comm, specimen: SpecimenMesh | None = None) ->
     pad = pad_of(case, foot.areas, column.total_mass)
     return one_column(
         column,
-        kinematics,
+        kinematics_of(case.integration.kinematics),
         base,
         foot,
         case.contact.friction_coefficient,

@@ -10,6 +10,7 @@ import numpy as np
 from fecolumn.atomic import write_bytes
 from fecolumn.contact.interface import RIM
 from fecolumn.contact.points import CONTACT
+from fecolumn.contact.pose import GROUND
 from fecolumn.dynamics.links import TIE
 from fecolumn.dynamics.system import State
 from fecolumn.files import read_bytes
@@ -19,7 +20,7 @@ _FIELDS = ("x", "v", "a", "contact_a", "internal", "surface_a")
 # nodes only
 _WITH_RIM = {"angle", "stick.key", "stick.angles", "extra.stick.angles"}
 # A file knows no records
-_RECORDS = {"contact": CONTACT, "rims": RIM, "ties": TIE}
+_RECORDS = {"contact": CONTACT, "rims": RIM, "ties": TIE, "grounds": GROUND}
 _SHARED = (
     "time",
     "strain",
@@ -30,6 +31,7 @@ _SHARED = (
     "rims",
     "ties",
     "surface_forces",
+    "grounds",
 )
 
 

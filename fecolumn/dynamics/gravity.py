@@ -87,6 +87,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
             dt=np.inf,
             rotation=turned,
             centers=bodies.centers(state.x) if links else None,
+            grounds=(state.grounds, state.grounds),
             ties=state.ties,
             turns=interface.foot.filtered,
         )

@@ -14,9 +14,9 @@ from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact
 from fecolumn.contact.joints import Joints, left_faces
 from fecolumn.contact.outline import mark_sunk, was_beyond
-from fecolumn.contact.pad import springs_of
+from fecolumn.contact.pad import begin_yielding, find_yielding, springs_of
 from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
-from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at
+from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, grounds_at
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
     FAR_BASE,
@@ -30,12 +30,11 @@ from fecolumn.contact.problem import (
     solve_linear,
     stored_energy,
 )
-from fecolumn.contact.projection import base_for_steps, place_on_masters, project
+from fecolumn.contact.projection import grounds_for_steps, place_on_masters, project
 from fecolumn.contact.rolling import plan_roll, roll_points, stay
 from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.dynamics.cuts import StepFailed, Stop
-from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.stay import Stay
 from fecolumn.fem.rotation import into_frames, out_of_frames
 
@@ -64,14 +63,18 @@ class Interface:
         Composite of the bodies.
     foot
         CompositeFoot: what the time integration shows of their surface nodes.
-    base
-        BasePlate, or what answers as it does.
+    bases
+        each ground: BasePlate, or what answers as it does.
     joints
         points, interfaces, rims and facets.
+    levels
+        heights of the grounds [m].
     """
 
-    def __init__(self, composite, foot, base, joints: Joints):
-        self.composite, self.foot, self.base, self.joints = composite, foot, base, joints
+    def __init__(self, composite, foot, bases, joints: Joints, levels=(0.0,)):
+        self.composite, self.foot, self.bases, self.joints = composite, foot, tuple(bases), joints
+        # (G,) of GROUND at start and end of the step
+        self._started = self._grounds = grounds_at(levels)
         #: (P,) of POINT; interfaces (ni,) of INTERFACE.
         self.points, self.interfaces = joints.points.copy(), joints.interfaces.copy()
         #: Number of points; whether any stands on a body.
@@ -94,7 +97,7 @@ class Interface:
         ]
         #: As `contact.bodies` has them: their rigid motion is part of the nodal mobility.
         self.bodies = Bodies(*joined(parts)[:4], joints.facets)
-        self.surface, self.counts = base_for_steps(base), np.zeros(N_COUNTS, np.int64)
+        self.surface, self.counts = grounds_for_steps(self.bases), np.zeros(N_COUNTS, np.int64)
         self._problem, self.overlaps = room(self.points), joints.overlaps
         #: Of bodies on one another; the problem of feet on the base is small.
         self.stay = Stay(self.interfaces, self.size if self.moving else 0)
@@ -103,6 +106,8 @@ class Interface:
         #: Arms (N, 3) of the surface nodes from the centres of mass, in the frames of their bodies,
         #: where they were found last.
         self._arms_now = self.arms.copy()
+        # Length of the step, and what the points give alone in it
+        self._springs = np.nan, None
         # Positions, and velocities, and the rotation that were filtered last, and what came of it
         self._filtered = self._filtered_velocity = None, None, None
 
@@ -164,7 +169,7 @@ class Interface:
         )
         compile_for(
             find_poses,
-            (self.interfaces, STILL, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses),
+            (self.interfaces, self._grounds, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses),
         )
         if self.moving:
             compile_for(
@@ -178,9 +183,17 @@ class Interface:
         rolls = self.interfaces["rim_count"] > 0
         return float(self.interfaces["width"][rolls if rolls.any() else slice(None)].min())
 
+    def take_grounds(self, start: np.ndarray, end: np.ndarray) -> None:
+        """Let the grounds be where they are at start and end of a step, (G,) of GROUND each."""
+        self._started, self._grounds = start, end
+
     def springs(self, dt: float):
-        """What the points give alone in a step dt [s]: of `contact.pad.springs_of`."""
-        return springs_of(self.points, self.interfaces, dt)
+        """What the points give alone in a step dt [s]: of `contact.pad.springs_of`; within a step
+        it knows which pads yield.
+        """
+        if self._springs[0] != dt:
+            self._springs = dt, springs_of(self.points, self.interfaces, dt)
+        return self._springs[1]
 
     def at_points(self, values: np.ndarray) -> np.ndarray:
         """Values (P, ...) at the points from those at the nodes (N, ...) of their slaves."""
@@ -239,7 +252,9 @@ class Interface:
     def poses(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """(ni,) of POSE of bodies at positions x (n_owned, 3) turned by `rotation`."""
         poses = np.zeros(len(self.interfaces), POSE)
-        find_poses(self.interfaces, STILL, frames_at(self.composite.centers(x)), rotation, poses)
+        find_poses(
+            self.interfaces, self._grounds, frames_at(self.composite.centers(x)), rotation, poses
+        )
         return poses
 
     def node_positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
@@ -278,8 +293,8 @@ class Interface:
     def positions(
         self, x: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False
     ) -> np.ndarray:
-        """Positions (P, 3) of the points, without the static part: in the table frame, or relative
-        to the surface of the moving master in the frame of the interface.
+        """Positions (P, 3) of the points, without the static part: in the frame of the ground on
+        which they stand, or relative to the surface of the moving master in that of the interface.
 
         starts: at the start of a step, for all of which it decides what points are beyond an
         outline.
@@ -292,6 +307,8 @@ class Interface:
             self.at_points(self._out_of_frames(self.reference + moved, rotation)),
             self.reference + moved - centers,
         )
+        on = np.flatnonzero(self.points["master"] == BASE)
+        positions[on] -= poses["origin"][self.points["interface"][on]]
         if self.moving:
             # of the centre of mass, which the frames of the interfaces follow
             drawn = centers - (self.reference - self.arms)
@@ -349,7 +366,7 @@ class Interface:
                     self.foot.position(into_frames(v, rotation, self.composite.rows)), rotation
                 ),
             )
-        return self._relative(
+        values = self._relative(
             self._filtered_velocity[2],
             poses,
             *(
@@ -358,6 +375,21 @@ class Interface:
                 else (self.points["below"], self.points["shares"])
             ),
         )
+        on = np.flatnonzero(self.points["master"] == BASE)
+        values[on] -= (self._started if starts else self._grounds)["velocity"][
+            self.points["ground"][on]
+        ]
+        return values
+
+    def carried(self, forces: np.ndarray) -> float:
+        """Work [J] that grounds which move do by forces (P, 3) on the points in the step."""
+        ways = (self._grounds["place"] - self._started["place"])[self.points["ground"]]
+        return float(np.vdot(forces, ways * (self.points["master"] == BASE)[:, None]))
+
+    def brought(self, impulses: np.ndarray) -> float:
+        """Work [J] that grounds which move do by impulses (P, 3) at the end of the step."""
+        speeds = self._grounds["velocity"][self.points["ground"]]
+        return float(np.vdot(impulses, speeds * (self.points["master"] == BASE)[:, None]))
 
     def _relative(self, nodes, poses, below, shares) -> np.ndarray:
         """Values (P, 3) at the points, relative to the nodes `below` in the frame of the interface,
@@ -471,6 +503,9 @@ class Interface:
             False: the points stay in any case.
         """
         before, rims, rolled = state.contact.copy(), state.rims.copy(), False
+        self.take_grounds(state.grounds, state.grounds)
+        if self._springs[1] is not None:
+            begin_yielding(self.points, self._springs[1])
         now, then = self.poses(state.x, state.rotation), self.poses(state.x, halfway)
         self._mark_unused(state.x, now, rims)
         for interface, rim, pose, turned in zip(self.interfaces, rims, now, then):
@@ -504,6 +539,7 @@ class Interface:
         joints with two sides are laid; once they are, they stay.
         """
         before, rims = state.contact.copy(), state.rims.copy()
+        self.take_grounds(state.grounds, state.grounds)
         if not rims["placed"][self.overlaps.joints["forward"]].all():
             poses = self.poses(state.x, state.rotation)
             self._mark_unused(state.x, poses, rims)
@@ -576,9 +612,7 @@ class Interface:
         if not rolled:
             stay(roll, points, rim, tilt, self.arms, self.points)
             return False
-        places = self.node_positions(state.x, state.rotation)
-        if interface["master"] != BASE:
-            places = (places - pose["origin"]) @ pose["frame"]
+        places = (self.node_positions(state.x, state.rotation) - pose["origin"]) @ pose["frame"]
         roll_points(roll, points, rim, self.arms, places, state.contact, self.points, before)
         return True
 
@@ -598,7 +632,7 @@ class Interface:
             np.empty((3 * len(listed), 3 * len(listed))),
         )
         places = self.reference[self.points["node"]]
-        self._extend_base(places)
+        self._extend_base(places, everyone)
         interpreted(project)(self.surface, places, everyone, self.points)
         interpreted(assemble)(
             self.bodies,
@@ -646,14 +680,26 @@ class Interface:
                 self.counts,
             )
             self.stay.end(self._problem, nodal)
-            if answer != FAR_BASE:
+            if answer == FAR_BASE:
+                self._extend_base(positions, self.near)
+            elif answer in _STOPS or not (
+                times and find_yielding(self.points, springs, self.near, after)
+            ):
                 return _STOPS.get(answer, Stop.CONVERGED), residual
-            self._extend_base(positions[self.near[self.points["master"][self.near] == BASE]])
+            else:
+                # the operator of feet that stick is that of pads that do not yield
+                self._problem.flags[:] = False
 
-    def _extend_base(self, positions) -> None:
-        """Make the base's compliance known under positions (k, 3) and one row of its nodes around."""
-        self.base.need(self.base.grid.around(positions, 1))
-        self.surface = base_for_steps(self.base)
+    def _extend_base(self, positions, listed) -> None:
+        """Make the grounds' compliance known under the listed points (k,) at positions (n, 3) and
+        one row of nodes around.
+        """
+        on = listed[self.points["master"][listed] == BASE]
+        for number, base in enumerate(self.bases):
+            own = on[self.points["ground"][on] == number]
+            if len(own):
+                base.need(base.grid.around(positions[own], 1))
+        self.surface = grounds_for_steps(self.bases)
 
     def stored(self, dt: float, before, after) -> float:
         """Strain energy [J] of base, foot's static rest, contact law and pad, whose indentation is

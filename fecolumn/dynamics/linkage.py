@@ -5,13 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import frames_at, grounds_at
+from fecolumn.contact.pose import frames_at
 from fecolumn.dynamics.links import TIE, end_links, pull_links
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import out_of_frames
-
-# The ground of the full order, in whose frame everything moves
-STILL = grounds_at([0.0])
 
 
 class Linkage:
@@ -46,7 +43,9 @@ class Linkage:
         at rest.
         """
         before, frames = state.ties.copy(), frames_at(self._bodies.centers(state.x))
-        kept, _ = end_links(self.links, STILL, frames, state.rotation, before, state.ties, np.inf)
+        kept, _ = end_links(
+            self.links, state.grounds, frames, state.rotation, before, state.ties, np.inf
+        )
         state.ties["work"] = 0.0  # what they lose on the way there is not of the motion
         return kept
 
@@ -71,16 +70,23 @@ class Linkage:
         pull_links(
             self.links,
             stage.ties,
-            STILL,
+            stage.grounds[0],
             frames_at(stage.centers),
             stage.rotation,
-            STILL,
+            stage.grounds[1],
             frames_at(self._bodies.centers(x)),
             rotation,
             float(stage.dt),
             pulls,
         )
         return pulls
+
+    def carried(self, pulls, start, end) -> float:
+        """Work [J] that grounds, (G,) of GROUND at start and end of a step, do by the links' forces
+        (nl, 3) on the ends a.
+        """
+        ways = (end["place"] - start["place"])[self.links["ground"]]
+        return float(np.vdot(pulls, ways * (self.links["b"] == BASE)[:, None]))
 
     def _rigid(self, pulls, halfway) -> list[np.ndarray]:
         """Rigid accelerations (6,) of each body in its frame, turned by `halfway` (nb, 3, 3)."""

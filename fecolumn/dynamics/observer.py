@@ -64,7 +64,7 @@ class Observer:
             contact_force=state.forces.sum(axis=0),
             active_nodes=int((state.forces[:, 2] > 0).sum()),
             penetration=max(0.0, -float(state.relative[:, 2].min())),
-            ground=state.ground,
+            ground=state.ground[:3],
         )
 
     def fallen(self, state, measures: dict, steepest: float) -> int:

@@ -44,12 +44,32 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from fecolumn._compiled import njit
+from fecolumn.contact.points import BASE
+from fecolumn.contact.record import record
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import ROUND_CORNERS, STICKS
 
 # Answers of `fallen`, and what one of many bodies is that is below the ground, on which it has no
 # face to stand
 STANDS, NO_RETURN, CAPPED, FELL = range(4)
+
+
+#: How one of many bodies stands. below: body that it stands on, BASE of the ground. first, count:
+#: corners of its Stance among those of all; depth, critical, weight, friction, inertia: as of it,
+#: critical inf of a body without a point of no return. ground: whether the ground's motion alone
+#: moves what it stands on and what it carries, so that what is to come of it bounds how a sticking
+#: edge is pushed.
+STANDING = record(
+    ("below", "i8"),
+    ("first", "i8"),
+    ("count", "i8"),
+    ("depth", "f8"),
+    ("critical", "f8"),
+    ("weight", "f8"),
+    ("friction", "f8"),
+    ("inertia", "f8", (3, 3)),
+    ("ground", "?"),
+)
 
 
 class Stance(NamedTuple):
@@ -69,6 +89,28 @@ class Stance(NamedTuple):
     weight: float
     friction: float
     cap: float
+
+
+#: Tilt [rad] at which a body is lost of which links, or bodies beside it, decide whether it returns:
+#: far beyond what any that still stands reaches.
+FAR = np.pi / 4
+
+
+class Limits(NamedTuple):
+    """When bodies of a structure are lost. tilts: (nb,) [rad] beyond which each is in any case, inf
+    of one with a point of no return; standing: (nb,) of STANDING; corners: (k, 2) [m] of them.
+    """
+
+    tilts: np.ndarray
+    standing: np.ndarray
+    corners: np.ndarray
+
+    @classmethod
+    def of_tilt(cls, bodies: int, tilt: float = FAR) -> Limits:
+        """Of so many bodies that are all lost at a tilt [rad]."""
+        standing = np.zeros(bodies, STANDING)
+        standing["critical"] = np.inf
+        return cls(np.full(bodies, float(tilt)), standing, np.zeros((0, 2)))
 
 
 def stance(
@@ -226,3 +268,54 @@ def fallen(stance, rotation, spin, force, top, steepest):
         if beyond - held <= bound * height:
             return STANDS
     return NO_RETURN
+
+
+@njit
+def gone(standing, corners, rotation, spins, b, force, steepest):
+    """Whether body b of many is past its point of no return: by `fallen`, from what it stands on.
+
+    Parameters
+    ----------
+    standing
+        (nb,) of STANDING, corners: (k, 2) [m] of their stances.
+    rotation
+        (nb, 3, 3) of the bodies to the table.
+    spins
+        (nb, 3) angular velocities in the frames of the bodies [rad/s].
+    force
+        (3,) of the ground on all bodies [N].
+    steepest
+        as of `fallen`.
+    """
+    one = standing[b]
+    if one.critical == np.inf:
+        return False
+    turn, spin, inertia = np.empty((3, 3)), np.empty(3), np.empty((3, 3))
+    m = one.below
+    for a in range(3):
+        spin[a] = spins[b, a]
+        for c in range(3):
+            inertia[a, c] = one.inertia[a, c]
+            turn[a, c] = rotation[b, a, c]
+    if m != BASE:
+        for a in range(3):
+            for c in range(3):
+                turn[a, c] = 0.0
+                for d in range(3):
+                    turn[a, c] += rotation[m, d, a] * rotation[b, d, c]
+        for a in range(3):
+            for c in range(3):
+                spin[a] -= turn[c, a] * spins[m, c]
+    if np.arctan2(np.hypot(turn[0, 2], turn[1, 2]), turn[2, 2]) <= one.critical:
+        return False
+    stance = Stance(
+        corners[one.first : one.first + one.count],
+        one.depth,
+        one.critical,
+        inertia,
+        one.weight,
+        one.friction,
+        np.inf,
+    )
+    bound = steepest if one.ground else np.inf
+    return fallen(stance, turn, spin, force, 0.0, bound) == NO_RETURN

@@ -32,8 +32,9 @@ class Stage:
     on a body in the rotation halfway, so that their work over a turn of it by t is that of the
     foot's path up to t^3.
     velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target, but for
-    `memory` [m/s]; None where nothing is damped. centers: (nb, 3) of mass at the start [m], ties:
-    (nl,) of TIE there; None of a structure without links. memory: (n_owned, 3) acceleration that
+    `memory` [m/s]; None where nothing is damped. centers: (nb, 3) of mass at the start [m], grounds:
+    (G,) of GROUND at start and end, ties: (nl,) of TIE at the start; None of a structure without
+    links. memory: (n_owned, 3) acceleration that
     the start brings [m/s2], None at rest; shares: of it in target [s2] and velocity [s]; held:
     (n_owned, 3) internal
         forces that the start brings to the load [N]. turns: whether internal forces and what the
@@ -53,6 +54,7 @@ class Stage:
     rotation: np.ndarray
     velocity: np.ndarray | None = None
     centers: np.ndarray | None = None
+    grounds: tuple = ()
     ties: np.ndarray | None = None
     memory: np.ndarray | None = None
     shares: tuple[float, float] = (0.0, 0.0)

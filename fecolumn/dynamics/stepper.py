@@ -17,14 +17,13 @@ from fecolumn.contact.impact import (
     touched,
     what_happens,
 )
-from fecolumn.contact.pose import frames_at
+from fecolumn.contact.pose import frames_at, move_grounds
 from fecolumn.contact.problem import OK
 from fecolumn.contact.rolling import least_rim_width, part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import book_impulses, losses, move_anchors
 from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.links import end_links
 from fecolumn.dynamics.record import Record
 from fecolumn.dynamics.stage import Stage, carried, equilibrate
@@ -164,6 +163,9 @@ class Stepper:
         before, rims, rolled = interface.begin_step(
             start, system.kinematics.rotation(start.x + dt / 2 * start.v), rolls
         )
+        grounds = start.grounds.copy()
+        move_grounds(start.grounds, np.asarray(ground, float), dt, grounds)
+        interface.take_grounds(start.grounds, grounds)
         F0, F1 = system.load(start.ground), system.load(ground)
         damping, resistance, links = system.damping, system.resistance, system.links
         damped = damping.force(start.v, start.rotation) if damping else 0.0
@@ -182,6 +184,7 @@ class Stepper:
             rotation=start.rotation,
             velocity=start.v if damping else None,
             centers=bodies.centers(start.x) if links else None,
+            grounds=(start.grounds, grounds),
             ties=start.ties,
             memory=start.a,
             shares=(dt**2 * (0.5 - be), dt * (1 - ga)),
@@ -223,10 +226,13 @@ class Stepper:
             ground=np.array(ground, float),
             rims=rims,
             ties=start.ties.copy(),
+            grounds=grounds,
         )
         push, (straight, led), w, untwists = outcome.push, outcome.mends, turned, 0.0
         # what does work beside the accelerations that HHT remembers, and what does as part of them
         beside, within = resisted, 0.0
+        # what grounds that move do
+        carried_by = outcome.contact["force"]
         if self.plastic:
             moved = outcome.surface_a + straight + led
             w, untwists = w + moved, bodies.momentum(straight)
@@ -237,9 +243,12 @@ class Stepper:
             )
         else:
             within = (1 - ga) * interface.load(before["force"], R) + ga * push
+            carried_by = (1 - ga) * before["force"] + ga * carried_by
+        done = interface.carried(carried_by)
         if links:
             pulls = links.pulls(stage, after.x, after.rotation)
             beside, w = beside + links.load(pulls, R), w + links.acceleration(pulls, R)
+            done += links.carried(pulls, start.grounds, grounds)
         middle = stage.middle(bodies, R)
         first, last = middle.memory, hht.mass_factor * (after.x - middle.target) - w / (2 * be)
         onward = after.rotation @ R.swapaxes(-1, -2)
@@ -262,6 +271,7 @@ class Stepper:
             untwists,
             beside,
             within,
+            done,
             drag,
             resisted,
             springs,
@@ -301,6 +311,7 @@ class Stepper:
         untwists,
         beside,
         within,
+        carried_by,
         damped,
         resisted,
         springs,
@@ -314,7 +325,8 @@ class Stepper:
         ends: a0 and a1 (n_owned, 3) as they act in the step [m/s2]. load_sum: sum of loads less
         internal forces at both ends,
             untwists: what takes the moment of these away, beside: contact and all else that does
-            not belong to a0 and a1, within: contact that does, damped: sum of damping forces,
+            not belong to a0 and a1, within: contact that does, carried_by: work [J] of grounds
+            that move, damped: sum of damping forces,
             resisted: rolling resistance, part of `beside`, each (n_owned, 3) [N] or 0.
         """
         bodies, interface, step = self.system.bodies, self.system.interface, after.x - start.x
@@ -331,7 +343,7 @@ class Stepper:
         if self.system.links:
             tied, taken = end_links(
                 self.system.links.links,
-                STILL,
+                after.grounds,
                 frames_at(bodies.centers(after.x)),
                 after.rotation,
                 start.ties,
@@ -340,6 +352,7 @@ class Stepper:
             )
             after.static += tied
         contact = bodies.dot(step, worked) - rolling + after.static - start.static + taken
+        contact -= carried_by
         friction, landed, dashpots = losses(
             interface.points,
             interface.interfaces,
@@ -350,7 +363,7 @@ class Stepper:
             contact,
         )
         self.ledger.add(
-            base_work=-np.dot((start.ground + after.ground) / 2, shaken),
+            base_work=carried_by - np.dot((start.ground + after.ground)[:3] / 2, shaken),
             algorithmic=algorithmic - damping,
             friction=friction,
             impact=landed,
@@ -439,7 +452,9 @@ class Stepper:
         if not pushed:
             return
         jump = interface.acceleration(impulses, R, False)
-        gained = bodies.dot(after.v + jump / 2, bodies.momentum(jump))
+        brought = interface.brought(impulses)
+        gained = bodies.dot(after.v + jump / 2, bodies.momentum(jump)) - brought
+        self.ledger.add(base_work=brought)
         names = (
             ("impact", "contact", "friction")
             if happens == LANDS

@@ -17,6 +17,15 @@ from fecolumn.fem.corotated import Corotated
 DAMPED = 30
 
 
+def kinematics_of(name: str):
+    """Kinematics of a body by the name that integration.kinematics gives it."""
+    if name == "total_lagrangian":
+        from fecolumn.fem.total_lagrangian import TotalLagrangian
+
+        return TotalLagrangian
+    return Corotated
+
+
 def structure_system(
     model,
     bodies: list,
@@ -71,7 +80,7 @@ def structure_system(
     return System(
         composite,
         CompositeKinematics(composite, kinematics),
-        model.base,
+        model.bases,
         nodes,
         joints_of(parts, model.joints),
         gravity,
@@ -79,6 +88,7 @@ def structure_system(
         filtered,
         damping,
         links_of(model, hht),
+        model.levels,
     )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.joints import Joints, joint_on_base
 from fecolumn.contact.points import CONTACT, may_touch
+from fecolumn.contact.pose import grounds_at
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.interface import Interface, Nodal
 from fecolumn.dynamics.linkage import Linkage
@@ -34,7 +35,8 @@ class State:
     internal: (n_owned, 3) internal forces [N]; strain: their energy [J]. rotation: (nb, 3, 3) mean
     rotations.
     contact: (P,) of CONTACT, what the points carry. static: strain energy of base, static rest of
-    the bodies, penalty springs, pad and links [J]. ground: (3,) acceleration of the base [m/s2].
+    the bodies, penalty springs, pads and links [J]. ground: (3 G,) accelerations of the grounds
+    [m/s2], grounds: (G,) of GROUND, relative to the first.
     rims: (ni,) of RIM. ties: (nl,) of TIE. surface_a: (n_owned, 3) acceleration of the contact
     forces in the last step, with what gives them and internal forces their moments [m/s2], and
     surface_forces: (N, 3) the forces
@@ -57,6 +59,7 @@ class State:
     ties: np.ndarray = field(default_factory=lambda: np.zeros(0, TIE))
     surface_a: np.ndarray | None = None
     surface_forces: np.ndarray | None = None
+    grounds: np.ndarray = field(default_factory=lambda: grounds_at([0.0]))
 
     @property
     def forces(self) -> np.ndarray:
@@ -107,8 +110,8 @@ class System:
     ----------
     bodies
         all of them, in their places; a column is the only one.
-    base
-        BasePlate, or what answers as it does.
+    bases
+        each ground: BasePlate, or what answers as it does.
     nodes
         of each body, (n,) surface nodes that may touch.
     joints
@@ -121,13 +124,15 @@ class System:
         contact with a filter, as the plastic impact law needs it.
     links
         (nl,) of LINK.
+    levels
+        heights of the grounds [m].
     """
 
     def __init__(
         self,
         bodies: Composite,
         kinematics: CompositeKinematics,
-        base,
+        bases: tuple,
         nodes: list,
         joints: Joints,
         gravity,
@@ -135,18 +140,20 @@ class System:
         filtered=True,
         damping: CompositeDamping | None = None,
         links=None,
+        levels=(0.0,),
     ):
-        self.bodies, self.kinematics, self.base, self.damping = bodies, kinematics, base, damping
+        self.bodies, self.kinematics, self.damping = bodies, kinematics, damping
+        self.bases, self.levels = tuple(bases), levels
         #: Of a column: its Footprint, and its laws as `joint_on_base` takes them.
         self.footprint, self.laws = None, {}
         self.gravity, self.hht = np.asarray(gravity, float), hht
         self.weight = bodies.total_mass * np.linalg.norm(self.gravity)
-        self.factorizations = 1  # the base's
+        self.factorizations = len(self.bases)
         self._operators: dict[tuple, Operators] = {}
         factors = hht.mass_factor, hht.stiffness_factor
         factor = self._factor(*factors)
         foot = CompositeFoot(bodies, nodes, factor, *factors, filtered)
-        self.interface = Interface(bodies, foot, base, joints)
+        self.interface = Interface(bodies, foot, self.bases, joints, levels)
         self.links = Linkage(bodies, links) if links is not None and len(links) else None
         self._add(*factors, hht.rate_factor, factor, bodies.unturned)
         self.resistance = (
@@ -158,6 +165,11 @@ class System:
         """The Body of a column, the first of many."""
         return self.bodies.parts[0]
 
+    @property
+    def base(self):
+        """What a column stands on, the first ground of many."""
+        return self.bases[0]
+
     def take_rim_as_polygon(self) -> None:
         """Let the foot of a column roll from node to node."""
         self.laws["rim"], self.interface.interfaces["rim_count"] = None, 0
@@ -166,7 +178,8 @@ class System:
         """The bodies at rest at positions x (n_owned, 3) to which rigid motions have carried them;
         nothing touches yet.
         """
-        interface = self.interface
+        interface, grounds = self.interface, grounds_at(self.levels)
+        interface.take_grounds(grounds, grounds)
         rotation, internal, strain = self.kinematics.internal(x)
         contact = np.zeros(interface.size, CONTACT)
         places = interface.start_positions(x, rotation, interface.poses(x, rotation))
@@ -188,7 +201,8 @@ class System:
             rotation=rotation,
             contact=contact,
             static=0.0,
-            ground=np.zeros(3),
+            ground=np.zeros(3 * len(grounds)),
+            grounds=grounds,
             rims=rims_at_rest(len(interface.interfaces)),
             ties=ties,
         )
@@ -257,9 +271,11 @@ class System:
         return 4 * np.finfo(float).eps * scale * bodies.extent
 
     def load(self, ground: np.ndarray) -> np.ndarray:
-        """Gravity and base-motion forces (n_owned, 3) on the bodies for a ground acceleration (3,)."""
+        """Gravity and base-motion forces (n_owned, 3) on the bodies, in the frame of the first ground;
+        ground: (3 G,) accelerations [m/s2].
+        """
         loads = self.bodies.unit_loads
-        return ((self.gravity - ground) @ loads.reshape(3, -1)).reshape(loads.shape[1:])
+        return ((self.gravity - ground[:3]) @ loads.reshape(3, -1)).reshape(loads.shape[1:])
 
 
 def one_column(
@@ -301,7 +317,7 @@ def one_column(
     system = System(
         bodies,
         CompositeKinematics(bodies, kinematics),
-        base,
+        (base,),
         [foot.nodes],
         joint_on_base(body.all_X[foot.nodes] - body.center, **laws),
         gravity,

@@ -11,8 +11,6 @@ from dolfinx import fem
 
 from fecolumn import _dolfinx
 from fecolumn.atomic import write_bytes, write_hdf5
-from fecolumn.contact.projection import nodes_under
-from fecolumn.dynamics.checkpoint import gather_all
 from fecolumn.material.elasticity import isotropic_stress, von_mises
 from fecolumn.material.kinematics import linear_strain
 
@@ -33,80 +31,6 @@ _FIELD = (
 _XDMF = {3: 4, 4: 6, 8: 9}
 
 
-class SpecimenFields:
-    """Fields of column and base from positions and contact forces, in the order of the mesh.
-
-    Parameters
-    ----------
-    column
-        Body.
-    plate
-        BasePlate, None for a base without bricks, which is not shown.
-    foot
-        Footprint, the column nodes that may touch and those that they stand for.
-    specimen
-        SpecimenMesh of both.
-    """
-
-    def __init__(self, column, plate, foot, specimen):
-        self.specimen = specimen
-        self.column, self.plate, self.foot, self.comm = column, plate, foot, column.comm
-        #: Meshes that are drawn, and numbers of their cells by name, as `FieldWriter` takes them.
-        self.meshes = [specimen.body, specimen.base]
-        self.of_cells = {"part": np.concatenate([mesh.part for mesh in self.meshes])}
-        bodies = (column, plate.body) if plate else (column,)
-        self._nodes = [vertex_nodes(body) for body in bodies]
-        self._stress = {body: StressField(body) for body in bodies}
-        self._pressure_points = self._points_of_foot()
-
-    def _points_of_foot(self) -> np.ndarray:
-        at = {node: point for point, node in enumerate(self._nodes[0])}
-        return np.array([at.get(node, -1) for node in self.foot.all_nodes])
-
-    def values(self, x, local, positions, forces, at_nodes) -> dict[str, np.ndarray] | None:
-        """Displacement (n_points, 3) [m] relative to the table, von Mises stress (n_cells,) and
-        contact pressure (n_points,) [Pa] on rank 0; called on every rank.
-
-        Parameters
-        ----------
-        x
-            (n_owned, 3) positions of the column [m]
-        local
-            its displacements in its own frame [m].
-        positions
-            (n, 3) of the contact points [m], asked for with a plate alone
-        forces
-            (n, 3) on them [N]
-        at_nodes
-            (n, 3) these forces on the foot's nodes.
-        """
-        column, plate = self.column, self.plate
-        displacement, stress = (
-            [gather_all(column, x - column.X)],
-            [self._stress[column].values(local)],
-        )
-        if plate:
-            sunk = plate.displacement(
-                *nodes_under(plate.grid, positions, forces[:, 2] > 0), -forces
-            )
-            displacement.append(gather_all(plate.body, sunk))
-            stress.append(self._stress[plate.body].values(sunk))
-        if column.comm.rank:
-            return None
-        pressure = np.zeros(len(self.specimen.body.points) + len(self.specimen.base.points))
-        at_vertex = self._pressure_points >= 0
-        pressure[self._pressure_points[at_vertex]] = (at_nodes[:, 2] / self.foot.areas)[
-            self.foot.nearest
-        ][at_vertex]
-        return {
-            "displacement": np.vstack(
-                [values[nodes] for values, nodes in zip(displacement, self._nodes)]
-            ),
-            "von_mises": np.concatenate(stress),
-            "pressure": pressure,
-        }
-
-
 class FieldWriter:
     """Writes frames of bodies into a folder; `fields.xdmf` always lists complete frames only.
 
@@ -116,7 +40,7 @@ class FieldWriter:
     Parameters
     ----------
     fields
-        SpecimenFields, or what has `meshes`, `of_cells`, `comm` and `values` as it has.
+        what has meshes, of_cells, comm and values as `post.state_fields.StateFields` has.
     """
 
     def __init__(self, folder: Path, fields):
@@ -149,14 +73,8 @@ class FieldWriter:
             },
         )
 
-    def write(self, time: float, x, local, positions, forces, at_nodes) -> None:
-        """Add the frame of a time [s]; called on every rank, the other arguments as of
-        `SpecimenFields.values`.
-        """
-        self.add(time, self.fields.values(x, local, positions, forces, at_nodes))
-
     def add(self, time: float, values: dict[str, np.ndarray] | None) -> None:
-        """Add the frame of a time [s] from `SpecimenFields.values`."""
+        """Add the frame of a time [s] from its `values`, or None of another rank than 0."""
         if values is not None:
             _write_h5(self.folder / f"frame_{round(time * 1e6):012d}.h5", values)
             self._write_index()

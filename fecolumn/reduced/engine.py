@@ -31,7 +31,7 @@ from fecolumn.dynamics.record import Record
 from fecolumn.reduced import motion as motions
 from fecolumn.reduced.equilibrium import work_of
 from fecolumn.reduced.ledger import N_PLACES
-from fecolumn.reduced.model import scheme, structure_of
+from fecolumn.reduced.model import scheme
 from fecolumn.reduced.observe import ENERGY, lost
 from fecolumn.reduced.run import LENGTHS, Chunk, Course, advance
 
@@ -44,28 +44,6 @@ _STOPS = {
     OFF_BASE: Stop.OFF_BASE,
     OFF_PATCH: Stop.OFF_PATCH,
 }
-
-
-def column_engine(
-    model,
-    base,
-    eye,
-    hht: HHT,
-    start,
-    gravity,
-    max_cuts: int = 4,
-    damping_ratio: float = 0.0,
-    substeps: str = "rolling",
-    **laws,
-) -> Engine:
-    """The Engine of a column: model: ColumnModel; gravity, damping_ratio, laws: as of
-    `model.structure_of`.
-    """
-
-    def build(hht):
-        return structure_of(model, hht, gravity, damping_ratio=damping_ratio, **laws)
-
-    return Engine(build, (base,), eye, hht, start, max_cuts, model, substeps)
 
 
 class Engine:

@@ -4,59 +4,13 @@ step.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.bodies import Bodies, node_matrix, one_body
-from fecolumn.contact.joints import joint_on_base
+from fecolumn.contact.bodies import Bodies
 from fecolumn.contact.overlap import Overlaps
 from fecolumn.contact.pad import Springs, springs_of
-from fecolumn.dynamics.links import LINK
-
-
-@dataclass(frozen=True)
-class ColumnModel:
-    """A column reduced to its foot, in its own frame, arms measured from the centre of mass.
-
-    mass [kg]; inertia: (3, 3) [kg m2] about the centre of mass; center: (3,) [m] in the reference
-    configuration. frequencies: (m,) [rad/s], rising, of the free-free elastic modes with unit modal
-    mass; shapes: (n, 3, m) [1/sqrt(kg)] at the
-        foot's nodes.
-    flexibility: (n, n, 3, 3) [m/N] of the foot's nodes by all elastic modes, the exact static one
-    of the free body. arms: (n, 3) [m] of the foot's nodes; areas: (n,) [m2] tributary to them.
-    top_arm: (3,) [m] and top_shape: (3, m): mean over the top's face. dofs: of the mesh it was made
-    from.
-    """
-
-    mass: float
-    inertia: np.ndarray
-    center: np.ndarray
-    frequencies: np.ndarray
-    shapes: np.ndarray
-    flexibility: np.ndarray
-    arms: np.ndarray
-    areas: np.ndarray
-    top_arm: np.ndarray
-    top_shape: np.ndarray
-    dofs: int
-
-    @property
-    def reference(self) -> np.ndarray:
-        """Reference positions (n, 3) [m] of the foot's nodes."""
-        return self.arms + self.center
-
-    def with_modes(self, count: int) -> ColumnModel:
-        """The column with its `count` lowest elastic modes, or all it has; the others stay in the
-        flexibility.
-        """
-        return replace(
-            self,
-            frequencies=self.frequencies[:count],
-            shapes=np.ascontiguousarray(self.shapes[:, :, :count]),
-            top_shape=np.ascontiguousarray(self.top_shape[:, :count]),
-        )
 
 
 class Structure(NamedTuple):
@@ -98,59 +52,6 @@ class Scheme(NamedTuple):
     shrink: np.ndarray
     dynamic: np.ndarray
     springs: Springs
-
-
-def structure_of(
-    model: ColumnModel,
-    hht,
-    gravity,
-    friction: float,
-    law: np.ndarray,
-    rim=None,
-    damping_ratio: float = 0.0,
-    restitution: float = 0.0,
-    rolling: float = 0.0,
-    pad=None,
-) -> tuple[Structure, np.ndarray]:
-    """A column on the base as steps of `hht` see it, and its points (n,) of POINT.
-
-    Parameters
-    ----------
-    law
-        (n, 3) compliance of the contact law [m/N].
-    rim
-        Rim of a round foot.
-    damping_ratio
-        of the elastic modes.
-    restitution, rolling, pad
-        see `contact.interface`.
-    """
-    squares = model.frequencies**2
-    shrink = 1 / (1 + squares * hht.stiffness_factor / hht.mass_factor)
-    pushes = model.shapes * (2 * shrink - shrink**2)
-    static = node_matrix(model.flexibility) - modal_sum(pushes, 1 / squares)
-    bodies = one_body(
-        model.arms,
-        static,
-        modal_sum(pushes, np.ones_like(squares)),
-        float(model.mass),
-        model.inertia,
-    )
-    joint = joint_on_base(model.arms, friction, law, rim, restitution, rolling, pad)
-    reach = np.sqrt((pushes**2 / squares).sum(axis=(1, 2)))
-    structure = Structure(
-        bodies,
-        pushes,
-        squares[None],
-        2 * damping_ratio * model.frequencies[None],
-        reach,
-        joint.interfaces,
-        joint.rim,
-        joint.overlaps,
-        np.zeros(0, LINK),
-        np.array(gravity, float),
-    )
-    return structure, joint.points
 
 
 def scheme(structure: Structure, points: np.ndarray, hht) -> Scheme:

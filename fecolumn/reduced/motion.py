@@ -141,26 +141,6 @@ def copy_grounds(source, target):
 
 
 @njit
-def move_grounds(start, accelerations, dt, end):
-    """Carry the grounds to the end of a step, relative to the first one, which stays.
-
-    accelerations: (3 G,) of each at the end [m/s2], to which they change evenly in the step.
-    """
-    copy_grounds(start, end)
-    for g in range(len(start.grounds)):
-        before, after = start.grounds[g], end.grounds[g]
-        for a in range(3):
-            after.acceleration[a] = accelerations[3 * g + a]
-            if g > 0:
-                first = before.acceleration[a] - start.grounds[0].acceleration[a]
-                last = after.acceleration[a] - accelerations[a]
-                way = dt * before.velocity[a] + dt**2 * (first / 3 + last / 6)
-                after.place[a] += way
-                after.moved[a] += way
-                after.velocity[a] += dt * (first + last) / 2
-
-
-@njit
 def begin_frames(structure, start, free_center, advance, end, action):
     """First guess of what `follow` finds of frames that move and of links: bodies that are free."""
     moving, part = len(structure.links) > 0, np.empty(3)

@@ -11,7 +11,15 @@ from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, find_poses
 from fecolumn.contact.record import record
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, Stance, fallen, stance
+from fecolumn.dynamics.overturning import (
+    CAPPED,
+    FELL,
+    NO_RETURN,
+    STANDS,
+    Stance,
+    fallen,
+    gone,
+)
 from fecolumn.reduced.elastic import COORDINATE
 from fecolumn.reduced.ledger import N_TERMS, kinetic, strain, weight_energy
 
@@ -30,6 +38,28 @@ COLUMNS = (
     *((f"energy/{term}", 1) for term in TERMS),
 )
 WIDTH = sum(count for _, count in COLUMNS)
+
+
+def place_of(column: str, columns=COLUMNS) -> int:
+    """Place in a row of the first number of a column."""
+    names = [name for name, _ in columns]
+    return sum(count for _, count in columns[: names.index(column)])
+
+
+_TOP, _TILT, _TWIST, _SLIDE, _FORCE, _ACTIVE, _DEPTH, _GROUND, _SPENT = (
+    place_of(name)
+    for name in (
+        "u_top",
+        "tilt",
+        "twist",
+        "slide",
+        "contact_force",
+        "active_nodes",
+        "penetration",
+        "ground",
+        "iterations",
+    )
+)
 #: Place of the energy terms in a row.
 ENERGY = WIDTH - len(TERMS)
 
@@ -37,23 +67,34 @@ ENERGY = WIDTH - len(TERMS)
 #: A point of a body that is watched: arm: (3,) from its centre of mass in its frame [m].
 MARK = record(("body", "i8"), ("arm", "f8", 3))
 #: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its
-#: centre of mass [m] and tilt [rad]; of each interface tilt of the slave from the master [rad],
-#: rise of the middle of its foot and its slide along two tangents [m], normal force [N]; of each
-#: mark its displacement [m]; of each link tension [N], elongation from its unstressed length and
-#: the part of it that has yielded [m], energy that it has taken [J], whether it is broken.
+#: centre of mass [m], tilt [rad] and rotation vector [rad]; of each interface tilt of the slave from
+#: the master [rad], rise of the middle of its foot and its slide along two tangents [m], normal
+#: force [N]; of each mark its displacement [m]; of each link tension [N], elongation from its
+#: unstressed length and the part of it that has yielded [m], energy that it has taken [J], whether
+#: it is broken.
 OF_BODY, OF_INTERFACE, OF_MARK = (
-    (("displacement", 3), ("tilt", 1)),
+    (("displacement", 3), ("tilt", 1), ("rotation", 3)),
     (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)),
     (("displacement", 3),),
 )
 OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("broken", 1))
+#: Numbers in a row of each of them
+PER_BODY, _N_INTERFACE, _N_MARK, _N_LINK = (
+    sum(count for _, count in columns) for columns in (OF_BODY, OF_INTERFACE, OF_MARK, OF_LINK)
+)
+_BODY_TILT, _TURN, _RISE, _SHIFT, _NORMAL = (
+    place_of("tilt", OF_BODY),
+    place_of("rotation", OF_BODY),
+    *(place_of(name, OF_INTERFACE) for name in ("rise", "slide", "force")),
+)
 
 
 class View(NamedTuple):
     """What is watched: center: (nb, 3) of mass in the reference configuration; body: the one of
     which top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape (3, m) are means over top and
     foot; stance: when it is lost, if it stands alone. limits: (nb,) tilts [rad] at which a body of
-    many is lost, none for one alone. feet: (ni, 3) of the interfaces [m] and normals: (ni, 3) of
+    many is lost, none for one alone; standing: (nb,) of `overturning.STANDING`, by which it is lost
+    before, with the corners (k, 2) [m] of all. feet: (ni, 3) of the interfaces [m] and normals: (ni, 3) of
     them in the frames of their slaves, in the reference configuration; marks: (nm,) of MARK, their
     shapes (nm, 3, m). links: how many. levels: (G,) heights of the grounds [m].
     """
@@ -66,6 +107,8 @@ class View(NamedTuple):
     foot_shape: np.ndarray
     stance: Stance
     limits: np.ndarray
+    standing: np.ndarray
+    corners: np.ndarray
     feet: np.ndarray
     normals: np.ndarray
     marks: np.ndarray
@@ -80,32 +123,11 @@ class View(NamedTuple):
             WIDTH
             if not len(self.limits)
             else WIDTH
-            + 4 * len(self.center)
-            + 5 * len(self.feet)
-            + 3 * len(self.marks)
-            + len(OF_LINK) * self.links
+            + PER_BODY * len(self.center)
+            + _N_INTERFACE * len(self.feet)
+            + _N_MARK * len(self.marks)
+            + _N_LINK * self.links
         )
-
-
-def view(model, weight: float, friction: float, cap: float = 0.0) -> View:
-    """The view of a ColumnModel of a weight [N] on a base of a coefficient of friction; cap as of
-    `overturning.stance`.
-    """
-    share = model.areas / model.areas.sum()
-    return View(
-        np.array(model.center, float)[None],
-        0,
-        model.top_arm,
-        np.ascontiguousarray(model.top_shape),
-        share @ model.arms,
-        np.einsum("i,iam->am", share, model.shapes),
-        stance(model.arms, model.inertia, weight, friction, cap),
-        np.zeros(0),
-        np.zeros((0, 3)),
-        np.zeros((0, 3)),
-        np.zeros(0, MARK),
-        np.zeros((0, 3, 0)),
-    )
 
 
 @njit
@@ -127,31 +149,31 @@ def observe(structure, points, poses, eye, motion, ledger, iterations, row):
     R, contact = motion.rotation[eye.body], motion.contact
     row[:] = 0.0
     row[0] = motion.whole[0].time
-    _displace(eye.body, eye.top_arm, eye.top_shape, eye.center, motion, 3, row, 1)
-    row[4] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
-    row[5] = np.arctan2(R[1, 0] - R[0, 1], R[0, 0] + R[1, 1])
-    _displace(eye.body, eye.foot_arm, eye.foot_shape, eye.center, motion, 2, row, 6)
+    _displace(eye.body, eye.top_arm, eye.top_shape, eye.center, motion, 3, row, _TOP)
+    row[_TILT] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
+    row[_TWIST] = np.arctan2(R[1, 0] - R[0, 1], R[0, 0] + R[1, 1])
+    _displace(eye.body, eye.foot_arm, eye.foot_shape, eye.center, motion, 2, row, _SLIDE)
     for i in range(len(contact)):
         if contact[i].force[2] > 0:
-            row[11] += 1
+            row[_ACTIVE] += 1
             if structure.interfaces[points[i].interface].master == BASE:
                 for a in range(3):
-                    row[8 + a] += contact[i].force[a]
+                    row[_FORCE + a] += contact[i].force[a]
         if contact[i].located:
-            row[12] = max(row[12], -contact[i].relative[2])
+            row[_DEPTH] = max(row[_DEPTH], -contact[i].relative[2])
     for a in range(3):
-        row[13 + a] = motion.whole[0].ground[a]
-    row[16] = iterations
-    row[17], row[18], row[19] = (
+        row[_GROUND + a] = motion.whole[0].ground[a]
+    row[_SPENT] = iterations
+    row[ENERGY], row[ENERGY + 1], row[ENERGY + 2] = (
         kinetic(structure, motion),
         strain(structure, motion),
         weight_energy(structure, eye.center, motion),
     )
-    closure = row[17] + row[18] + row[19]
+    closure = row[ENERGY] + row[ENERGY + 1] + row[ENERGY + 2]
     for k in range(N_TERMS):
         closure -= ledger[k]
         if k:
-            row[19 + k] = ledger[k]
+            row[ENERGY + 2 + k] = ledger[k]
     row[WIDTH - 1] = closure
     if len(eye.limits):
         _observe_all(structure, points, poses, eye, motion, row)
@@ -165,8 +187,14 @@ def _observe_all(structure, points, poses, eye, motion, row):
         R = motion.rotation[b]
         for a in range(3):
             row[place + a] = motion.frames[b].center[a] - eye.center[b, a]
-        row[place + 3] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
-        place += 4
+        row[place + _BODY_TILT] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
+        # sine and cosine of the angle of the rotation, along its axis the first
+        x, y, z = (R[2, 1] - R[1, 2]) / 2, (R[0, 2] - R[2, 0]) / 2, (R[1, 0] - R[0, 1]) / 2
+        sine, cosine = np.sqrt(x * x + y * y + z * z), (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
+        factor = np.arctan2(sine, cosine) / sine if sine > 0 else 1.0
+        row[place + _TURN], row[place + _TURN + 1] = factor * x, factor * y
+        row[place + _TURN + 2] = factor * z
+        place += PER_BODY
     find_poses(structure.interfaces, motion.grounds, motion.frames, motion.rotation, poses)
     first = place
     for k in range(len(structure.interfaces)):
@@ -180,17 +208,18 @@ def _observe_all(structure, points, poses, eye, motion, row):
             np.hypot(np.hypot(x, y), z),
             T[2, 0] * normal[0] + T[2, 1] * normal[1] + T[2, 2] * normal[2],
         )
-        row[place + 1] = foot[2] - eye.feet[k, 2]
-        row[place + 2], row[place + 3] = foot[0] - eye.feet[k, 0], foot[1] - eye.feet[k, 1]
-        place += 5
+        row[place + _RISE] = foot[2] - eye.feet[k, 2]
+        for a in range(2):
+            row[place + _SHIFT + a] = foot[a] - eye.feet[k, a]
+        place += _N_INTERFACE
     for i in range(len(points)):
         if motion.contact[i].force[2] > 0:
-            row[first + 5 * points[i].interface + 4] += motion.contact[i].force[2]
+            row[first + _N_INTERFACE * points[i].interface + _NORMAL] += motion.contact[i].force[2]
     for n in range(len(eye.marks)):
         _displace(
             eye.marks[n].body, eye.marks[n].arm, eye.shapes[n], eye.center, motion, 3, row, place
         )
-        place += 3
+        place += _N_MARK
     for n in range(len(motion.ties)):
         tie = motion.ties[n]
         row[place], row[place + 1], row[place + 2] = (
@@ -199,7 +228,7 @@ def _observe_all(structure, points, poses, eye, motion, row):
             tie.flowed,
         )
         row[place + 3], row[place + 4] = tie.work, tie.broken
-        place += 5
+        place += _N_LINK
 
 
 @njit
@@ -207,15 +236,21 @@ def lost(eye, motion, row, steepest):
     """As `overturning.fallen`, of a motion and its row; FELL where one of many bodies has fallen
     past the lowest ground.
     """
-    top = np.hypot(row[1], row[2])
+    top, force = np.hypot(row[_TOP], row[_TOP + 1]), row[_FORCE : _FORCE + 3]
     if len(eye.limits):
+        spins = np.empty((len(eye.limits), 3))
+        for b in range(len(eye.limits)):
+            for a in range(3):
+                spins[b, a] = motion.frames[b].spin[a]
         for b in range(len(eye.limits)):
             if motion.frames[b].center[2] < eye.levels.min():
                 return FELL
-            if row[WIDTH + 4 * b + 3] > eye.limits[b]:
+            if row[WIDTH + PER_BODY * b + _BODY_TILT] > eye.limits[b] or gone(
+                eye.standing, eye.corners, motion.rotation, spins, b, force, steepest
+            ):
                 return NO_RETURN
         return CAPPED if top >= eye.stance.cap else STANDS
     # what is short of both its cap and its critical tilt stands: most steps, at no cost
-    if top < eye.stance.cap and row[4] <= eye.stance.critical:
+    if top < eye.stance.cap and row[_TILT] <= eye.stance.critical:
         return STANDS
-    return fallen(eye.stance, motion.rotation[0], motion.frames[0].spin, row[8:11], top, steepest)
+    return fallen(eye.stance, motion.rotation[0], motion.frames[0].spin, force, top, steepest)

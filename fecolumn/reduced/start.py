@@ -14,8 +14,6 @@ from fecolumn.contact.work import move_anchors
 from fecolumn.dynamics.gravity import (
     NoEquilibrium,
     iterate_to_rest,
-    leaning,
-    moving,
     pseudo_inertia,
 )
 from fecolumn.dynamics.links import end_links, fastest
@@ -113,21 +111,6 @@ def _settled(engine, firmness: float) -> motions.Motion:
     return start
 
 
-def tilted(engine, tilt: float, direction: float) -> motions.Motion:
-    """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest
-    point on the base.
-    """
-    structure, model, motion = engine.structure, engine.model, engine.motion_at_rest()
-    turn, pivot, lift = leaning(
-        model.reference, structure.interfaces["rim_count"][0] > 0, tilt, direction
-    )
-    motion.frames["center"], motion.rotation[:] = (
-        turn @ (model.center - pivot) + pivot + [0.0, 0.0, lift],
-        turn,
-    )
-    return unstrained(engine, motion)
-
-
 def unstrained(engine, motion) -> motions.Motion:
     """A motion of which the places of the bodies are known: they fall freely from there, and links
     are as tight as they are.
@@ -171,19 +154,4 @@ def of_parts(engine, parts, stands: bool) -> motions.Motion:
     motion.frames["spin"] = [
         rotation.T @ part.spin for rotation, part in zip(motion.rotation, parts)
     ]
-    return motion
-
-
-def begin(engine, initial) -> motions.Motion:
-    """The motion that the [initial] section of a case describes."""
-    tilt, direction = initial.tilt_rad, np.radians(initial.direction_deg)
-    motion = tilted(engine, tilt, direction) if tilt else standing(engine)
-    if initial.moves:
-        motion.frames["velocity"] = moving(
-            engine.model.reference,
-            engine.structure.interfaces["rim_count"][0] > 0,
-            initial,
-            motion.frames["center"],
-        )
-        motion.frames["spin"] = motion.rotation[0].T @ np.array(initial.spin_rad_s)
     return motion

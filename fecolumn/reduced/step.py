@@ -21,7 +21,7 @@ from fecolumn.contact.impact import (
 )
 from fecolumn.contact.pad import without_pads
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, find_poses
+from fecolumn.contact.pose import SLAVE, find_poses, move_grounds
 from fecolumn.contact.problem import N_IMPACTS, OK, list_present, near_points
 from fecolumn.contact.rolling import (
     least_rim_width,
@@ -48,7 +48,7 @@ from fecolumn.reduced.elastic import (
 from fecolumn.reduced.equilibrium import equilibrate
 from fecolumn.reduced.ledger import BASE as BASE_WORK
 from fecolumn.reduced.ledger import CONTACT_WORK, FRICTION, HIT, book, kinetic
-from fecolumn.reduced.motion import move_grounds, push_bodies
+from fecolumn.reduced.motion import push_bodies
 from fecolumn.reduced.rigid_loss import begin_impact, follow_impact
 from fecolumn.reduced.rotation import orthonormal, turn_by
 
@@ -62,7 +62,7 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
     be used.
     """
     booked, interfaces, weight = ledger.copy(), structure.interfaces, 0.0
-    move_grounds(start, ground, scheme.dt, end)
+    move_grounds(start.grounds, ground, scheme.dt, end.grounds)
     rolled = place_points_of_step(structure, scheme.dt, work, start, end, True)
     answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
     for b in range(len(start.frames)):

@@ -12,12 +12,9 @@ from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.tolerances import RIGID_GIVE
 from fecolumn.dynamics.links import links_of
-from fecolumn.dynamics.overturning import never_alone
+from fecolumn.dynamics.overturning import Limits, never_alone
 from fecolumn.reduced.model import Structure, modal_sum
 from fecolumn.reduced.observe import MARK, View
-
-# Tilt of a body at which it is lost [rad]: far beyond what any structure that still stands reaches
-LOST = np.pi / 4
 
 
 def structure_of(model, hht, gravity, parts_of_step: int = 1) -> tuple[Structure, np.ndarray]:
@@ -112,7 +109,7 @@ def _least_give(body, dt: float) -> np.ndarray:
     return static
 
 
-def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOST) -> View:
+def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -> View:
     """What is watched of a StructureModel.
 
     Parameters
@@ -121,8 +118,8 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
         of all bodies [N].
     cap
         horizontal displacement of the observed mark that counts as overturned [m], 0 for none.
-    lost
-        tilt of any body that does [rad].
+    limits
+        when a body is lost.
     """
     centers, rotations = (
         np.array([part.center for part in model.parts]),
@@ -157,7 +154,9 @@ def view_of(model, structure, weight: float, cap: float = 0.0, lost: float = LOS
         foot,
         foot_shape,
         stance,
-        np.full(len(centers), float(lost)),
+        limits.tilts,
+        limits.standing,
+        limits.corners,
         np.array(reference["foot"]),
         np.array(reference["turned"][:, SLAVE, 2]),
         marks,

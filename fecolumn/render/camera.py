@@ -41,7 +41,7 @@ def camera(result, view: str, times: np.ndarray, aspect: float = 1.0) -> Camera:
     Parameters
     ----------
     result
-        Result or StructureResult.
+        Result.
     """
     azimuth, elevation = VIEWS[view]
     azimuth, elevation = (

@@ -198,15 +198,16 @@ def _frames(result, wish: Wish, start: float, end: float, times: np.ndarray, int
     """Frames at `times` that range over the same colours, whichever they are of those from start to
     end [s].
     """
-    whole = result.frames_at(
-        np.linspace(start, end, _SAMPLES), interval, wish.exaggerate, wish.color
-    )
-    return result.frames_at(times, interval, wish.exaggerate, wish.color, like=whole)
+    from fecolumn.render.frames import Frames
+
+    samples = np.linspace(start, end, _SAMPLES)
+    whole = Frames(result, samples, interval, wish.exaggerate, wish.color)
+    return Frames(result, times, interval, wish.exaggerate, wish.color, like=whole)
 
 
 def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> list[Path]:
     """Stills, and the sequence figure of them."""
-    from fecolumn.render.scene import Scene
+    from fecolumn.render.canvas import Canvas
     from fecolumn.render.sequence import picture_size, sequence_figure
     from fecolumn.render.still import still_figure, still_size
 
@@ -218,7 +219,7 @@ def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> lis
     drawn = list(frames)
 
     def scene(size):
-        return Scene(frames, camera(result, wish.view, frames.times, size[0] / size[1]), size)
+        return Canvas(frames, camera(result, wish.view, frames.times, size[0] / size[1]), size)
 
     with written(target, "render pictures", names=("sequence.png", "sequence.pdf")) as draft:
         natural = camera(result, wish.view, frames.times).natural
@@ -242,9 +243,9 @@ def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> lis
 
 
 def _movie(result, wish: Wish, start: float, end: float, target: Path, quiet: bool) -> list[Path]:
+    from fecolumn.render.canvas import Canvas
     from fecolumn.render.movie import GIF_RATE, Gif, Movie
     from fecolumn.render.panel import Panel
-    from fecolumn.render.scene import Scene
 
     fps = min(wish.fps, GIF_RATE) if wish.gif else wish.fps
     interval, name = wish.speed / fps, "motion.gif" if wish.gif else "motion.mp4"
@@ -263,7 +264,7 @@ def _movie(result, wish: Wish, start: float, end: float, target: Path, quiet: bo
     size = panel.scene_size
     with written(target, f"render {name}", names=(name,)) as draft:
         view = camera(result, wish.view, frames.times, size[0] / size[1])
-        with Scene(frames, view, size, quick=True) as scene:
+        with Canvas(frames, view, size, quick=True) as scene:
 
             def picture(k):
                 frame = frames.frame(k)

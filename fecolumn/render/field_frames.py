@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from fecolumn.render.solid import Solid
+from fecolumn.post.scene import Scene
+from fecolumn.render.frame import Fields
 from fecolumn.schema import InputError
-
-
-@dataclass(frozen=True, slots=True)
-class Fields:
-    """Displacement (n_points, 3) [m], von Mises stress (n_cells,) [Pa] and contact pressure
-    (n_points,) [Pa] of column and base, in the order of the mesh.
-    """
-
-    displacement: np.ndarray
-    stress: np.ndarray
-    pressure: np.ndarray
 
 
 class FrameSeries:
@@ -51,7 +40,7 @@ class FieldFrames(FrameSeries):
     Attributes
     ----------
     files
-        of the frames; time: (n,) [s] of each, rising. points: (n_points, 3) [m] of column and base.
+        of the frames; time: (n,) [s] of each, rising. points: (n_points, 3) [m] of all pieces.
     """
 
     def __init__(self, folder: Path):
@@ -60,12 +49,21 @@ class FieldFrames(FrameSeries):
         super().__init__(np.array([int(file.stem.partition("_")[2]) / 1e6 for file in self.files]))
         self.points = _read(folder / "mesh.h5", "points")[0] if self.files else np.empty((0, 3))
 
-    def fits(self, solid: Solid) -> bool:
-        """Whether the fields are on the mesh of `solid`."""
-        points = np.vstack([solid.mesh.body.points, solid.mesh.base.points])
-        return points.shape == self.points.shape and np.allclose(
-            points, self.points, rtol=0, atol=1e-6 * solid.height
-        )
+    def check(self, scene: Scene) -> None:
+        """Raises:
+        InputError: there are fields, and they are on another mesh than that of the scene.
+        """
+        if self.files and not (
+            scene.points.shape == self.points.shape
+            and np.allclose(scene.points, self.points, rtol=0, atol=1e-6 * scene.height)
+        ):
+            raise InputError(
+                self.folder,
+                "",
+                None,
+                "is of another mesh than that of the case made now; render with the "
+                "version that made it, or remove this folder",
+            )
 
     def read(self, k: int) -> Fields:
         """Frame `k`.

@@ -1,122 +1,55 @@
-"""Frames of a motion: where every point of the specimen is at an instant, and what colours it."""
+"""Frames of a motion: where every point is at an instant, and what colours it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.render.field_frames import Fields
+from fecolumn.post.scene import GROUND, Contact
+from fecolumn.render.frame import Fields, Frame
+from fecolumn.render.joints import displacement, gaps
 from fecolumn.render.pose import nearest_rigid
 from fecolumn.render.quantity import Quantity
-from fecolumn.render.result import Result
 from fecolumn.schema import InputError
 
+if TYPE_CHECKING:
+    from fecolumn.render.result import Result
+
 COLOURS = ("stress", "displacement")
-#: Largest elastic displacement as it is drawn under "auto", over the height of the column [-]
+#: Largest elastic displacement as it is drawn under "auto", over the height of what moves [-]
 SEEN = 0.05
-# Points of the pressure's path a frame, so that it is a curve where the column rolls
+# Points of the pressure's path a frame, so that it is a curve where a body rolls
 _FINER = 4
-#: Share of the values [-] that colours range over: a single element under the edge on which the
-#: column stands would take all colours
+#: Share of the values [-] that colours range over: a single element under the edge on which a body
+#: stands would take all colours
 RANGE = 99.8
-#: Decades of stress and of pressure that colours show: under the edge on which a column rocks they
+#: Decades of stress and of pressure that colours show: under the edge on which a body rocks they
 #: are a hundred times those of standing
 DECADES = 3
 
 
-@dataclass(frozen=True)
-class Frame:
-    """An instant.
-
-    Attributes
-    ----------
-    time
-        [s].
-    column, base
-        (n, 3) [m] points of the surfaces of `Solid`, as drawn; base None where it has none.
-    colour, base_colour
-        of their faces (stress [Pa]), or of the column's points (displacement [m]) and None.
-    foot
-        (n_faces, k, 3) [m] corners of the foot's faces.
-    pressure
-        (n_faces,) [Pa] on them, None where it was not written.
-    centre
-        (2,) [m] of the contact pressure; nan in flight.
-    """
-
-    links = struts = None
-
-    time: float
-    column: np.ndarray
-    base: np.ndarray | None
-    colour: np.ndarray
-    base_colour: np.ndarray | None
-    foot: np.ndarray
-    pressure: np.ndarray | None
-    centre: np.ndarray
-
-
-class Scaled:
-    """Frames of an analysis on common scales: exaggeration, colour_quantity and pressure_quantity
-    as of Frames.
-
-    A subclass has `times`, `colour`, `frame`, `_largest_elastic` and `_pressure_quantity`.
-    """
-
-    def __len__(self) -> int:
-        return len(self.times)
-
-    def __iter__(self):
-        return (self.frame(k) for k in range(len(self)))
-
-    def _scale(self, exaggerate: float | str, height: float, like: Scaled | None) -> None:
-        """Find the scales, or take those of `like`; exaggerate: as of Frames, height: of what moves
-        [m].
-        """
-        if like:
-            self.exaggeration, self.colour_quantity, self.pressure_quantity = (
-                like.exaggeration,
-                like.colour_quantity,
-                like.pressure_quantity,
-            )
-            return
-        self.exaggeration = 1.0 if exaggerate == "auto" else float(exaggerate)
-        if exaggerate == "auto":
-            self.exaggeration = round_down(
-                SEEN * height / max(max(map(self._largest_elastic, range(len(self)))), 1e-12)
-            )
-        frames = list(self)
-        if self.colour == "displacement":
-            self.colour_quantity = Quantity.of(
-                "displacement", "m", max(frame.colour.max() for frame in frames)
-            )
-        else:
-            self.colour_quantity = Quantity.of(
-                "von Mises stress",
-                "Pa",
-                max(np.nanpercentile(frame.colour, RANGE) for frame in frames),
-                DECADES,
-            )
-        self.pressure_quantity = self._pressure_quantity(frames)
-
-
-class Frames(Scaled):
+class Frames:
     """Frames of an analysis, from its fields where they are known often enough, written or made
-    from states, else from its history.
+    from states, else from its history, which has bodies rigid.
 
     Attributes
     ----------
     times
         (k,) [s] of the frames; at an instant of the fields where these are used.
     from_fields
-        whether they are. exaggeration: factor on elastic displacements [-].
+        whether they are.
+    exaggeration
+        factor on elastic displacements [-].
     colour
         one of COLOURS.
     centres
-        (k, 2) [m] of the contact pressure, nan in flight.
+        (k, 2) [m] of the contact pressure on a body alone by its motion, nan in flight; None of
+        several bodies.
     colour_quantity
-        Quantity of Frame.colour, pressure_quantity: of Frame.pressure, None where there is none.
+        Quantity of Frame.colour.
+    pressure_quantity
+        of Frame.pressures, None where there is none.
     """
 
     def __init__(
@@ -135,15 +68,25 @@ class Frames(Scaled):
         Raises
         ------
         InputError
-            elastic displacements or stress are asked for, and were not written.
+            elastic displacements or stress are asked for, and were not written, or no body has any
+            stress.
         """
-        self.result, fields = result, result.frames
+        self.result, self.scene, fields = result, result.scene, result.frames
+        if colour == "stress" and not self.scene.has_stress:
+            raise InputError(
+                "fecolumn render",
+                "--color",
+                colour,
+                "no body of this structure deforms as a continuum: all are rigid, "
+                "storeys or matrices",
+            )
         # what the history gives at once is not made from states
         wanted = fields is result.fields or colour != "displacement" or exaggerate != 1.0
         self.from_fields = (
             wanted and bool(len(fields.time)) and fields.interval <= 1.5 * interval + 1e-9
         )
-        self.colour = colour or ("stress" if self.from_fields else "displacement")
+        stressed = self.from_fields and self.scene.has_stress
+        self.colour = colour or ("stress" if stressed else "displacement")
         if not self.from_fields and (self.colour == "stress" or exaggerate != 1.0):
             asked, value = (
                 ("--exaggerate", exaggerate) if exaggerate != 1.0 else ("--color", colour)
@@ -166,35 +109,90 @@ class Frames(Scaled):
             self._number = np.unique(fields.nearest(times))
             times = fields.time[self._number]
         self.times = np.asarray(times, float)
-        self._poses = result.poses.at(self.times)
-        rows = float(np.median(np.diff(result.poses.time)))
+        self._poses = tuple(poses.at(self.times) for poses in result.poses)
+        rows = float(np.median(np.diff(result.poses[0].time)))
         self._interval = max(
             interval / _FINER, 4 * rows
         )  # of momentum, for which velocities are wanted
         self.centres = self._pressure_centres(self.times)
-        body = result.solid.mesh.body
-        self._count, self._foot_points = len(body.points), np.unique(result.solid.foot_faces)
-        self._scale(exaggerate, result.solid.height, like)
+        # what presses at one point has no pressure that could be drawn
+        at_point = self.centres is not None and self.scene.contacts[0].domed
+        self._pressed = self.from_fields and not at_point
+        self._scale(exaggerate, like)
 
-    @property
-    def surface(self):
-        """Surface of the column, whose points a Frame has."""
-        return self.result.solid.column
+    def _scale(self, exaggerate: float | str, like: Frames | None) -> None:
+        """Find the scales, or take those of `like`."""
+        if like:
+            self.exaggeration, self.colour_quantity, self.pressure_quantity = (
+                like.exaggeration,
+                like.colour_quantity,
+                like.pressure_quantity,
+            )
+            return
+        self.exaggeration = 1.0 if exaggerate == "auto" else float(exaggerate)
+        if exaggerate == "auto":
+            largest = max(map(self._largest_elastic, range(len(self))))
+            self.exaggeration = round_down(SEEN * self.scene.height / max(largest, 1e-12))
+        frames = list(self)
+        if self.colour == "displacement":
+            largest = max(frame.colour.max() for frame in frames)
+            self.colour_quantity = Quantity.of("displacement", "m", largest)
+        else:
+            largest = max(np.nanpercentile(frame.colour, RANGE) for frame in frames)
+            self.colour_quantity = Quantity.of("von Mises stress", "Pa", largest, DECADES)
+        self.pressure_quantity = None
+        if self._pressed:
+            largest = max(np.percentile(np.concatenate(one.pressures), RANGE) for one in frames)
+            self.pressure_quantity = Quantity.of("contact pressure", "Pa", largest, DECADES)
 
-    @property
-    def base_surface(self):
-        """Surface of the base; None where it has no bricks."""
-        return self.result.solid.base
+    def __len__(self) -> int:
+        return len(self.times)
 
-    def plan(self, figure):
-        """What the movie shows of the foot."""
-        from fecolumn.render.foot_plan import FootPlan
-
-        return FootPlan(self, figure)
+    def __iter__(self):
+        return (self.frame(k) for k in range(len(self)))
 
     def frame(self, k: int) -> Frame:
         """Frame `k`."""
-        return self._from_fields(k) if self.from_fields else self._from_history(k)
+        scene = self.scene
+        colour, base_colour = None, None
+        if self.from_fields:
+            fields = self._fields(k)
+            true = scene.points + fields.displacement
+            if self.colour == "stress":
+                colour = _of_faces(scene, scene.surface, fields.stress)
+                base_colour = scene.base and _of_faces(scene, scene.base, fields.stress)
+        else:
+            true = self._rigid(k)
+        if colour is None:
+            nodes = scene.surface.nodes
+            colour = np.linalg.norm(true[nodes] - scene.points[nodes], axis=1)
+        drawn = true if self.exaggeration == 1.0 else self._exaggerated(true)
+        faces = [true[contact.faces] for contact in scene.contacts]
+        if self._pressed:
+            corners = [fields.pressure[contact.faces] for contact in scene.contacts]
+            pressures = [values.mean(axis=1) for values in corners]
+            if self.centres is None and fields.centres is not None:
+                centres = fields.centres
+            else:
+                centres = np.array(
+                    [self._centre(*one) for one in zip(scene.contacts, faces, corners)]
+                )
+        else:
+            pressures = [self._gaps(contact, true, k) for contact in scene.contacts]
+            centres = np.full((len(scene.contacts), 2), np.nan)
+            if self.centres is not None:
+                centres[0] = self.centres[k]
+        return Frame(
+            float(self.times[k]),
+            drawn,
+            colour,
+            base_colour,
+            self._links(k) if scene.links else None,
+            drawn[scene.struts] if len(scene.struts) else None,
+            faces,
+            pressures,
+            centres,
+        )
 
     def _fields(self, k: int) -> Fields:
         """Of frame `k`, the last one kept: a frame is asked for twice, to be drawn and for its
@@ -204,76 +202,106 @@ class Frames(Scaled):
             self._kept = self._number[k], self.result.frames.read(self._number[k])
         return self._kept[1]
 
-    def _from_history(self, k: int) -> Frame:
-        solid = self.result.solid
-        column = self._poses.move(solid.column.points, k)
-        foot = self._poses.move(solid.mesh.body.points[solid.foot_faces].reshape(-1, 3), k).reshape(
-            *solid.foot_faces.shape, 3
-        )
-        base = solid.base.points if solid.base else None
-        return Frame(
-            self.times[k],
-            column,
-            base,
-            np.linalg.norm(column - solid.column.points, axis=1),
-            None,
-            foot,
-            None,
-            self.centres[k],
+    def _rigid(self, k: int) -> np.ndarray:
+        """Positions (n, 3) [m] of all points at frame `k` by the history."""
+        placed = self.scene.points.copy()
+        for number, (piece, poses) in enumerate(zip(self.scene.bodies, self._poses)):
+            own = self.scene.own(number)
+            placed[own] = poses.move(placed[own], k)
+            shifts = self.result.told.floors.get(number)
+            if shifts is None:
+                continue
+            time = self.result.time
+            row = min(int(np.searchsorted(time, self.times[k] - 1e-9)), len(time) - 1)
+            slab, *floors = shifts[row]
+            placed[own][: -piece.carried] += slab
+            placed[own][-piece.carried :] += np.repeat(floors, 8, axis=0)
+        return placed
+
+    def _exaggerated(self, true: np.ndarray) -> np.ndarray:
+        """Points (n, 3) [m] as drawn: of each body what it moves by beyond the rigid motion nearest
+        to it, or of a building to its slab, is enlarged.
+        """
+        drawn = self.scene.points + self.exaggeration * (true - self.scene.points)
+        for number in range(len(self.scene.bodies)):
+            own = self.scene.own(number)
+            rigid = self._nearest(number, true[own])
+            drawn[own] = rigid + self.exaggeration * (true[own] - rigid)
+            if carried := self.scene.pieces[number].carried:
+                drawn[own][:-carried] = true[own][:-carried]  # a slab is rigid
+        return drawn
+
+    def _nearest(self, number: int, moved: np.ndarray) -> np.ndarray:
+        """Points (n, 3) [m] of a body in the rigid motion nearest to its points `moved`."""
+        piece, points = self.scene.pieces[number], self.scene.points[self.scene.own(number)]
+        firm = slice(len(points) - piece.carried)
+        rotation, shift = nearest_rigid(points[firm], moved[firm])
+        return points @ rotation.T + shift
+
+    def _largest_elastic(self, k: int) -> float:
+        moved = self.scene.points + self._fields(k).displacement
+        return max(
+            float(np.linalg.norm(moved[own] - self._nearest(number, moved[own]), axis=1).max())
+            for number in range(len(self.scene.bodies))
+            for own in [self.scene.own(number)]
         )
 
-    def _from_fields(self, k: int) -> Frame:
-        solid, body = self.result.solid, self.result.solid.mesh.body
-        fields = self._fields(k)
-        moved = body.points + fields.displacement[: self._count]
-        drawn, base = moved, None
-        if self.exaggeration != 1.0:
-            rigid = self._rigid(moved)
-            drawn = rigid + self.exaggeration * (moved - rigid)
-        if solid.base:
-            base = (
-                solid.base.points
-                + self.exaggeration * fields.displacement[self._count :][solid.base.nodes]
-            )
-        colour, base_colour = fields.stress[solid.column.cells], None
-        if self.colour == "displacement":
-            colour = np.linalg.norm(fields.displacement[: self._count], axis=1)[solid.column.nodes]
-        elif solid.base:
-            base_colour = fields.stress[len(body.cells) :][solid.base.cells]
-        at_corners, foot = fields.pressure[: self._count][solid.foot_faces], moved[solid.foot_faces]
-        pressure, force = at_corners.mean(axis=1), at_corners * _areas(foot)[:, None]
-        centre = (
-            np.einsum("fc,fca->a", force, foot[..., :2]) / force.sum()
+    def _links(self, k: int) -> np.ndarray:
+        """Ends (n, 2, 3) [m] of the links at frame `k`."""
+
+        def at(body, arm):
+            poses = self._poses[body]
+            return arm if body == GROUND else poses.foot[k] + poses.rotation[k] @ arm
+
+        links, history = self.scene.links, self.result.history
+        ends = np.array([[at(one.a, one.arm_a), at(one.b, one.arm_b)] for one in links])
+        row = min(
+            int(np.searchsorted(self.result.time, self.times[k] - 1e-9)), len(self.result.time) - 1
+        )
+        broken = [bool(history[f"link/{one.name}/broken"][row]) for one in links]
+        ends[broken, 1] = ends[broken, 0]
+        return ends
+
+    def _gaps(self, contact: Contact, true: np.ndarray, k: int) -> np.ndarray:
+        """Mean gap (n_faces,) [m] below the faces of a contact."""
+        rest = self.scene.points[contact.points]
+        moved = displacement(contact, true[contact.points], rest, self._poses, k)
+        at_points = np.zeros(len(true))
+        at_points[contact.points] = gaps(contact, moved, rest)
+        return at_points[contact.faces].mean(axis=1)
+
+    def _centre(self, contact: Contact, faces: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+        """Centre (2,) [m] of the pressure (n_faces, k) [Pa] at the corners (n_faces, k, 3) of faces."""
+        plan = self.plan(contact, faces)
+        x, y = plan[..., 0], plan[..., 1]
+        areas = np.abs((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)) / 2
+        force = pressure * areas[:, None]
+        return (
+            np.einsum("fc,fca->a", force, plan) / force.sum()
             if force.sum() > 0
             else np.full(2, np.nan)
         )
-        return Frame(
-            self.times[k],
-            drawn[solid.column.nodes],
-            base,
-            colour,
-            base_colour,
-            foot,
-            pressure,
-            centre,
-        )
 
-    def _rigid(self, moved: np.ndarray) -> np.ndarray:
-        """The rigid motion of the column nearest to `moved`."""
-        points = self.result.solid.mesh.body.points
-        rotation, shift = nearest_rigid(points, moved)
-        return points @ rotation.T + shift
+    def plan(self, contact: Contact, faces: np.ndarray) -> np.ndarray:
+        """Faces (n_faces, k, 2) [m] in the plan in which a contact is drawn: of a body alone where
+        they are on the ground, else where they are on the body.
+        """
+        if self.centres is not None:
+            return faces[..., :2]
+        return contact.plan(self.scene.points[contact.faces])
 
-    def _pressure_centres(self, times: np.ndarray) -> np.ndarray:
+    def _pressure_centres(self, times: np.ndarray) -> np.ndarray | None:
         from fecolumn.render.pressure_centre import pressure_centre
 
-        return pressure_centre(
-            self.result.poses,
-            self.result.history["ground"],
-            self.result.solid.mass,
-            times,
-            self._interval,
-        )
+        poses, mass, contacts = self.result.poses[0], self.scene.mass, self.scene.contacts
+        alone = mass is not None and [one.on_ground for one in contacts] == [True]
+        if not alone:
+            return None
+        if len(poses.time) != len(self.result.time):
+            return np.full((len(times), 2), np.nan)
+        ground = self.result.history["ground"]
+        level = float(contacts[0].origin[2])
+        return pressure_centre(poses, ground, mass, times, self._interval, level)
 
     def pressure_path(self) -> tuple[np.ndarray, np.ndarray]:
         """Times (n,) [s] from the first frame to the last, more than there are frames, and the
@@ -282,25 +310,11 @@ class Frames(Scaled):
         times = np.linspace(self.times[0], self.times[-1], _FINER * len(self))
         return times, self._pressure_centres(times)
 
-    def _largest_elastic(self, k: int) -> float:
-        moved = self.result.solid.mesh.body.points + self._fields(k).displacement[: self._count]
-        return float(np.linalg.norm(moved - self._rigid(moved), axis=1).max())
 
-    def _pressure_quantity(self, frames: list[Frame]) -> Quantity | None:
-        if not self.from_fields:
-            return None
-        return Quantity.of(
-            "contact pressure",
-            "Pa",
-            max(np.percentile(frame.pressure, RANGE) for frame in frames),
-            DECADES,
-        )
-
-
-def _areas(faces: np.ndarray) -> np.ndarray:
-    """(n,) areas in plan of faces with corners (n, k, 3)."""
-    x, y = faces[..., 0], faces[..., 1]
-    return np.abs((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)) / 2
+def _of_faces(scene, surface, stress: np.ndarray) -> np.ndarray:
+    """Stress (n_faces,) [Pa] of the faces of a surface, nan of pieces that have none."""
+    stressed = np.array([piece.stressed for piece in scene.pieces])
+    return np.where(stressed[surface.part], stress[surface.cells], np.nan)
 
 
 def round_down(factor: float) -> float:

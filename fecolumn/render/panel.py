@@ -1,24 +1,28 @@
-"""The movie's picture: column or structure in three dimensions, and beside it what the history
-says, up to the frame's time.
+"""The movie's picture: the scene in three dimensions, and beside it what the history says, up to
+the frame's time.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.post.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, new_figure, styled
-from fecolumn.render.frames import Frame
+from fecolumn.render.canvas import COLOUR_MAPS
+from fecolumn.render.frame import Frame, Strip
+from fecolumn.render.plans import Plans, square
 from fecolumn.render.quantity import Quantity
-from fecolumn.render.scene import COLOUR_MAPS
-from fecolumn.render.strips import Strip
+from fecolumn.render.strips import strips_of
+
+if TYPE_CHECKING:
+    from fecolumn.render.frames import Frames
 
 # Places of the parts in the picture, as shares of its width and height: left, bottom, width, height
 _SCENE = (0.005, 0.105, 0.40, 0.84)
 _BAR = (0.07, 0.075, 0.26, 0.018)
 _STRIPS = (0.475, 0.085, 0.27, 0.855)
 _TOP = (0.82, 0.645, 0.165, 0.295)
-#: Places of what is shown of feet, and of the scale of its colours.
-PLAN, PLAN_BAR = (0.82, 0.235, 0.165, 0.295), (0.82, 0.105, 0.165, 0.018)
 # Height of the picture [in] in which the fonts of post.style have their size
 _HEIGHT_IN = 5.4
 _VEIL = dict(facecolor="white", alpha=0.68, linewidth=0)
@@ -30,14 +34,14 @@ class Panel:
     Parameters
     ----------
     frames
-        Frames or StructureFrames.
+        of the movie.
     size
         (width, height) [pixels], width at least 1.4 times the height.
     speed
         seconds of motion in a second of the movie.
     """
 
-    def __init__(self, frames, size: tuple[int, int], speed: float = 1.0):
+    def __init__(self, frames: Frames, size: tuple[int, int], speed: float = 1.0):
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
         self.frames, self.size = frames, size
@@ -50,7 +54,7 @@ class Panel:
             self._moving: list = []
             self._place_strips(figure)
             self._place_top(figure)
-            self._plan = frames.plan(figure)
+            self._plan = Plans(frames, figure)
             self._moving += self._plan.artists
             self._place_words(figure, speed)
             self._canvas.draw()
@@ -63,7 +67,7 @@ class Panel:
     def _place_strips(self, figure) -> None:
         from matplotlib.patches import Rectangle
 
-        strips = self.frames.result.strips(self.frames.times)
+        strips = strips_of(self.frames.result, self.frames.times)
         left, bottom, width, height = _STRIPS
         gap = 0.048
         each = (height - (len(strips) - 1) * gap) / len(strips)
@@ -122,7 +126,7 @@ class Panel:
         self._stamp = figure.text(0.02, 0.955, "", fontsize=11, va="bottom", animated=True)
 
     def picture(self, frame: Frame, scene: np.ndarray) -> np.ndarray:
-        """(height, width, 3) pixels of a frame, with the image that `Scene` made of it."""
+        """(height, width, 3) pixels of a frame, with the image that `Canvas` made of it."""
         with styled():  # numbers of the time stamp are set now
             return self._picture(frame, scene)
 
@@ -154,14 +158,6 @@ class Panel:
     def _digits(self) -> int:
         times = self.frames.times
         return 2 if len(times) < 2 or times[1] - times[0] > 9e-3 else 3
-
-
-def square(axes, points: np.ndarray, wider: float) -> None:
-    """Equal scales, and a square that holds points (n, 2) with some room."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    half = wider / 2 * max(float((high - low).max()), 1e-9)
-    (x, y) = (low + high) / 2
-    axes.set(xlim=(x - half, x + half), ylim=(y - half, y + half), aspect="equal")
 
 
 def draw_strip(axes, strip: Strip, last: bool) -> None:

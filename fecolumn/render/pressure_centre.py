@@ -14,14 +14,19 @@ _LIGHT = 0.05
 
 
 def pressure_centre(
-    poses: Poses, ground: np.ndarray, mass: MassProperties, times: np.ndarray, interval: float
+    poses: Poses,
+    ground: np.ndarray,
+    mass: MassProperties,
+    times: np.ndarray,
+    interval: float,
+    level: float = 0.0,
 ) -> np.ndarray:
     """Centre (k, 2) [m] of the contact pressure in the mean over `interval` [s] around each of
     `times`; nan in flight.
 
     Over an interval the base gives the column the change of its momentum, and that of its angular
     momentum about its centre of mass; what impacts give is part of both. With J the impulse, c the
-    centre of mass, p the pressure's centre in the plane z = 0: (p - c) x J = change of L.
+    centre of mass, p the pressure's centre in the plane z = level [m]: (p - c) x J = change of L.
 
     Parameters
     ----------
@@ -59,7 +64,7 @@ def pressure_centre(
         fast - slow + shaken[end] - shaken[first] + lasted[:, None] * [0.0, 0.0, GRAVITY]
     )
     turning = after - before
-    middle = poses.move(mass.centre[None], (first + end) // 2)[:, 0]
+    middle = poses.move(mass.centre[None], (first + end) // 2)[:, 0] - [0.0, 0.0, level]
     pushed = impulse[:, 2] > _LIGHT * mass.mass * GRAVITY * lasted
     push = np.where(pushed, impulse[:, 2], np.nan)
     x = middle[:, 0] - (middle[:, 2] * impulse[:, 0] + turning[:, 1]) / push

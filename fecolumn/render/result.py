@@ -7,22 +7,27 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case import read_case as Case
+from fecolumn.case import MODEL_ENGINES
 from fecolumn.dynamics.history import read_history
 from fecolumn.files import Unreadable, is_file, read_json
+from fecolumn.post.scene import Contact, Scene
 from fecolumn.reduced.states import NAME as STATES
 from fecolumn.render.field_frames import FieldFrames, FrameSeries
-from fecolumn.render.pose import Poses, poses
-from fecolumn.render.solid import Solid, solid_of
+from fecolumn.render.pose import Poses, nearest_rigid
 from fecolumn.render.state_frames import StateFrames
+from fecolumn.render.told import Told, told_by
 from fecolumn.schema import InputError
 from fecolumn.simulation import read_folder_case
 from fecolumn.structures.case import StructureCase
 from fecolumn.summary import NAME, read_summary
 
-# Base that is shown around the foot, size of its squares where it has no bricks, and height that
-# the view of the foot shows, over the foot's width [-]
-_AROUND, _SQUARE, _FOOT_HEIGHT = 0.6, 0.25, 0.9
+# Base that is shown around a foot, and height that the view of the foot shows, over its width [-]
+_AROUND_FOOT, _ABOVE_FOOT = 0.6, 0.9
+# Plane ground that is shown around all bodies, over their width [-], and how many of its squares go
+# into this width
+_AROUND, _SQUARES = 0.08, 10
+# Poses of which the reach of bodies is found
+_POSES = 500
 _NEEDED = (
     "time",
     "u_top",
@@ -45,15 +50,15 @@ class Result:
     folder
         of the analysis.
     case
-        finished.
+        of the folder.
     summary
         of `fecolumn.summary`.
     history
         columns of n rows by name
+    told
+        what these tell of the scene.
     poses
-        Poses at these rows.
-    solid
-        Solid.
+        Poses of each body.
     fields
         FieldFrames, without frames where none were written.
     states
@@ -61,13 +66,18 @@ class Result:
     """
 
     folder: Path
-    case: Case
+    case: object
     summary: dict
     history: dict[str, np.ndarray]
-    poses: Poses
-    solid: Solid
+    told: Told
+    poses: tuple[Poses, ...]
     fields: FieldFrames
     states: StateFrames | None
+
+    @property
+    def scene(self) -> Scene:
+        """What is drawn."""
+        return self.told.scene
 
     @property
     def time(self) -> np.ndarray:
@@ -76,71 +86,23 @@ class Result:
 
     @property
     def way(self) -> np.ndarray:
-        """Displacement (n, 3) [m] of the top."""
-        return self.history["u_top"]
+        """Displacement (n, 3) [m] of the top that is followed."""
+        return self.told.way
 
     @property
     def path(self) -> np.ndarray:
-        """Positions (n, 3) [m] of the top's centre."""
-        return self.way + self.solid.top
+        """Its positions (n, 3) [m]."""
+        return self.way + self.told.top
 
-    #: Title of its plan view.
-    top_title = "top in plan"
+    @property
+    def top_title(self) -> str:
+        """Title of its plan view."""
+        return self.told.title
 
     @property
     def height(self) -> float:
         """[m]"""
-        return self.solid.height
-
-    @property
-    def outlines(self) -> np.ndarray:
-        """Edges (n, 2, 3) [m] of the foot where it stood at first."""
-        from fecolumn.mesh.bricks import outline_edges
-
-        return self.solid.mesh.body.points[outline_edges(self.solid.foot_faces)]
-
-    @property
-    def ground(self) -> tuple[np.ndarray, np.ndarray, float]:
-        """Lowest and highest corner (2,) [m] of the piece of ground that is shown where the base
-        has no bricks, and the size of its squares [m].
-        """
-        width, foot = self.solid.foot_width, self.poses.foot[:, :2]
-        return foot.min(axis=0) - 1.5 * width, foot.max(axis=0) + 1.5 * width, _SQUARE * width
-
-    def shown(self, view: str, times: np.ndarray) -> np.ndarray:
-        """Points (n, 3) [m] that a picture of these times [s] must show."""
-        poses, solid = self.poses.at(times), self.solid
-        body = solid.mesh.body.points
-        low, high = body.min(axis=0), body.max(axis=0)
-        margin = _AROUND * solid.foot_width
-        around = poses.foot[:, None, :] * [1, 1, 0] + np.array(
-            [[-1, -1, 0], [1, -1, 0], [-1, 1, 0], [1, 1, 0]]
-        ) * (solid.foot_width / 2 + margin)
-        if view == "foot":
-            return np.concatenate(
-                [
-                    around.reshape(-1, 3),
-                    around.reshape(-1, 3) + [0, 0, _FOOT_HEIGHT * solid.foot_width],
-                ]
-            )
-        corners = np.array(np.meshgrid(*zip(low, high))).reshape(3, -1).T
-        return np.concatenate(
-            [poses.move(corners, slice(None)).reshape(-1, 3), around.reshape(-1, 3)]
-        )
-
-    def strips(self, times: np.ndarray) -> list:
-        """Strip of each quantity that is drawn over time."""
-        from fecolumn.render.strips import strips_of
-
-        return strips_of(self, times)
-
-    def frames_at(
-        self, times: np.ndarray, interval: float, exaggerate: float | str, colour: str, like=None
-    ):
-        """Frames, as of `render.frames.Frames`."""
-        from fecolumn.render.frames import Frames
-
-        return Frames(self, times, interval, exaggerate, colour, like)
+        return self.scene.height
 
     @property
     def frames(self) -> FrameSeries:
@@ -153,9 +115,73 @@ class Result:
             else self.fields
         )
 
+    @property
+    def grounds(self) -> list[tuple[np.ndarray, np.ndarray, float]]:
+        """Of each ground that is a plane: lowest and highest corner (3,) [m] of the piece that is
+        shown, and the size of its squares [m].
+        """
+        scene, times, found = self.scene, self.poses[0].time, []
+        every = times[:: max(1, len(times) // _POSES)]
+        margin, square = _AROUND * scene.width, scene.width / _SQUARES
+        for place, level in scene.planes.items():
+            own = {one.piece for one in scene.contacts if one.stands_on(place)}
+            if not own:
+                continue
+            # the only ground is below all
+            everything = range(len(scene.bodies)) if len(scene.planes) == 1 else own
+            reach = self._reached(every, everything)[:, :2]
+            low = np.floor((reach.min(axis=0) - margin) / square) * square
+            high = np.ceil((reach.max(axis=0) + margin) / square) * square
+            found.append((np.append(low, level), np.append(high, level), square))
+        return found
 
-def read_result(folder, body: str = ""):
-    """The analysis in a folder of `fecolumn run`: a Result, of a structure a StructureResult.
+    def _reached(self, times: np.ndarray, numbers) -> np.ndarray:
+        """Corners (n, 3) [m] of the boxes around bodies of these numbers at `times` [s]."""
+        found = []
+        for number in numbers:
+            piece, poses = self.scene.bodies[number], self.poses[number]
+            low, high = piece.upright.min(axis=0), piece.upright.max(axis=0)
+            box = np.array(np.meshgrid(*zip(low, high))).reshape(3, -1).T
+            found.append(poses.at(times).move(box, slice(None)).reshape(-1, 3))
+        return np.concatenate(found)
+
+    def shown(self, view: str, times: np.ndarray) -> np.ndarray:
+        """Points (n, 3) [m] that a picture of these times [s] must show."""
+        if view == "foot":
+            around, size = self._around(self._foot(), times)
+            return np.concatenate([around, around + [0, 0, _ABOVE_FOOT * size]])
+        contacts = [one for one in self.scene.contacts if one.on_ground]
+        plates = [one for one in contacts if one.ground not in self.scene.planes]
+        around = [self._around(one, times)[0] for one in plates] + [
+            np.array([[x, y, low[2]] for x in (low[0], high[0]) for y in (low[1], high[1])])
+            for low, high, _ in self.grounds
+        ]
+        return np.concatenate([self._reached(times, range(len(self.poses))), *around])
+
+    def _foot(self) -> Contact:
+        """The lowest face of the followed body, or where it has none of its own, of the body on the
+        ground that tilts most.
+        """
+        contacts = [contact for contact in self.scene.contacts if contact.on_ground]
+        own = [contact for contact in contacts if contact.piece == self.told.body]
+        return (own or sorted(contacts, key=self._largest_tilt))[-1]
+
+    def _largest_tilt(self, contact: Contact) -> float:
+        return -float(self.poses[contact.piece].rotation[:, 2, 2].min())
+
+    def _around(self, contact: Contact, times: np.ndarray) -> tuple[np.ndarray, float]:
+        """Corners (n, 3) [m] of what is shown of the ground around a foot, and its width [m]."""
+        foot = self.scene.points[contact.points]
+        size = float(np.ptp(foot[:, :2], axis=0).max())
+        moved = self.poses[contact.piece].at(times).move(foot.mean(axis=0)[None], slice(None))
+        side = (0.5 + _AROUND_FOOT) * size
+        corners = np.array([[-side, -side, 0], [side, -side, 0], [-side, side, 0], [side, side, 0]])
+        level = [0, 0, contact.origin[2]]
+        return (moved * [1, 1, 0] + corners + level).reshape(-1, 3), size
+
+
+def read_result(folder, body: str = "") -> Result:
+    """The analysis in a folder of `fecolumn run`.
 
     Parameters
     ----------
@@ -182,10 +208,11 @@ def read_result(folder, body: str = ""):
             f"{folder / 'analyses'}/CASE_ID",
         )
     case, _ = read_folder_case(folder)
-    if hasattr(case, "table"):
+    model = isinstance(case, StructureCase) and case.integration.engine in MODEL_ENGINES
+    if hasattr(case, "table") or model:
         raise InputError(
             folder,
-            case.table,
+            "integration.engine" if model else case.table,
             None,
             "is a rocking model of rigid bodies: nothing is meshed that could be "
             "drawn; its history has figures",
@@ -202,31 +229,39 @@ def read_result(folder, body: str = ""):
     except Unreadable as error:
         raise InputError(folder / NAME, "", None, str(error)) from None
     history = read_rows(folder / "history.h5")
-    if isinstance(case, StructureCase):
-        from fecolumn.render.structure_result import structure_result
-
-        return structure_result(folder, case, summary, history, body)
-    if body:
-        raise InputError(
-            "fecolumn render",
-            "--body",
-            body,
-            f"is for structures of [bodies]; {folder} holds a single column",
-        )
-    case = finished(case, folder / "case.json")
-    solid = solid_of(case)
+    known = told_by(case, folder, history, body)
     fields = FieldFrames(folder / "fields")
-    if len(fields.time) and not fields.fits(solid):
+    fields.check(known.scene)
+    states = StateFrames(folder / STATES, known.scene) if is_file(folder / STATES) else None
+    poses = known.poses or _poses_of(states, fields, known.scene, folder, case)
+    return Result(folder, case, summary, history, known, poses, fields, states)
+
+
+def _poses_of(states, fields: FieldFrames, scene: Scene, folder: Path, case) -> tuple[Poses, ...]:
+    """Poses at the instants of states or fields, of a history that does not tell them."""
+    if states and len(states.time):
+        time, center, rotation = states.time, states.center, states.rotation
+    elif len(fields.time):
+        time, count = fields.time, len(scene.bodies)
+        center, rotation = np.empty((len(time), count, 3)), np.empty((len(time), count, 3, 3))
+        for k in range(len(time)):
+            moved = scene.points + fields.read(k).displacement
+            for number, piece in enumerate(scene.bodies):
+                rotation[k, number], center[k, number] = nearest_rigid(
+                    piece.upright - piece.center, moved[scene.own(number)]
+                )
+    else:
+        key = "fields" if case.integration.engine == "full" else "states"
         raise InputError(
-            folder / "fields",
+            folder / "history.h5",
             "",
             None,
-            "is of another mesh than that of the case made now; render with the "
-            "version that made it, or remove this folder",
+            "is of a version before 0.7 and does not tell how bodies turn, and the folder has no "
+            f"{key}: run the case into a new folder with output.{key}_every_s = 0.04",
         )
-    states = StateFrames(folder / STATES, case) if is_file(folder / STATES) else None
-    return Result(
-        folder, case, summary, history, poses(history, solid.foot, solid.top), solid, fields, states
+    return tuple(
+        Poses(time, rotation[:, k], center[:, k], piece.center)
+        for k, piece in enumerate(scene.bodies)
     )
 
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.post.style import BLACK, PAGE_WIDTH_IN, new_figure, save, styled
+from fecolumn.render.canvas import COLOUR_MAPS
 from fecolumn.render.panel import draw_strip
-from fecolumn.render.scene import COLOUR_MAPS
+from fecolumn.render.strips import strips_of
 
 # Heights of the strips below the pictures, least and largest of the pictures, and gap between
 # these; the colour bar's width [in]
@@ -44,9 +45,9 @@ def sequence_figure(
     Parameters
     ----------
     frames
-        Frames or StructureFrames of the instants.
+        of the instants.
     images
-        of `Scene`, as many, of `picture_size` with `dpi`.
+        of `Canvas`, as many, of `picture_size` with `dpi`.
     times
         (2,) [s] first and last of the history shown.
     path
@@ -54,7 +55,7 @@ def sequence_figure(
     """
     from matplotlib.cm import ScalarMappable
 
-    count, strips = len(images), frames.result.strips(times)[:2]
+    count, strips = len(images), strips_of(frames.result, times)[:2]
     picture = images[0].shape[0] / dpi
     height = picture + len(strips) * _STRIP_IN + 0.75
     with styled():

@@ -6,10 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.reduced.states import read_states, signature, state_at
-from fecolumn.render.field_frames import Fields, FrameSeries
+from fecolumn.post.scene import Scene
+from fecolumn.post.state_fields import StateFields
+from fecolumn.reduced.states import State, modes_of, read_states, signature, state_at
+from fecolumn.render.field_frames import FrameSeries
+from fecolumn.render.frame import Fields
 from fecolumn.schema import InputError
-from fecolumn.short_form import ShortForm
 
 #: Modes of a model made anew are those of the analysis when frequencies and signatures agree to
 #: this share: states are kept in single precision
@@ -24,19 +26,21 @@ def same_modes(old: np.ndarray, new: np.ndarray) -> bool:
 
 
 class StateFrames(FrameSeries):
-    """The states in a file of `reduced.states`; the model of the column, and what expands it to
+    """The states in a file of `reduced.states`; the models of the bodies, and what expands them to
     fields, are made when the first frame is read.
 
     Attributes
     ----------
     time
-        (n,) [s] of each.
+        (n,) [s] of each. center: (n, nb, 3) [m] of mass; rotation: (n, nb, 3, 3).
+
+    Raises
+    ------
+    InputError
+        the file is damaged, or of other bodies than those of the scene.
     """
 
-    def __init__(self, file: Path, case: ShortForm):
-        """Raises:
-        InputError: the file is damaged.
-        """
+    def __init__(self, file: Path, scene: Scene):
         try:
             self._arrays = read_states(file)
         except (OSError, KeyError) as error:
@@ -47,8 +51,26 @@ class StateFrames(FrameSeries):
                 f"not the states of an analysis ({error}); remove it to draw what the "
                 "history alone gives",
             ) from None
-        self._file, self._case, self._expand = file, case, None
+        names = [piece.name for piece in scene.bodies]
+        # those of a single column are without its name
+        kept = self._arrays["bodies"].tolist() or names[:1]
+        if kept != names:
+            raise InputError(
+                file,
+                "",
+                None,
+                f"has the states of {', '.join(kept)}, not of {', '.join(names)}; run the case "
+                "into a new folder",
+            )
+        self._file, self._scene, self._expand = file, scene, None
         super().__init__(self._arrays["time"])
+        count = len(self.time)
+        self.center = self._arrays["center"].reshape(count, -1, 3)
+        self.rotation = self._arrays["rotation"].reshape(count, -1, 3, 3)
+
+    def state(self, k: int) -> State:
+        """State number k."""
+        return state_at(self._arrays, k)
 
     def read(self, k: int) -> Fields:
         """Frame `k`.
@@ -56,56 +78,46 @@ class StateFrames(FrameSeries):
         Raises
         ------
         InputError
-            the column's modes, made anew, are others than those of the analysis.
+            the modes of a body, made anew, are others than those of the analysis.
         """
-        values = self.values(k)
-        return Fields(values["displacement"], values["von_mises"], values["pressure"])
+        values, (_, centres) = self.values(k), self.drawn.pressures(self.state(k))
+        return Fields(values["displacement"], values["von_mises"], values["pressure"], centres)
 
     def values(self, k: int) -> dict[str, np.ndarray]:
-        """Fields of frame `k` by the names of `post.fields.SpecimenFields.values`."""
-        return self.expand.values(state_at(self._arrays, k))
+        """Fields of frame `k` by the names of `StateFields.values`."""
+        return self.drawn.values(self.state(k))
 
     @property
-    def drawn(self):
-        """What `post.fields.FieldWriter` takes."""
-        return self.expand.specimen
-
-    @property
-    def expand(self):
-        """StateFields of the case."""
+    def drawn(self) -> StateFields:
+        """What expands states, and what `post.fields.FieldWriter` takes."""
         if self._expand is None:
-            from fecolumn.reduced.cache import load_model
-            from fecolumn.reduced.fields import StateFields
-
-            model, _, folder = load_model(self._case)
-            self._check(model)
-            self._expand = StateFields(self._case, model, folder)
+            expand = self._scene.fields()
+            self._check(expand.models)
+            self._expand = expand
         return self._expand
 
-    def _check(self, model) -> None:
-        if not (
-            same_modes(self._arrays["frequencies"], model.frequencies)
-            and same_modes(self._arrays["signature"], signature(model))
+    def _check(self, models) -> None:
+        for name, made in (
+            ("frequencies", [model.frequencies for model in models]),
+            ("signature", [signature(model) for model in models]),
         ):
-            raise InputError(
-                self._file,
-                "",
-                None,
-                "is of other modes than those made of this column now: deformation, "
-                "stress and pressure cannot be made from it; "
-                "--color displacement draws the history, and the case run into a new "
-                "folder has them again",
-            )
+            new = modes_of(made)
+            old = self._arrays[name].reshape(len(models), -1)
+            for piece, kept, one in zip(self._scene.bodies, old, new):
+                if not same_modes(kept, one):
+                    raise InputError(
+                        self._file,
+                        "",
+                        None,
+                        f'is of other modes of "{piece.name}" than those made of it now: '
+                        "deformation, stress and pressure cannot be made from it; "
+                        "--color displacement draws the history, and the case run into a new "
+                        "folder has them again",
+                    )
 
 
-def write_fields(frames, folder: Path, tell=lambda done: None) -> None:
-    """Write the fields of all states into a folder, as `post.fields.FieldWriter` does.
-
-    Parameters
-    ----------
-    frames
-        StateFrames or StructureStates.
-    """
+def write_fields(frames: StateFrames, folder: Path, tell=lambda done: None) -> None:
+    """Write the fields of all states into a folder, as `post.fields.FieldWriter` does."""
     from fecolumn.post.fields import FieldWriter
 
     writer = FieldWriter(folder, frames.drawn)

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.post.style import COLUMN_WIDTH_IN, new_figure, save, styled
-from fecolumn.render.frames import Frame
-from fecolumn.render.scene import COLOUR_MAPS
+from fecolumn.render.canvas import COLOUR_MAPS
+from fecolumn.render.frame import Frame
 
 # Beside and above the picture; least and largest height of the picture [in]
 _RIGHT_IN, _ABOVE_IN, _HEIGHTS_IN = 0.75, 0.25, (1.8, 4.5)

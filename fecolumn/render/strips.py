@@ -2,73 +2,98 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.render.pose import Poses
+from fecolumn.render.frame import Strip
+from fecolumn.render.joints import motion
 from fecolumn.render.quantity import Quantity
-from fecolumn.render.result import Result
-from fecolumn.render.solid import Solid
+
+if TYPE_CHECKING:
+    from fecolumn.render.result import Result
 
 # Points of a line: more are not told apart at the width of a strip
 _MOST_POINTS = 4000
-#: Uplift over the foot's width [-] below which a column only slides: elastic deformation alone
-#: opens some 1e-5 of it
+#: Uplift over the foot's width [-] below which a body only slides: elastic deformation alone opens
+#: some 1e-5 of it
 LIFTED = 1e-4
-
-
-@dataclass(frozen=True, slots=True)
-class Strip:
-    """Lines over time.
-
-    Attributes
-    ----------
-    title, label
-        above, and of the axis with its unit.
-    time
-        (n,) [s].
-    lines
-        (values (n,) in the label's unit, name) of each.
-    """
-
-    title: str
-    label: str
-    time: np.ndarray
-    lines: tuple[tuple[np.ndarray, str], ...]
+# Lines that a strip has at most
+_MOST = 4
 
 
 def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
-    """Acceleration of the base (displacement of the top where it is at rest), tilt, uplift and
-    energy, from the first of `times` [s] to the last.
+    """Acceleration of the base (displacement of the top where it is at rest), tilt of bodies,
+    uplift at interfaces and energy, from the first of `times` [s] to the last.
 
-    Of a column that never lifts off: slide and twist in place of tilt and uplift.
+    Where nothing lifts off, slide and twist stand in place of tilt and uplift. Of equal bodies, and
+    of an interface between several, a line is the largest of all at each time; of more bodies or
+    interfaces than a strip has lines, those that move most are drawn.
     """
-    history = result.history
-    rows = rows_between(history["time"], history["tilt"], times)
-    lifted = uplift(result.solid, result.poses)
-    if lifted.max() > LIFTED * result.solid.foot_width:
-        motion = (
-            strip_of(history, rows, "tilt", r"$\theta$", "rad", [(history["tilt"], "")]),
-            strip_of(history, rows, "uplift", "$w$", "m", [(lifted, "")]),
+    history, scene, time = result.history, result.scene, result.time
+    tilts = [_tilt(poses.at(time).rotation) for poses in result.poses]
+    leans = np.max(tilts, axis=0)
+    rows = rows_between(time, leans, times)
+    poses = tuple(one.at(time[rows]) for one in result.poses)
+    contacts = [scene.contacts[k] for k in scene.shown]
+    moved = [motion(scene, contact, poses) for contact in contacts]
+    names = [contact.interface for contact in contacts]
+
+    def strip(title, symbol, unit, lines):
+        return strip_of(time[rows], title, symbol, unit, lines)
+
+    def by_kind(values):
+        return _largest([piece.kind for piece in scene.bodies], values)
+
+    widths = [np.ptp(scene.points[contact.points], axis=0).max() for contact in contacts]
+    if any(up.max() > LIFTED * width for (up, _), width in zip(moved, widths)):
+        shown = (
+            strip("tilt", r"$\theta$", "rad", by_kind([tilt[rows] for tilt in tilts])),
+            strip("uplift", "$w$", "m", _largest(names, [up for up, _ in moved])),
         )
     else:
-        motion = (
-            strip_of(
-                history,
-                rows,
+        slides = [slide for _, slide in moved]
+        shown = (
+            strip(
                 "slide",
                 "$s$",
                 "m",
-                [(history["slide"][:, axis], f"${'xy'[axis]}$") for axis in range(2)],
+                [(slides[0][:, axis], f"${'xy'[axis]}$") for axis in range(2)]
+                if len(slides) == 1
+                else _largest(names, [np.hypot(*slide.T) for slide in slides]),
             ),
-            strip_of(history, rows, "twist", r"$\psi$", "rad", [(history["twist"], "")]),
+            strip("twist", r"$\psi$", "rad", by_kind([_twist(one.rotation) for one in poses])),
         )
     return [
-        ground_strip(history, history["u_top"], rows),
-        *motion,
-        energy_strip(history, rows, history["tilt"]),
+        ground_strip(history, result.way, rows),
+        *shown,
+        energy_strip(history, rows, leans),
     ]
+
+
+def _tilt(rotation: np.ndarray) -> np.ndarray:
+    """(n,) [rad] of rotations (n, 3, 3), as of `fem.rotation.tilt_angle`."""
+    return np.arctan2(np.hypot(rotation[:, 0, 2], rotation[:, 1, 2]), rotation[:, 2, 2])
+
+
+def _twist(rotation: np.ndarray) -> np.ndarray:
+    """(n,) [rad] of rotations (n, 3, 3), as of `fem.rotation.twist_angle`."""
+    return np.arctan2(rotation[:, 1, 0] - rotation[:, 0, 1], rotation[:, 0, 0] + rotation[:, 1, 1])
+
+
+def _largest(names: list[str], values: list[np.ndarray]) -> list[tuple[np.ndarray, str]]:
+    """(values (n,), name): of each name the values (n,) of that of its bearers that has the
+    largest at each time, of _MOST names with the largest peaks; those of one bearer as they are.
+    """
+    groups: dict[str, list] = {}
+    for name, one in zip(names, values):
+        groups.setdefault(name, []).append(one)
+    lines = [
+        (each[0] if len(each) == 1 else np.max(np.abs(each), axis=0), name)
+        for name, each in groups.items()
+    ]
+    kept = sorted(range(len(lines)), key=lambda k: -np.abs(lines[k][0]).max())[:_MOST]
+    return [lines[k] for k in sorted(kept)]
 
 
 def rows_between(time: np.ndarray, values: np.ndarray, times: np.ndarray) -> np.ndarray:
@@ -79,61 +104,39 @@ def rows_between(time: np.ndarray, values: np.ndarray, times: np.ndarray) -> np.
     return _told_apart(values, rows if len(rows) > 1 else np.arange(len(time)))
 
 
-def strip_of(history: dict, rows: np.ndarray, title: str, symbol: str, unit: str, lines) -> Strip:
-    """Strip of the `rows` of lines (values (n,) [SI], name) in a unit that fits them."""
-    quantity = Quantity.of("", unit, max(np.abs(values[rows]).max() for values, _ in lines))
+def strip_of(time: np.ndarray, title: str, symbol: str, unit: str, lines) -> Strip:
+    """Strip of lines (values (n,) [SI], name) at `time` (n,) [s] in a unit that fits them."""
+    quantity = Quantity.of("", unit, max(np.abs(values).max() for values, _ in lines))
     return Strip(
         title,
         f"{symbol} [{quantity.unit}]".strip(),
-        history["time"][rows],
-        tuple((values[rows] / quantity.scale, name) for values, name in lines),
+        time,
+        tuple((values / quantity.scale, name) for values, name in lines),
     )
 
 
 def ground_strip(history: dict, top: np.ndarray, rows: np.ndarray) -> Strip:
     """Acceleration of the base; displacement of the top (n, 3) [m] where it is at rest."""
-    ground = history["ground"]
+    ground, time = history["ground"], history["time"][rows]
     moving = [axis for axis in range(3) if np.abs(ground[:, axis]).max() > 0]
     if moving:
-        return strip_of(
-            history,
-            rows,
-            "base",
-            "$a_g$",
-            "m/s2",
-            [(ground[:, axis], f"${'xyz'[axis]}$") for axis in moving],
-        )
-    return strip_of(
-        history, rows, "top", "$u$", "m", [(top[:, axis], f"${'xy'[axis]}$") for axis in range(2)]
-    )
+        lines = [(ground[rows, axis], f"${'xyz'[axis]}$") for axis in moving]
+        return strip_of(time, "base", "$a_g$", "m/s2", lines)
+    lines = [(top[rows, axis], f"${'xy'[axis]}$") for axis in range(2)]
+    return strip_of(time, "top", "$u$", "m", lines)
 
 
 def energy_strip(history: dict, rows: np.ndarray, moved: np.ndarray) -> Strip:
     """Kinetic and potential energy, this above that where `moved` (n,) is least."""
-    kinetic, potential = (
-        history["energy/kinetic"],
-        history["energy/gravity"] + history["energy/strain"],
-    )
+    kinetic = history["energy/kinetic"]
+    potential = history["energy/gravity"] + history["energy/strain"]
     potential = potential - potential[np.argmin(np.abs(moved))]
-    return strip_of(
-        history,
-        rows,
-        "energy",
-        "$E$",
-        "J",
-        [(kinetic, "kinetic"), (potential, "potential"), (kinetic + potential, "sum")],
-    )
-
-
-def uplift(solid: Solid, poses: Poses) -> np.ndarray:
-    """Height (n,) [m] of the highest point of the foot above the base, of the rigid column at n
-    poses.
-    """
-    corners = solid.mesh.body.points[np.unique(solid.foot_faces)] - poses.origin
-    height = np.full(len(poses.time), -np.inf)
-    for corner in corners:  # one by one: all corners at all times fill gigabytes
-        np.maximum(height, poses.rotation[:, 2] @ corner, out=height)
-    return np.maximum(height + poses.foot[:, 2], 0.0)
+    lines = [
+        (kinetic[rows], "kinetic"),
+        (potential[rows], "potential"),
+        ((kinetic + potential)[rows], "sum"),
+    ]
+    return strip_of(history["time"][rows], "energy", "$E$", "J", lines)
 
 
 def _told_apart(values: np.ndarray, rows: np.ndarray) -> np.ndarray:

@@ -14,8 +14,9 @@ from fecolumn.analysis import CHECKPOINT, Analysis, energy_closure
 from fecolumn.atomic import write_json
 from fecolumn.ending import AT_REST, OVERTURNED, REST_SHARE, STILL_ROCKING, Ending
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.model import ModelResponse, model_class
-from fecolumn.rocking.table_case import TableCase
+from fecolumn.rocking.model import ModelResponse
+from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
+from fecolumn.structures.case import StructureCase
 from fecolumn.summary import NAME
 
 
@@ -28,13 +29,13 @@ class ModelAnalysis(Analysis):
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
         self.file = file
-        self.model = (
-            case.model(file)
-            if isinstance(case, TableCase)
-            else model_class(case.integration.engine).of_case(case.short, file)
-        )
-        # compiles what is missing on this machine
-        self.model.respond(GroundMotion(np.zeros((2, 3)), 1e-3, "", ""))
+        if isinstance(case, StructureCase):
+            self.model, self.start = model_of_bodies(case, file), start_of_bodies(case, file)
+        else:
+            self.model, self.start = case.model(file), case.initial
+        self.model.respond(
+            GroundMotion(np.zeros((2, 3)), 1e-3, "", "")
+        )  # compiles what is missing on this machine
         self.began, self.cpu_began = time.perf_counter(), time.process_time()
 
     @property
@@ -44,7 +45,7 @@ class ModelAnalysis(Analysis):
 
     def run(self, stop) -> dict:
         """The whole response; its summary. `stop` is not asked."""
-        dt, initial = self.case.integration.dt_s, self.case.initial
+        dt, initial = self.case.integration.dt_s, self.start
         samples = (
             np.zeros((2, 3)) if self.motion is None else self.motion.acceleration[: self.steps + 1]
         )

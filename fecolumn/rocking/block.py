@@ -12,7 +12,7 @@ from typing import ClassVar
 import numpy as np
 
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.column import rigid_column
+from fecolumn.rocking.column import RigidColumn, rigid_column
 from fecolumn.rocking.impact import body_restitution, one_sided_restitution
 from fecolumn.rocking.model import ModelResponse
 from fecolumn.rocking.plane import Plane, respond
@@ -204,34 +204,44 @@ class RockingBlock:
         InputError
             the column does not stand on its foot.
         """
-        column = rigid_column(case)
+        friction, kept = case.contact.friction_coefficient, case.contact.restitution or None
+        return cls.of_body(rigid_column(case), friction, file, kept)
+
+    @classmethod
+    def of_body(cls, body: RigidColumn, friction: float, file, restitution=None) -> RockingBlock:
+        """A body on its foot, with its mass, centre and inertia; its restitution by the plastic
+        impact unless given.
+
+        Raises
+        ------
+        InputError
+            the body does not stand on its foot.
+        """
         planes = []
         for axis in (0, 1):
             edges = (
-                column.half_foot[axis] - column.offset[axis],
-                column.half_foot[axis] + column.offset[axis],
+                body.half_foot[axis] - body.offset[axis],
+                body.half_foot[axis] + body.offset[axis],
             )
             if min(edges) <= 0:
                 raise InputError(
                     file,
                     "column",
                     None,
-                    f"its centre of mass stands {column.offset[axis]:.3g} m from the "
-                    f"middle of the foot, whose half is {column.half_foot[axis]:.3g} m",
+                    f"its centre of mass stands {body.offset[axis]:.3g} m from the "
+                    f"middle of the foot, whose half is {body.half_foot[axis]:.3g} m",
                 )
-            central = column.inertia[1 - axis]
-            kept = case.contact.restitution or None
             planes.append(
                 body_plane(
                     axis,
-                    column.mass,
+                    body.mass,
                     edges,
-                    column.height,
-                    central,
-                    column.top,
-                    (column.half_foot[axis],) * 2,
-                    restitution=kept,
-                    friction=case.contact.friction_coefficient,
+                    body.height,
+                    body.inertia[1 - axis],
+                    body.top,
+                    (body.half_foot[axis],) * 2,
+                    restitution=restitution,
+                    friction=friction,
                 )
             )
         return cls(tuple(planes))

@@ -15,8 +15,9 @@ from fecolumn.motions.chosen import chosen_motions
 from fecolumn.motions.load import load_motion
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.model import Model, ModelResponse, model_class
+from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
 from fecolumn.rocking.table_case import Start, table_case
-from fecolumn.schema import InputError, build, read_toml
+from fecolumn.schema import InputError, build, merge, read_toml
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +90,7 @@ class ModelCase:
 
 def read_model_case(name: str, path) -> ModelCase:
     """A model by its name, from a file with its table, such as [block], or from a case with
-    [column].
+    [column] or [bodies].
 
     Raises
     ------
@@ -97,18 +98,21 @@ def read_model_case(name: str, path) -> ModelCase:
         unknown key, value out of range, parts that do not fit.
     """
     tables, cls = read_toml(path), model_class(name)
-    if "column" not in tables and not isinstance(tables.get(cls.TABLE), dict):
+    if not {"column", "bodies"} & set(tables) and not isinstance(tables.get(cls.TABLE), dict):
         raise InputError(
             path,
             cls.TABLE,
             None,
             f"missing: the model {name} is made from [{cls.TABLE}], or from a case of "
-            "fecolumn run with [column]",
+            "fecolumn run with [column] or [bodies]",
         )
     motion, sources = _motion(tables, path)
     if cls.TABLE in tables:
         case = table_case(tables, path, name)
         model, start = case.model(path), case.initial
+    elif "bodies" in tables:
+        case = case_from_tables(merge(tables, {"integration": {"engine": name}}), path)
+        model, start = model_of_bodies(case, path), start_of_bodies(case, path)
     else:
         case = case_from_tables(tables, path)
         model, start = (

@@ -99,19 +99,30 @@ def storeys(
     first, mass = PROFILES[profile](np.arange(1, n + 1) / n), np.full(n, float(floor_mass))
     above = np.cumsum((mass * first)[::-1])[::-1]
     stiffness = (2 * math.pi / period) ** 2 * above / np.diff(first, prepend=0.0)
+    return shear_building(mass, stiffness, damping, (1, 2))
+
+
+def shear_building(
+    mass: np.ndarray, stiffness: np.ndarray, damping: float, rayleigh: tuple[int, ...] = ()
+) -> ElasticBuilding:
+    """Building of floors (n,) [kg] on storeys (n,) [N/m], from below.
+
+    Parameters
+    ----------
+    damping
+        ratio of all modes, or of two modes after Rayleigh.
+    rayleigh
+        numbers of these two from 1; of one floor alone all is from the stiffness.
+    """
     k = (
         np.diag(stiffness + np.append(stiffness[1:], 0.0))
         - np.diag(stiffness[1:], 1)
         - np.diag(stiffness[1:], -1)
     )
     squares, shapes = eigh(k, np.diag(mass))
-    omega = np.sqrt(squares)
-    if n == 1:
-        ratios = np.array([damping])
-    else:
-        a, b = (
-            2 * damping * omega[0] * omega[1] / (omega[0] + omega[1]),
-            2 * damping / (omega[0] + omega[1]),
-        )
+    omega, ratios = np.sqrt(squares), np.full(len(mass), float(damping))
+    if rayleigh and len(mass) > 1:
+        first, second = (omega[mode - 1] for mode in rayleigh)
+        a, b = (2 * damping * first * second / (first + second), 2 * damping / (first + second))
         ratios = (a / omega + b * omega) / 2
     return ElasticBuilding(mass, stiffness, omega, ratios, shapes)

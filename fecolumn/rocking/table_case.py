@@ -17,7 +17,7 @@ import json
 from dataclasses import dataclass
 
 from fecolumn.case import Integration, Motion, Output, Overturn, located, section_table
-from fecolumn.rocking.model import TABLES, Model, model_engine_of, model_class
+from fecolumn.rocking.model import TABLES, Model, model_class, model_engine_of
 from fecolumn.schema import InputError, Section, build, merge, nested, parameter, stated
 
 #: Tables of a structure of [bodies] that a model of the same file passes over

@@ -18,7 +18,7 @@ from fecolumn._compiled import interpreted
 from fecolumn.case import GRAVITY
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking import wobbling_equations as equations
-from fecolumn.rocking.column import rigid_column
+from fecolumn.rocking.column import RigidColumn, rigid_column
 from fecolumn.rocking.model import ModelResponse
 from fecolumn.schema import InputError, Section, parameter
 
@@ -145,13 +145,23 @@ class Wobbling:
         InputError
             the foot is not round, or the column not alike around its axis.
         """
-        column = rigid_column(case)
+        return cls.of_body(rigid_column(case), case.contact.friction_coefficient, file)
+
+    @classmethod
+    def of_body(cls, column: RigidColumn, friction: float, file) -> Wobbling:
+        """A body on its round foot, with its mass, centre and inertia.
+
+        Raises
+        ------
+        InputError
+            the foot is not round, or the body not alike around its axis.
+        """
         if not column.round:
             raise InputError(
                 file,
                 "integration.engine",
                 cls.TABLE,
-                "needs a round foot: column.shape must be tube or solid",
+                "needs a round foot: a tube or a solid cylinder",
             )
         across, radius = (column.inertia[0] + column.inertia[1]) / 2, column.half_foot[0]
         if (
@@ -162,7 +172,7 @@ class Wobbling:
                 file,
                 "cap",
                 None,
-                f"the inertias of the column about x and y, {column.inertia[0]:.3g} and "
+                f"the inertias of the body about x and y, {column.inertia[0]:.3g} and "
                 f"{column.inertia[1]:.3g} kg m2, must differ by "
                 f'{2 * _ROUND:.0%} at most for integration.engine = "{cls.TABLE}", '
                 "which takes it for round",
@@ -181,7 +191,7 @@ class Wobbling:
                 GRAVITY,
             ]
         )
-        return cls(body, friction=case.contact.friction_coefficient)
+        return cls(body, friction=friction)
 
     @property
     def slenderness(self) -> float:

@@ -2,38 +2,24 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn._compiled import compiled
-from fecolumn.analysis import Analysis
-from fecolumn.dynamics.gravity import NoEquilibrium
 from fecolumn.dynamics.overturning import FELL
 from fecolumn.ending import SLID_OFF, Ending
-from fecolumn.reduced.analysis import ReducedAnalysis
 from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
-from fecolumn.reduced.run import advance
-from fecolumn.reduced.structure import LOST
 from fecolumn.structures.barrier import least_barrier, stances
-from fecolumn.structures.engine import engine_of, leans, upright
+from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import GROUND, StructureModel
-from fecolumn.structures.pads import warn_of_grounds
-from fecolumn.structures.structure import standing_of, structure_model
+from fecolumn.structures.shaking import accelerations, motions_of
+from fecolumn.structures.structure import standing_of
 
 _WHOLE = (
     "active_nodes",
     "iterations",
     "broken",
 )  # columns of whole numbers, by the last word of their names
-
-
-class _Whole(NamedTuple):
-    """What `ReducedAnalysis` asks of a model: degrees of freedom of the different meshes."""
-
-    dofs: int
 
 
 class OfStructure:
@@ -52,12 +38,57 @@ class OfStructure:
             f"{len(self.case.links)} kinds of links, {self.case.integration.engine} engine"
         )
 
+    def scene(self):
+        """`post.scene.Scene` of the case."""
+        from fecolumn.post.structure_scene import scene_of
+
+        return scene_of(self.case, self.structure, self.folder / "case.json")
+
     @property
     def barrier_j(self) -> float:
         """As `barrier.least_barrier`: below a share of it the structure is at rest."""
         if self._barrier_j is None:
             self._barrier_j = least_barrier(self.structure, standing_of(self.case, self.structure))
         return self._barrier_j
+
+    def _load_motion(self, file):
+        #: Motion of each ground, None of one at rest; that which lasts longest is told.
+        self.motions = motions_of(self.case, super()._load_motion(file), file)
+        return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
+
+    def ground(self, step: int) -> np.ndarray:
+        return self.grounds(step)[:3]
+
+    def grounds(self, step: int) -> np.ndarray:
+        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
+        return accelerations(self.motions, step)
+
+    def off_ground(self, failure, bases, grounds, foot) -> Ending | None:
+        """The ending of a structure whose step failed because a foot met the edge of its ground, one
+        of `bases` and of `grounds` (G,) of GROUND; None for another failure.
+
+        Parameters
+        ----------
+        foot
+            function of a joint, the model of its slave and rows (k,) of that: places (k, 3) [m] and
+            velocities (k, 3) [m/s].
+        """
+        for joint in self.structure.joints:
+            if joint.master != GROUND:
+                continue
+            part, ground = self.structure.parts[joint.slave], grounds[joint.ground]
+            nodes = part.model.surfaces[joint.slave_surface].nodes
+            places, velocities = foot(joint, part.model, nodes)
+            ending = self.slid_off(
+                failure,
+                bases[joint.ground],
+                places - ground["place"],
+                velocities - ground["velocity"],
+            )
+            if ending is not None:
+                self._off = part.name
+                return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
+        return None
 
     def limits(self) -> dict:
         """Of the summary: the least tilt of a body at which it would overturn by itself, None where
@@ -70,9 +101,13 @@ class OfStructure:
         return dict(critical_tilt_rad=min(tilts, default=None), u_critical_m=None)
 
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
-        tilts = {part.name: float(last[f"body/{part.name}/tilt"]) for part in self.structure.parts}
-        name = max(tilts, key=tilts.get)
-        return f'"{name}" has tilted by {tilts[name]:.3g} rad, limit {LOST:.3g} rad'
+        parts = self.structure.parts
+        tilts = np.array([float(last[f"body/{part.name}/tilt"]) for part in parts])
+        limits = limits_of(self.structure, standing_of(self.case, self.structure))
+        far, critical = tilts > limits.tilts, limits.standing["critical"]
+        b = int(np.argmax(np.where(far, tilts, 0.0) if far.any() else tilts - critical))
+        told = f"limit {limits.tilts[b]:.3g}" if far.any() else f"critical {critical[b]:.3g}"
+        return f'"{parts[b].name}" has tilted by {tilts[b]:.3g} rad, {told} rad'
 
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
         if fallen != FELL:
@@ -92,113 +127,21 @@ class OfStructure:
         }
         return min(heights, key=heights.get)
 
-    def finish(self, ending, dofs: int, record, factorizations: int) -> dict:
-        from fecolumn.atomic import write_json
-        from fecolumn.summary import NAME
-
-        summary = super().finish(ending, dofs, record, factorizations)
-        summary |= peaks(self.history.arrays(), self.structure)
-        if summary["slid_off"]:
+    def results(self, ending) -> dict:
+        """Of the summary: what bodies, interfaces, storeys and links have reached."""
+        found = peaks(self.history.arrays(), self.structure)
+        if ending.outcome == SLID_OFF:
             way = self.history.last()[f"body/{self._off or self._lowest()}/displacement"]
-            summary["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
-        if self.comm.rank == 0:
-            write_json(self.folder / NAME, summary)
-        return summary
-
-
-class StructureAnalysis(OfStructure, ReducedAnalysis):
-    """A running analysis of a structure of many bodies with the reduced engine."""
-
-    def __init__(self, case, folder, comm, file, quiet):
-        Analysis.__init__(self, case, folder, comm, file, quiet)
-        self.structure, self.fields = structure_model(case, file, self.say), None
-        self.states = self._states()
-        different = {id(part.model): part.model.dofs for part in self.structure.parts}
-        self.bases, self.model = self.structure.bases, _Whole(sum(different.values()))
-        warn_of_grounds(case, self.structure, file)
-        if not compiled(advance):
-            self.say(
-                "compiling the reduced engine, once on this machine: a minute or two; "
-                "other processes wait for it"
-            )
-        self.engine = engine_of(case, self.structure, file)
-        self.began, self.cpu_began = (
-            time.perf_counter(),
-            time.process_time(),
-        )  # what was made and compiled so far was so for all analyses
-        self.stance, self.top_arm = self.engine.eye.stance, self.engine.eye.top_arm
-        if self.went_on(self._take):
-            self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
-        else:
-            self.standing_j = (
-                self._standing_energy(file) if leans(self.structure) else self.engine.potential()
-            )
-            self.engine.begin_shaking(self.grounds(0))
-            self._note(self.engine.row()[None])
-            self._keep()
-
-    def _off_base(self, failure) -> Ending | None:
-        motion, joints = self.engine.motion, self.structure.joints
-        for joint in joints:
-            if joint.master != GROUND:
-                continue
-            part, frame = self.structure.parts[joint.slave], motion.frames[joint.slave]
-            arms = part.model.arms[part.model.surfaces[joint.slave_surface].nodes]
-            turn, ground = motion.rotation[joint.slave].T, motion.grounds[joint.ground]
-            ending = self.slid_off(
-                failure,
-                self.bases[joint.ground],
-                frame["center"] + arms @ turn - ground["place"],
-                frame["velocity"] + np.cross(frame["spin"], arms) @ turn - ground["velocity"],
-            )
-            if ending is not None:
-                self._off = part.name
-                return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
-        return None
-
-    def _load_motion(self, file):
-        from fecolumn.motions.load import load_motion
-
-        dt, first = self.case.integration.dt_s, super()._load_motion(file)
-        #: Motion of each ground, None of one at rest.
-        self.motions = [
-            load_motion(one.motion, dt, file) if one.motion else first
-            for one in self.case.grounds.values()
-        ]
-        return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
-
-    def ground(self, step: int) -> np.ndarray:
-        return self.grounds(step)[:3]
-
-    def grounds(self, step: int) -> np.ndarray:
-        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        found = np.zeros((len(self.motions), 3))
-        for own, motion in zip(found, self.motions):
-            if motion is not None and step < len(motion.acceleration):
-                own[:] = motion.acceleration[step]
-        return found.ravel()
-
-    def _standing_energy(self, file) -> float:
-        """As `reduced.analysis.standing_energy`."""
-        try:
-            return engine_of(self.case, upright(self.case, self.structure), file).mechanical()
-        except NoEquilibrium:
-            return 0.0
-
-    def _bodies(self) -> tuple:
-        return [part.model for part in self.structure.parts], [
-            part.name for part in self.structure.parts
-        ]
-
-    def _note(self, rows: np.ndarray) -> None:
-        self.history.extend(columns_of(rows, self.structure))
+            found["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
+        return found
 
 
 def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndarray]:
     """Rows (k, width) of the engine as columns by name: those of any analysis, and of the
     structure's parts.
 
-    "body/NAME/displacement" of the centre of mass [m] and "body/NAME/tilt" [rad];
+    "body/NAME/displacement" of the centre of mass [m], "body/NAME/tilt" [rad] and
+    "body/NAME/rotation", the rotation vector [rad] from where the body stood upright;
     "interface/NAME/tilt" of the slave from the master [rad], "rise" of the middle of its foot [m],
     "slide" along two tangents [m], normal "force" [N]; "mark/NAME.MARK/displacement" [m];
     "link/NAME/tension" [N], "elongation" from its unstressed length and the part of it that has

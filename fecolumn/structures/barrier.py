@@ -30,7 +30,7 @@ def stances(structure: StructureModel, standing: list[Standing]) -> dict[int, St
     found = {}
     for place, below in enumerate(supports_of(standing, list(structure.joints))):
         if joints := [
-            joint for _, between in below for joint in between if _is_level(standing, joint)
+            joint for _, between in below for joint in between if is_level(standing, joint)
         ]:
             model = standing[place].model
             one = _stance_of(
@@ -41,7 +41,7 @@ def stances(structure: StructureModel, standing: list[Standing]) -> dict[int, St
     return found
 
 
-def _is_level(standing: list[Standing], joint) -> bool:
+def is_level(standing: list[Standing], joint) -> bool:
     """Whether a body stands on the faces of a joint, rather than beside them."""
     return abs(standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]) > math.sqrt(0.5)
 
@@ -130,7 +130,7 @@ def _together(standing: list[Standing], joints: list) -> list[Stance]:
             for below, between in supports[upper]
             if below == GROUND or below not in moved
             for joint in between
-            if _is_level(standing, joint)
+            if is_level(standing, joint)
         ]
         if under and (one := _stance_of(sorted(moved), under, standing, np.eye(3), 0.0)):
             found.append(one)

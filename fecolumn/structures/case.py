@@ -91,6 +91,7 @@ class StructureCase:
     observed: str = ""
     motion: Motion | None = None
     mesh: Mesh = Mesh()
+    grounds: dict[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
     short: ShortForm | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self):
@@ -517,37 +518,22 @@ def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
 
 
 def _check_integration(case, refuse) -> None:
+    from fecolumn.structures.check_full import check_full
+
     plan = case.integration
     if plan.engine == "full":
-        for name, body in case.bodies.items():
-            for key in ("foot_radius_m", "edge_radius_m"):
-                if value := getattr(body, key, None):
-                    refuse(
-                        f"bodies.{name}.{key}",
-                        value,
-                        'must be left out with integration.engine = "full": feet that '
-                        "are not flat are computed by the reduced and the rigid engine",
-                    )
-    if plan.engine not in ("full", "reduced", "rigid", "housner", "wobbling"):
-        refuse(
-            "integration.engine",
-            plan.engine,
-            "must be full, reduced or rigid for a structure of [bodies]",
-        )
+        check_full(case, refuse)
     for section, key, needed in (
         ("integration", "kinematics", "corotated"),
         ("contact", "impact", "plastic"),
-        *([("contact", "rolling_resistance", 0.0)] if plan.engine == "full" else []),
     ):
-        if (value := getattr(getattr(case, section), key)) != needed:
-            refuse(f"{section}.{key}", value, f"must be {needed} for a structure of [bodies]")
-    if (value := case.output.fields_every_s) and plan.engine != "full":
-        refuse(
-            "output.fields_every_s",
-            value,
-            "must be 0 for a structure of [bodies] where integration.engine = "
-            f"{plan.engine!r}: fecolumn render --paraview makes fields of its states",
-        )
+        value = getattr(getattr(case, section), key)
+        if plan.engine != "full" and value != needed:
+            refuse(
+                f"{section}.{key}",
+                value,
+                f"must be {needed} where integration.engine = {plan.engine!r}",
+            )
     for key in FULL_ORDER_KEYS if plan.engine != "full" else ():
         if (value := getattr(plan, key)) != DEFAULT[key]:
             refuse(

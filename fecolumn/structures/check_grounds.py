@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from fecolumn.structures.keys import Ground
 
-# Keys that say something of some kinds of ground alone
-_OF_KINDS = {
+#: Keys that say something of some kinds of ground alone, and these.
+OF_KINDS = {
     **dict.fromkeys(("length_m", "width_m"), ("plate",)),
     **dict.fromkeys(
         ("thickness_m", "slide_allowance_m", "element_size_m", "coarse_size_m"),
@@ -26,16 +26,14 @@ def check_grounds(case, refuse) -> None:
         used = [one.on for one in case.interfaces.values()] + [
             one.to for one in case.links.values()
         ]
-        if name not in used:
+        if name not in used and ground != Ground():
             refuse(f"grounds.{name}", None, "nothing stands on it, and no link is held by it")
     for name, interface in case.interfaces.items():
         _check_interface(case, f"interfaces.{name}", interface, refuse)
-    if case.integration.engine == "full":
-        _check_full(case, refuse)
 
 
 def _check_keys(case, key: str, ground: Ground, refuse) -> None:
-    for one, kinds in _OF_KINDS.items():
+    for one, kinds in OF_KINDS.items():
         if (value := getattr(ground, one)) and ground.kind not in kinds:
             refuse(
                 f"{key}.{one}",
@@ -83,19 +81,3 @@ def _check_interface(case, key: str, interface, refuse) -> None:
                     f"must be left out where {key} is on a pad or on ground that gives: how a "
                     "round foot sinks in is not known",
                 )
-
-
-def _check_full(case, refuse) -> None:
-    """What the full-order engine does not have."""
-    told = 'must be left out with integration.engine = "full": the reduced and the rigid engine have it'
-    for name, ground in case.grounds.items():
-        if len(case.grounds) > 1 or ground.kind == "pad":
-            refuse(f"grounds.{name}.kind", ground.kind, told)
-        if ground.level_m:
-            refuse(f"grounds.{name}.level_m", ground.level_m, told)
-        if ground.motion:
-            refuse(f"grounds.{name}.motion", ground.motion.source, told)
-    for name, interface in case.interfaces.items():
-        for one in ("stiffness_n_m3", "rolling_resistance"):
-            if value := getattr(interface, one):
-                refuse(f"interfaces.{name}.{one}", value, told)

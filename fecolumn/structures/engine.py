@@ -13,6 +13,7 @@ from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts
 from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.schema import InputError
+from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import StructureModel
 from fecolumn.structures.structure import standing_of
 
@@ -55,7 +56,8 @@ def engine_of(case, model: StructureModel, file) -> Engine:
         name, _, told = str(error).partition(": ")
         raise InputError(file, name, None, told) from None
     weight = float(structure.bodies.body["mass"].sum()) * GRAVITY
-    eye = view_of(standing, structure, weight, case.overturn.displacement_m)
+    limits = limits_of(standing, standing_of(case, standing))
+    eye = view_of(standing, structure, weight, limits, case.overturn.displacement_m)
     return Engine(
         build,
         model.bases,

@@ -4,24 +4,21 @@ one mesh that tells them apart.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from scipy.spatial import cKDTree
 
 from fecolumn.dynamics.checkpoint import gather_all
-from fecolumn.mesh.bricks import outer_faces
 from fecolumn.post.fields import StressField, vertex_nodes
-from fecolumn.structures.faces import SAME_PLANE
+from fecolumn.post.scene import Scene
 
 
 class StructureFields:
-    """Fields of bodies from positions and contact forces, body by body in the order of their
-    meshes; `body` numbers them from 1, as the case does.
+    """Fields on the points of a scene from positions and contact forces, as
+    `post.fields.FieldWriter` takes them.
 
     Parameters
     ----------
-    column
+    bodies
         `fem.composite.Composite`.
     meshed
         `elements.Meshed` of each part.
@@ -31,45 +28,22 @@ class StructureFields:
         (P,) of POINT.
     """
 
-    def __init__(self, column, meshed: list, structure, points: np.ndarray):
-        self.comm, self._column, self._points = column.comm, column, points
-        self.meshes = [
-            replace(
-                one.shape.mesh,
-                points=part.center + (one.shape.mesh.points - part.model.center) @ part.rotation.T,
-            )
-            for one, part in zip(meshed, structure.parts)
-        ]
-        self.of_cells = {
-            "part": np.concatenate([mesh.part for mesh in self.meshes]),
-            "body": np.repeat(
-                np.arange(1, len(meshed) + 1), [len(mesh.cells) for mesh in self.meshes]
-            ),
-        }
-        self._nodes = column.of_each(lambda body, _: vertex_nodes(body))
-        self._stress = column.of_each(lambda body, _: StressField(body))
-        self._first = np.cumsum([0] + [len(mesh.points) for mesh in self.meshes])
-        self._seats = [self._seat(meshed[joint.slave], joint) for joint in structure.joints]
+    def __init__(self, scene: Scene, bodies, meshed: list, structure, points: np.ndarray):
+        self.comm, self._bodies, self._points, self.scene = bodies.comm, bodies, points, scene
+        self.meshes, self.of_cells, self.grounds = scene.meshes, scene.of_cells, scene.plates()
+        self._nodes = bodies.of_each(lambda body, _: vertex_nodes(body))
+        self._stress = bodies.of_each(lambda body, _: StressField(body))
+        self._seats = []
+        for joint, contact in zip(structure.joints, scene.contacts):
+            patch = meshed[joint.slave].patches[joint.slave_surface]
+            own = scene.pieces[joint.slave].points[contact.points - scene.first[joint.slave]]
+            self._seats.append((cKDTree(patch.positions).query(own)[1], patch.areas))
 
-    def _seat(self, one, joint):
-        """Of a joint: first point of the slave's mesh, those on the slave's face, the contact point
-        nearest to each, and the contact points' areas.
-        """
-        patch, mesh = one.patches[joint.slave_surface], one.shape.mesh
-        faces = outer_faces(mesh, patch.part)
-        away = np.abs((mesh.points[faces] - patch.origin) @ patch.axes[:, 2]).max(axis=1)
-        corners = np.unique(faces[away < SAME_PLANE * np.ptp(mesh.points, axis=0).max()])
-        return (
-            self._first[joint.slave],
-            corners,
-            cKDTree(patch.positions).query(mesh.points[corners])[1],
-            patch.areas,
-        )
+    def values(self, x, local, positions, forces) -> dict[str, np.ndarray] | None:
+        """Displacement (n_points, 3) [m] from where the bodies stand upright, von Mises stress
+        (n_cells,) [Pa], and pressure (n_points,) [Pa] on the faces of slaves; on rank 0.
 
-    def values(self, x, local, positions, forces, at_nodes) -> dict[str, np.ndarray] | None:
-        """As of `post.fields.SpecimenFields.values`: displacement (n_points, 3) [m] from where the
-        bodies stand upright, von Mises stress (n_cells,) [Pa], and pressure (n_points,) [Pa] on the
-        faces of slaves; on rank 0.
+        Called on every rank.
 
         Parameters
         ----------
@@ -77,25 +51,33 @@ class StructureFields:
             (n_owned, 3) positions [m]
         local
             displacements in the frames of the bodies [m].
+        positions
+            (P, 3) [m] of the contact points, asked for where a ground is an elastic plate.
         forces
-            (P, 3) of the contact points [N].
+            (P, 3) [N] on them in the frames of their joints.
         """
-        column = self._column
+        bodies, scene = self._bodies, self.scene
         moved = [
-            gather_all(part, (x - column.placed)[rows])
-            for part, rows in zip(column.parts, column.rows)
+            gather_all(part, (x - bodies.placed)[rows])
+            for part, rows in zip(bodies.parts, bodies.rows)
         ]
-        stress = [own.values(local[rows]) for own, rows in zip(self._stress, column.rows)]
-        if column.comm.rank:
+        stress = [own.values(local[rows]) for own, rows in zip(self._stress, bodies.rows)]
+        if bodies.comm.rank:
             return None
-        pressure = np.zeros(self._first[-1])
-        for number, (first, corners, nearest, areas) in enumerate(self._seats):
-            push = forces[self._points["interface"] == number, 2]
-            pressure[first + corners] += np.divide(
-                push, areas, out=np.zeros(len(push)), where=areas > 0
-            )[nearest]
+        moved = [values[nodes] for values, nodes in zip(moved, self._nodes)]
+        of = self._points["interface"]
+        for plate, ground in self.grounds:
+            on = [number for number, one in enumerate(scene.contacts) if one.stands_on(ground)]
+            own = np.isin(of, on)
+            for found, values in zip((moved, stress), plate.sunk(positions[own], forces[own])):
+                found.append(values)
+        pressure = np.zeros(len(scene.points))
+        for number, (contact, (nearest, areas)) in enumerate(zip(scene.contacts, self._seats)):
+            push = forces[of == number, 2]
+            shared = np.divide(push, areas, out=np.zeros(len(push)), where=areas > 0)
+            pressure[contact.points] += shared[nearest]
         return {
-            "displacement": np.vstack([values[nodes] for values, nodes in zip(moved, self._nodes)]),
+            "displacement": np.vstack(moved),
             "von_mises": np.concatenate(stress),
             "pressure": pressure,
         }

@@ -148,7 +148,7 @@ def _joined(spans, fine: float) -> list[tuple[float, float]]:
 
 def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
     """The plate as `reduced.cache.KnownBase` keeps it, its compliance found if it is not on disk."""
-    from fecolumn.reduced.cache import LEAST_REACH, KnownBase, keep_base, under
+    from fecolumn.contact.known_base import LEAST_REACH, KnownBase, keep_base, under
 
     count = 3 * len(sized.x) * len(sized.y) * len(sized.z)
     if count > case.mesh.limit_dofs:
@@ -190,21 +190,26 @@ def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
     return KnownBase(folder, make)
 
 
+def plate_mesh(sized: Sized):
+    """Mesh of a plate of these sizes, its top at z = 0."""
+    from fecolumn.mesh.bricks import BASE
+    from fecolumn.mesh.gmsh_section import swept_grid
+
+    return swept_grid(sized.x, sized.y, sized.z[::-1], BASE)
+
+
 def plate_of(sized: Sized, ground: Ground):
     """The BasePlate of a ground of these sizes, its top at z = 0."""
     from mpi4py import MPI
 
     from fecolumn.contact.base_plate import BasePlate
     from fecolumn.fem.body import Body
-    from fecolumn.mesh.bricks import BASE
-    from fecolumn.mesh.gmsh_section import swept_grid
 
     def held(body):
         bottom = body.all_X[:, 2].min()
         return {}, np.flatnonzero(body.all_X[:, 2] < bottom - 1e-9 * sized.z[-1])
 
-    mesh = swept_grid(sized.x, sized.y, sized.z[::-1], BASE)
-    return BasePlate(Body(MPI.COMM_SELF, mesh, ground, 1, held))
+    return BasePlate(Body(MPI.COMM_SELF, plate_mesh(sized), ground, 1, held))
 
 
 def _keep(folder: Path, base: dict, plate, keep_base) -> None:

@@ -5,13 +5,13 @@ bodies' mean motion and the tops' nodes.
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
+from fecolumn._compiled import interpreted
 from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, poses_of
-from fecolumn.dynamics.linkage import STILL
-from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, never_alone
+from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
+from fecolumn.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, gone, never_alone
 from fecolumn.fem.rotation import tilt_angle, twist_angle
-from fecolumn.reduced.structure import LOST
 from fecolumn.structures.analysis import of_both_sides
 
 
@@ -26,11 +26,14 @@ class StructureObserver:
         `elements.Meshed` of each part.
     structure
         StructureModel, as it stands upright: displacements are measured from there.
+    limits
+        `overturning.Limits` of the parts.
     cap
         horizontal displacement of the observed mark that counts as overturned [m], 0 for none.
     """
 
-    def __init__(self, system, meshed: list, structure, cap: float):
+    def __init__(self, system, meshed: list, structure, limits, cap: float):
+        self._limits = limits
         self.system, self.structure, self._meshed = system, structure, meshed
         self.body, self._mark = structure.observed
         part = structure.parts[self.body]
@@ -42,7 +45,9 @@ class StructureObserver:
             np.array([getattr(part, name) for part in structure.parts])
             for name in ("center", "rotation")
         )
-        reference = poses_of(system.interface.interfaces, self._centers, upright, STILL)
+        reference = poses_of(
+            system.interface.interfaces, self._centers, upright, grounds_at(structure.levels)
+        )
         self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
         standing = [joint for joint in structure.joints if joint.slave == self.body]
         nodes = part.model.surfaces[standing[0].slave_surface].nodes if standing else []
@@ -76,15 +81,16 @@ class StructureObserver:
             penetration=max(
                 0.0, -float(state.relative[state.contact["located"], 2].min(initial=0.0))
             ),
-            ground=state.ground,
+            ground=state.ground[:3],
         )
         for b, part in enumerate(structure.parts):
             row |= {
                 f"body/{part.name}/displacement": moved[b],
                 f"body/{part.name}/tilt": tilt_angle(R[b]),
+                f"body/{part.name}/rotation": Rotation.from_matrix(R[b]).as_rotvec(),
                 f"mark/{part.name}.top/displacement": tops[b],
             }
-        poses = poses_of(interface.interfaces, moved + self._centers, R, STILL)
+        poses = poses_of(interface.interfaces, moved + self._centers, R, state.grounds)
         normal = np.bincount(
             interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses)
         )
@@ -121,14 +127,36 @@ class StructureObserver:
         )
 
     def fallen(self, state, measures: dict, steepest: float) -> int:
-        """As `reduced.observe.lost`: lost where any body has fallen past the ground, or tilted by
-        LOST.
-        """
-        if any(
-            center[2] + measures[f"body/{part.name}/displacement"][2] < 0
-            for center, part in zip(self._centers, self.structure.parts)
-        ):
-            return FELL
-        if any(measures[f"body/{part.name}/tilt"] > LOST for part in self.structure.parts):
+        """As `reduced.observe.lost`; on all ranks together."""
+        tilts = []
+        for center, part in zip(self._centers, self.structure.parts):
+            if center[2] + measures[f"body/{part.name}/displacement"][2] < min(
+                self.structure.levels
+            ):
+                return FELL
+            tilts.append(measures[f"body/{part.name}/tilt"])
+        limits, R = self._limits, state.rotation.copy()
+        if (tilts > limits.tilts).any():
             return NO_RETURN
+        # a body leans from another by no more than both do from the vertical
+        if 2 * max(tilts) > limits.standing["critical"].min():
+            spins, force = self._spins(state), measures["contact_force"]
+            for b in range(len(tilts)):
+                if interpreted(gone)(
+                    limits.standing, limits.corners, R, spins, b, force, float(steepest)
+                ):
+                    return NO_RETURN
         return CAPPED if np.hypot(*measures["u_top"][:2]) >= self.stance.cap else STANDS
+
+    def _spins(self, state) -> np.ndarray:
+        """Angular velocities (nb, 3) [rad/s] in the frames of the bodies, of rigid ones with their
+        angular momentum.
+        """
+        column, spins = self.system.bodies, []
+        momentum, centers = column.momentum(state.v), column.centers(state.x)
+        for part, rows, center, R in zip(
+            self.structure.parts, column.rows, centers, state.rotation
+        ):
+            angular = column.sum(np.cross(state.x[rows] - center, momentum[rows]).sum(axis=0))
+            spins.append(np.linalg.solve(part.model.inertia, R.T @ angular))
+        return np.array(spins)

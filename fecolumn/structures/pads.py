@@ -28,30 +28,59 @@ def pad_keys(case, interface):
     return None, ""
 
 
-def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces) -> list[Joint]:
+def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, file) -> list[Joint]:
     """The joints, those on a pad with its springs; interfaces: names of theirs.
 
     One relaxation time for all joints of a pad: that at which the dashpots give what the pad
     carries, on all its area, the stated damping ratio.
+
+    Raises
+    ------
+    InputError
+        a pad that yields under the weight on it.
     """
     pads = [pad_keys(case, name) for name in interfaces]
     found, carried = list(joints), loads(standing, joints)
     for where in dict.fromkeys(where for _, where in pads if where):
         own = [k for k, (_, other) in enumerate(pads) if other == where]
-        areas = [
-            standing[joints[k].slave].model.surfaces[joints[k].slave_surface].areas for k in own
-        ]
+        areas = [_areas(standing, joints[k]) for k in own]
         # several faces of one body on another carry its load together
-        load = {(joints[k].slave, joints[k].master): carried[k] for k in own}
-        mass = sum(load.values()) / GRAVITY / sum(one.sum() for one in areas)
-        for k, area in zip(own, areas):
+        pressures = [carried[k] / _area_below(standing, joints, joints[k]) for k in own]
+        mass = np.dot(pressures, [one.sum() for one in areas]) / GRAVITY
+        mass /= sum(one.sum() for one in areas)
+        for k, area, pressure in zip(own, areas, pressures):
+            keys = pads[k][0]
+            if keys.yield_pa and pressure >= keys.yield_pa:
+                raise InputError(
+                    file,
+                    f"{where}.yield_pa",
+                    keys.yield_pa,
+                    f'must be more than {pressure:.4g} Pa, with which "'
+                    f'{standing[joints[k].slave].name}" presses on it at rest',
+                )
             found[k] = dataclasses.replace(
                 joints[k],
                 pad=pad_below(pads[k][0], area, mass or _own_mass(standing, joints[k], area)),
                 restitution=0.0,
                 rolling=0.0,
+                # a node of a rim that comes down on a pad presses a spring
+                round=False,
             )
     return found
+
+
+def _areas(standing, joint: Joint) -> np.ndarray:
+    """Areas (n,) [m2] tributary to the points of a joint."""
+    return standing[joint.slave].model.surfaces[joint.slave_surface].areas
+
+
+def _area_below(standing, joints, joint: Joint) -> float:
+    """Area [m2] of all faces with which the slave of a joint stands on the master."""
+    return sum(
+        _areas(standing, one).sum()
+        for one in joints
+        if (one.slave, one.master) == (joint.slave, joint.master)
+    )
 
 
 def _own_mass(standing, joint: Joint, areas: np.ndarray) -> float:

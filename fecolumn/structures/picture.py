@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.atomic import write_bytes
-from fecolumn.mesh.picture import rendered, projection_axes
+from fecolumn.mesh.picture import projection_axes, rendered
 from fecolumn.structures.drawn import link_ends, outside
 
 _COLOURS = ("#c67b5c", "#9fb2c1", "#d8c08a", "#7f9a75", "#b58fa8", "#8c8fb5", "#c9a27e", "#86aeb0")

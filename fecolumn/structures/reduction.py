@@ -47,7 +47,7 @@ def elastic_model(
 ) -> tuple[BodyModel, np.ndarray]:
     """Reduce a body of finite elements; also the shapes (m, n_nodes, 3) of the modes all over it.
 
-    As `reduced.build.column_model` does, at the nodes of all patches: rigid motion, elastic modes
+    At the nodes of all patches: rigid motion, elastic modes
     of the free body, and the exact flexibility by inertia relief. Marks: "top", the mean over the
     highest level face.
 
@@ -58,35 +58,23 @@ def elastic_model(
     patches
         by the names of the surfaces.
     """
-    from fecolumn.fem.effective import blocks, unit_loads
-    from fecolumn.fem.free_body import FreeBody
-    from fecolumn.fem.modes import elastic_modes
-    from fecolumn.reduced.build import BATCH
+    from fecolumn.reduced.build import reduced_at
 
     body = body_of(shape, material)
     found = {name: body.find_nodes(patch.positions, patch.part) for name, patch in patches.items()}
     nodes = np.unique(np.concatenate(list(found.values())))
-    frequencies, fields = elastic_modes(body, n_modes)
-    free, n = FreeBody(body), len(nodes)
-    flexibility = np.empty((3 * n, 3 * n))
-    for first in range(0, n, BATCH // 3):
-        batch = nodes[first : first + BATCH // 3]
-        columns = free.response(unit_loads(body, batch)).reshape(body.n_owned, 3, -1)
-        flexibility[:, 3 * first : 3 * (first + len(batch))] = columns[nodes].reshape(3 * n, -1)
-
-    def at(rows):
-        return np.ascontiguousarray(fields.transpose(1, 2, 0)[rows])
-
+    reduced = reduced_at(body, nodes, n_modes)
     positions, shares = face_weights(top_face(faces), shape.order)
     top = body.find_nodes(positions, top_face(faces).part)
-    marks = {"top": (shares @ positions - body.center, np.einsum("i,iam->am", shares, at(top)))}
+    shape_of_top = np.einsum("i,iam->am", shares, reduced.at(top))
+    marks = {"top": (shares @ positions - body.center, shape_of_top)}
     model = BodyModel(
         mass=float(body.total_mass),
-        inertia=free.masses[3:, 3:],
+        inertia=reduced.inertia,
         center=body.center,
-        frequencies=frequencies,
-        shapes=at(nodes),
-        flexibility=blocks(flexibility),
+        frequencies=reduced.frequencies,
+        shapes=reduced.at(nodes),
+        flexibility=reduced.flexibility,
         arms=body.all_X[nodes] - body.center,
         dofs=3 * body.n_nodes,
         surfaces={
@@ -95,7 +83,7 @@ def elastic_model(
         },
         marks=marks,
     )
-    return model, fields
+    return model, reduced.fields
 
 
 def rigid_model(

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.mesh.jacobian import scaled_jacobian
+from fecolumn.structures.keys import Ground
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.model import GROUND
 from fecolumn.structures.picture import structure_picture
@@ -37,6 +38,7 @@ def structure_report(case, file, folder, say=lambda text: None) -> str:
             *_bodies(case, layout, models),
             "",
             *_interfaces(case, structure),
+            *_grounds(case, structure),
             *_links(case, structure),
         ]
     )
@@ -72,6 +74,31 @@ def _interfaces(case, structure):
         yield f"{joint.name:<50}{len(surface.nodes):>8}{len(over):>15}{surface.areas[over].sum():>12.5g}{joint.friction:>10.3g}{'dome' if joint.ball and joint.ball.is_dome else 'round' if joint.round else 'edges':>8}"
 
 
+def _grounds(case, structure):
+    """What stands on each ground, and how it gives."""
+    if all(ground == Ground() for ground in case.grounds.values()):
+        return
+    yield from (
+        "",
+        f"{'ground':<26}{'kind':<12}{'level [m]':>10}{'feet':>6}{'area [m2]':>12}"
+        f"{'frequency [Hz]':>16}{'dofs':>9}",
+    )
+    for place, (name, ground) in enumerate(case.grounds.items()):
+        feet = [one for one in structure.joints if one.master == GROUND and one.ground == place]
+        area = sum(
+            structure.parts[one.slave].model.surfaces[one.slave_surface].areas.sum() for one in feet
+        )
+        # of a pad that of what stands on it, of a plate or a layer its own
+        frequency = min(
+            [one.pad.frequency for one in feet if one.pad] or [structure.bases[place].frequency]
+        )
+        shown = f"{frequency:.4g}" if np.isfinite(frequency) else "-"
+        yield (
+            f"{name:<26}{ground.kind:<12}{ground.level_m:>10.4g}{len(feet):>6}{area:>12.5g}"
+            f"{shown:>16}{structure.bases[place].dofs:>9}"
+        )
+
+
 def _links(case, structure):
     if structure.links:
         yield from (
@@ -79,11 +106,11 @@ def _links(case, structure):
             f"{'link':<26}{'between':<40}{'length [m]':>12}{'stiffness [N/m]':>17}{'damping [N s/m]':>17}{'prestress [N]':>15}{'slack [m]':>11}{'yields [N]':>12}{'at [m]':>11}"
             f"{'breaks [N]':>12}{'at [m]':>11}",
         )
-    standing = standing_of(case, structure)
+    standing, grounds = standing_of(case, structure), list(case.grounds)
     for link in structure.links:
         ends = (
             f"{structure.parts[link.a].name} - "
-            f"{'ground' if link.b == GROUND else structure.parts[link.b].name}"
+            f"{grounds[link.ground] if link.b == GROUND else structure.parts[link.b].name}"
         )
         other = link.arm_b if link.b == GROUND else standing[link.b].center + link.arm_b
         length = np.linalg.norm(other - standing[link.a].center - link.arm_a)

@@ -1,8 +1,8 @@
 """Reduced bodies and layouts on disk: made once, opened in milliseconds by every analysis of the
 same structure.
 
-A body is a folder named after the content it was made from, as `reduced.cache` has them for
-columns: body.npz and, of finite elements, fields.npy with the mode shapes (m, n_nodes, 3) all over
+A body is a folder named after the content it was made from, so that nothing has to be invalidated:
+body.npz and, of finite elements, fields.npy with the mode shapes (m, n_nodes, 3) all over
 it. A layout is a JSON file that names the bodies and their contacts.
 """
 
@@ -26,50 +26,22 @@ from fecolumn.lock import alone
 from fecolumn.sources import digest_of, files_of
 from fecolumn.structures.model import BodyModel, Storeys, Surface
 
-# Sources that bodies and layouts are made from
+#: Sources that bodies, layouts and grounds are made from, whole folders where most of them are.
 SOURCES = (
     "_dolfinx.py",
     "material",
-    "fem/body.py",
-    "fem/effective.py",
-    "fem/free_body.py",
-    "fem/modes.py",
-    "fem/rayleigh.py",
-    "mesh/base_plate.py",
-    "mesh/bricks.py",
-    "mesh/gmsh_section.py",
-    "mesh/imported.py",
-    "mesh/jacobian.py",
-    "mesh/quality.py",
-    "mesh/section.py",
-    "mesh/surface.py",
-    "mesh/tie.py",
+    "fem",
+    "mesh",
+    "structures",
     "contact/base_plate.py",
     "contact/base_top.py",
     "contact/footprint.py",
+    "contact/known_base.py",
+    "contact/layer.py",
     "contact/tolerances.py",
+    "contact/unbounded_base.py",
     "dynamics/assembly.py",
     "reduced/build.py",
-    *(
-        f"structures/{name}.py"
-        for name in (
-            "bodies",
-            "edges",
-            "faces",
-            "feet",
-            "ground",
-            "layout",
-            "lines",
-            "matrices",
-            "meetings",
-            "model",
-            "patches",
-            "reduction",
-            "shapes",
-            "store",
-            "storeys",
-        )
-    ),
 )
 #: Modes that a body keeps at least, so that analyses with fewer share it.
 KEPT_MODES = 30

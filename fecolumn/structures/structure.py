@@ -181,7 +181,8 @@ def assembled(
     ]
     check_joints(joints, standing, file)
     joints = _with_hertz(case, joints, standing, copies)
-    joints = with_pads(case, joints, standing, [one["interface"] for one in layout["contacts"]])
+    interfaces = [one["interface"] for one in layout["contacts"]]
+    joints = with_pads(case, joints, standing, interfaces, file)
     parts = tuple(
         Part(
             one.name,

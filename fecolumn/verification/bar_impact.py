@@ -156,7 +156,7 @@ def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float =
 
 def foot_mass(system) -> float:
     """Mass [kg] with which the filtered foot resists a common vertical velocity of its points."""
-    mobility = system.interface.foot.mobility[:, :, 2, 2]
+    mobility = system.interface.foot.mobility[0][:, :, 2, 2]
     return float(np.linalg.solve(mobility, np.ones(len(mobility))).sum())
 
 

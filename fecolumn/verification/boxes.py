@@ -9,6 +9,7 @@ import numpy as np
 from fecolumn import case
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.overturning import Limits
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.start import of_parts
@@ -107,7 +108,12 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     model = StructureModel(tuple(parts), tuple(joints), tuple(links), base, (observed, "top"))
     hht = HHT(dt, alpha)
     structure, _ = structure_of(model, hht, GRAVITY)
-    eye = view_of(model, structure, structure.bodies.body["mass"].sum() * case.GRAVITY)
+    eye = view_of(
+        model,
+        structure,
+        structure.bodies.body["mass"].sum() * case.GRAVITY,
+        Limits.of_tilt(len(model.parts)),
+    )
     return Engine(
         lambda step: structure_of(model, step, GRAVITY),
         (base,),

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.reduced.observe import ENERGY, WIDTH
+from fecolumn.reduced.observe import ENERGY, PER_BODY, WIDTH
 from fecolumn.verification.joint_bodies import (
     BELOW,
     DISPLACED,
@@ -141,7 +141,7 @@ def _exchanged(engine: str):
             taken = np.diff(history[:, ENERGY + TERMS.index("impact")])
             hits = np.flatnonzero(taken < -1e-6 * np.abs(history[:, ENERGY]).max())
             last = min(last, hits[_IMPACTS - 1] + 2 if len(hits) >= _IMPACTS else len(history))
-            histories.append(history[:, WIDTH : WIDTH + 4 * len(made.motion.frames)])
+            histories.append(history[:, WIDTH : WIDTH + PER_BODY * len(made.motion.frames)])
         first, second = (history[: int(last)] for history in histories)
         yield Row(
             f"{name}, bodies of every joint exchanged, {int(last)} steps to the third "

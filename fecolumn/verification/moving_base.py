@@ -33,7 +33,7 @@ class MovingInterface(Interface):
     """
 
     def __init__(self, still: Interface):
-        super().__init__(still.composite, still.foot, still.base, still.joints)
+        super().__init__(still.composite, still.foot, still.bases, still.joints)
         self.position, self.first = np.zeros(3), np.zeros(3)
         self.known_velocities: list = []
 

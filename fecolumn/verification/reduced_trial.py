@@ -15,11 +15,10 @@ from fecolumn.dynamics.system import State
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced import start as starts
-from fecolumn.reduced.build import column_model
 from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
-from fecolumn.reduced.engine import column_engine
 from fecolumn.reduced.motion import copy
-from fecolumn.reduced.observe import COLUMNS, view
+from fecolumn.reduced.observe import COLUMNS
+from fecolumn.verification.one_foot import engine_on, foot_model, on_base
 from fecolumn.verification.trial import N_MODES, Trial
 
 # what is known of a body: making it takes seconds, and one body serves many trials
@@ -46,13 +45,8 @@ class Reduction:
         )
         height = body.all_X[:, 2]
         top = np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height))
-        self.model, self.shapes = column_model(
-            body,
-            system.footprint.nodes,
-            system.footprint.areas,
-            top,
-            np.full(len(top), 1 / len(top)),
-            min(n_modes, free),
+        self.model, self.shapes = foot_model(
+            body, system.footprint.nodes, system.footprint.areas, top, min(n_modes, free)
         )
         self.rigid, self.momentum, self.masses = rigid_fields(body)
 
@@ -200,17 +194,9 @@ class ReducedTrial(Trial):
                 else self.reduction.projected(engine, first, system)
             )
 
-        eye = view(self.reduction.model, system.weight, system.laws["friction"])
-        self.engine = column_engine(
-            self.reduction.model,
-            system.base,
-            eye,
-            system.hht,
-            begin,
-            system.gravity,
-            damping_ratio=system.damping.each[0].ratio if system.damping else 0.0,
-            **system.laws,
-        )
+        ratio = system.damping.each[0].ratio if system.damping else 0.0
+        structure = on_base(self.reduction.model, system.base, damping_ratio=ratio, **system.laws)
+        self.engine = engine_on(structure, system.hht, begin, system.gravity)
         self.state = self.start = self._state()
 
     def _state(self) -> Expanded:

@@ -9,12 +9,13 @@ import typing
 import pytest
 
 from fecolumn import __version__, keys, manual, templates
-from fecolumn.case import Case, read_case
+from fecolumn.case import read_case
 from fecolumn.cli import main
+from fecolumn.short_form import ShortForm
 from fecolumn.study.plan import read_plan
 
 
-def dotted_keys(section=Case, prefix=""):
+def dotted_keys(section=ShortForm, prefix=""):
     """Every key of a case by its dotted name, from the dataclasses themselves."""
     for name, kind in typing.get_type_hints(section).items():
         inner = [k for k in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(k)]

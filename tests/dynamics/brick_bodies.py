@@ -1,5 +1,6 @@
 """Structures of bodies of a few bricks, in full order and reduced from the same meshes."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -10,9 +11,11 @@ from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.energy import TERMS, Ledger
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
+from fecolumn.dynamics.overturning import Limits
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.dynamics.structure import released, structure_system
 from fecolumn.fem.body import Body
+from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.effective import blocks, unit_loads
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.modes import elastic_modes
@@ -161,18 +164,32 @@ class Structure:
             (len(parts) - 1 if observed is None else observed, "top"),
         )
 
-    def full(self, dt=1e-3, alpha=-0.05, stands=True):
+    def full(
+        self, dt=1e-3, alpha=-0.05, stands=True, impact="plastic", kinematics=Corotated, base=None
+    ):
+        """Further arguments: of Stepper, of each body, and what they stand on unless it is rigid."""
         model = self.model()
-        return FullRun(
-            structure_system(model, [body for _, body, *_ in self.bodies], HHT(dt, alpha), GRAVITY),
+        model = replace(model, base=base or model.base)
+        bodies = [body for _, body, *_ in self.bodies]
+        system = structure_system(
             model,
-            stands,
+            bodies,
+            HHT(dt, alpha),
+            GRAVITY,
+            filtered=impact == "plastic",
+            kinematics=kinematics,
         )
+        return FullRun(system, model, stands, impact=impact)
 
     def reduced(self, dt=1e-3, alpha=-0.05, modes=ALL, stands=True):
         model, hht = self.model(modes), HHT(dt, alpha)
         structure, _ = structure_of(model, hht, GRAVITY)
-        eye = view_of(model, structure, structure.bodies.body["mass"].sum() * 9.81)
+        eye = view_of(
+            model,
+            structure,
+            structure.bodies.body["mass"].sum() * 9.81,
+            Limits.of_tilt(len(model.parts)),
+        )
         return Engine(
             lambda step: structure_of(model, step, GRAVITY),
             model.bases,
@@ -186,7 +203,7 @@ class Structure:
 class FullRun:
     """Steps of the full-order engine, with what a row of the reduced one says of bodies."""
 
-    def __init__(self, system, model, stands=True, state=None):
+    def __init__(self, system, model, stands=True, state=None, impact="plastic"):
         self.system, self.model = system, model
         self.state = (
             released(system, model.parts, standing(system) if stands else None)
@@ -195,7 +212,7 @@ class FullRun:
         )
         self.ledger = Ledger(system)
         self.ledger.open(self.state)
-        self.stepper = Stepper(system, self.ledger)
+        self.stepper = Stepper(system, self.ledger, impact)
 
     def advance(self, grounds):
         """Displacement of the centres of mass and tilt (k, nb, 4) and the ledger (k, terms) after

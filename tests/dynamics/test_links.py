@@ -7,6 +7,7 @@ import pytest
 
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import frames_at
+from fecolumn.dynamics.linkage import STILL
 from fecolumn.dynamics.links import LINK, TIE, end_links, pull_links
 
 LENGTH, STIFFNESS, YIELDS, DT = 1.0, 2e6, 4e3, 1e-3
@@ -44,8 +45,8 @@ def walked(
     ties["length"], turn, tensions, taken, done = LENGTH, np.eye(3)[None], [], 0.0, 0.0
     for before, after in zip(frames, frames[1:]):
         later = ties.copy()
-        pull_links(link, ties, before, turn, after, turn, DT, pulls)
-        kept, lost = end_links(link, after, turn, ties, later, DT)
+        pull_links(link, ties, STILL, before, turn, STILL, after, turn, DT, pulls)
+        kept, lost = end_links(link, STILL, after, turn, ties, later, DT)
         # the force on the body pulls it towards the ground, at the origin
         done -= pulls[0, 0] * (after["center"][0, 0] - before["center"][0, 0])
         ties, taken = later, taken + lost

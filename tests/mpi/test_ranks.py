@@ -124,6 +124,20 @@ at_m = [0, 0, 0.5]
 """
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("keys", "more"), [("kinematics", "total_lagrangian"), ("impact", "none")], ids=str
+)
+def test_two_ranks_give_the_motion_of_every_kind_of_structure(tmp_path, keys, more):
+    text = STACKED.replace("output.fields_every_s = 0.04\n", "")
+    section = "contact = {" if keys == "impact" else "integration = {"
+    case = tmp_path / "case.toml"
+    case.write_text(text.replace(section, f'{section}{keys} = "{more}", '))
+    one, two = (_run(n, case, tmp_path / str(n)) for n in (1, 2))
+    np.testing.assert_allclose(two[1], one[1], rtol=0, atol=1e-8)
+    assert np.ptp(one[1][:, 0]) > 5e-3
+
+
 def test_two_ranks_give_the_motion_of_a_structure_that_one_gives(tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(STACKED)

@@ -4,10 +4,9 @@ import numpy as np
 
 from fecolumn.dynamics import gravity
 from fecolumn.reduced import start
-from fecolumn.reduced.build import column_model
-from fecolumn.reduced.engine import column_engine
-from fecolumn.reduced.observe import COLUMNS, view
+from fecolumn.reduced.observe import COLUMNS
 from fecolumn.verification.models import column_system
+from fecolumn.verification.one_foot import engine_on, foot_model, on_base
 from fecolumn.verification.trial import Trial
 
 PLACES = dict(zip([name for name, _ in COLUMNS], np.cumsum([0] + [width for _, width in COLUMNS])))
@@ -21,19 +20,11 @@ def top_nodes(body):
 
 def reduced(system, n_modes=30, begin=start.standing, overturn=0.25):
     """The reduced engine of a full-order system."""
-    body = system.body
-    model, _ = column_model(body, foot.nodes, foot.areas, *top_nodes(body), n_modes)
-    eye = view(model, system.weight, system.laws["friction"], overturn)
-    return column_engine(
-        model,
-        system.base,
-        eye,
-        system.hht,
-        begin,
-        system.gravity,
-        damping_ratio=system.damping.each[0].ratio if system.damping else 0.0,
-        **system.laws,
-    )
+    foot = system.footprint
+    model, _ = foot_model(system.body, foot.nodes, foot.areas, top_nodes(system.body)[0], n_modes)
+    ratio = system.damping.each[0].ratio if system.damping else 0.0
+    structure = on_base(model, system.base, damping_ratio=ratio, **system.laws)
+    return engine_on(structure, system.hht, begin, system.gravity, overturn)
 
 
 def tops(system, grounds, begin=gravity.standing):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fecolumn.case import case_from_tables
-from fecolumn.reduced.analysis import engine_of
-from fecolumn.reduced.cache import load_model
+from fecolumn.structures.engine import engine_of
+from fecolumn.structures.structure import structure_model
 
 SIDE, HEIGHT, START = 0.4, 1.2, 0.4
 
@@ -27,8 +27,7 @@ def test_a_marble_block_rocks_as_housner_says(engine):
         },
         "block.toml",
     )
-    model, base, _ = load_model(case)
-    engine = engine_of(case, model, base)
+    engine = engine_of(case, structure_model(case), "block.toml")
     rows, _ = engine.advance(np.zeros((900, 3)))
     time, lean, tilt = rows[:, 0], rows[:, 1], rows[:, 4]
     quarter = time[np.argmax(lean < 0)]

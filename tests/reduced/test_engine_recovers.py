@@ -10,12 +10,13 @@ import pytest
 
 from fecolumn import simulation
 from fecolumn.case import case_from_tables
+from fecolumn.contact import known_base
 from fecolumn.contact.problem import CONTACT_FAILED
 from fecolumn.dynamics.cuts import StepFailed
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.history import read_history
-from fecolumn.reduced import cache
+from fecolumn.structures.structure import structure_model
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.trials import begin_trial
 
@@ -135,9 +136,9 @@ def test_an_analysis_that_a_full_disk_stopped_keeps_its_steps_and_goes_on_to_the
     case, folder = case_of(), tmp_path / "stopped"
     with monkeypatch.context() as patch:
         patch.setenv("FECOLUMN_CACHE", str(tmp_path / "cache"))
-        cache.load_model(case)
+        structure_model(case)
         with patch.context() as full:
-            full.setattr(cache, "_keep_base", full_disk)
+            full.setattr(known_base, "keep_base", full_disk)
             with pytest.raises(OSError):
                 simulation.run(case, folder, quiet=True)
         kept = read_history(folder / "history.h5")["time"]
@@ -155,10 +156,11 @@ def test_an_analysis_that_a_full_disk_stopped_keeps_its_steps_and_goes_on_to_the
 
 def test_a_base_whose_next_reach_cannot_be_kept_tries_that_one_again(tmp_path, monkeypatch):
     monkeypatch.setenv("FECOLUMN_CACHE", str(tmp_path))
-    _, base, folder = cache.load_model(case_of())
+    base = structure_model(case_of()).base
+    folder = base._folder
     wanted = base.grid.around(np.array([[0.25, 0.0, 0.0]]), 1)
     with monkeypatch.context() as patch:
-        patch.setattr(cache, "_keep_base", full_disk)
+        patch.setattr(known_base, "keep_base", full_disk)
         with pytest.raises(OSError):
             base.need(wanted)
     base.need(wanted)

@@ -10,10 +10,8 @@ from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.dynamics.hht import HHT
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.reduced import motion as motions
-from fecolumn.reduced import start
-from fecolumn.reduced.engine import column_engine
-from fecolumn.reduced.model import ColumnModel
-from fecolumn.reduced.observe import view
+from fecolumn.structures.model import BodyModel
+from fecolumn.verification.one_foot import engine_on, foot_surface, on_base, tilted
 
 ALPHA, DT, ZETA, GRAVITY = -0.2, 1e-3, 0.05, np.array([0.0, 0.0, -9.81])
 MASS, INERTIA = 10.0, np.diag([0.9, 1.0, 0.1])
@@ -33,40 +31,36 @@ def model():
         .reshape(N, 3, N, 3)
         .transpose(0, 2, 1, 3)
     )
-    return ColumnModel(
-        MASS,
-        INERTIA,
-        np.array([0.0, 0.0, 0.5]),
-        FREQUENCIES,
-        shapes,
-        np.ascontiguousarray(flexibility),
-        arms,
-        np.full(N, 1e-3),
-        np.array([0.0, 0.0, 0.5]),
-        np.zeros((3, 3)),
-        0,
+    return BodyModel(
+        mass=MASS,
+        inertia=INERTIA,
+        center=np.array([0.0, 0.0, 0.5]),
+        frequencies=FREQUENCIES,
+        shapes=shapes,
+        flexibility=np.ascontiguousarray(flexibility),
+        arms=arms,
+        dofs=0,
+        surfaces={"foot": foot_surface(arms, np.full(N, 1e-3))},
+        marks={"top": (np.array([0.0, 0.0, 0.5]), np.zeros((3, 3)))},
     )
 
 
 @pytest.fixture(scope="module")
 def engine(model):
     def begin(engine):
-        motion = start.tilted(engine, 0.004, 0.3)
+        motion = tilted(engine, 0.004, 0.3)
         motion.frames["spin"][0] = [0.3, -0.9, 0.2]
         return motion
 
-    return column_engine(
+    structure = on_base(
         model,
         rigid_base(model.reference),
-        view(model, MASS * 9.81, 0.7),
-        HHT(DT, ALPHA),
-        begin,
-        GRAVITY,
-        damping_ratio=ZETA,
-        friction=0.7,
-        law=np.zeros((N, 3)),
+        0.7,
+        np.zeros((N, 3)),
+        ZETA,
         rim=Rim.find(model.reference),
     )
+    return engine_on(structure, HHT(DT, ALPHA), begin, GRAVITY)
 
 
 def slides(forces):

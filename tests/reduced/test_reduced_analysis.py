@@ -9,11 +9,12 @@ import h5py
 import numpy as np
 import pytest
 
-import fecolumn.reduced.analysis  # noqa: F401  (compiled functions belong in the user's cache, not in this module's)
+import fecolumn.structures.reduced_analysis  # noqa: F401  (compiled functions belong in the user's cache)
 from fecolumn import simulation
 from fecolumn.case import case_from_tables, read_toml
-from fecolumn.reduced import cache as cache_of_models
+from fecolumn.contact.known_base import KnownBase
 from fecolumn.schema import InputError, merge
+from fecolumn.structures.bodies import Drawing
 
 SPECIMEN = "meshes/stout.toml"
 
@@ -173,13 +174,13 @@ def test_literal_hht_is_refused():
 
 
 def test_what_is_made_once_is_no_cost_of_the_analysis_that_makes_it(tmp_path, monkeypatch):
-    real, slow = cache_of_models._make, 1.5
+    real, slow = Drawing.model, 1.5
 
-    def make(case, folder):
+    def make(*args):
         time.sleep(slow)
-        real(case, folder)
+        return real(*args)
 
-    monkeypatch.setattr(cache_of_models, "_make", make)
+    monkeypatch.setattr(Drawing, "model", make)
     began = time.perf_counter()
     summary = simulation.run(
         case_of(mesh={"coarse_size_m": 0.028}, integration={"duration_s": 0.01}),
@@ -193,7 +194,7 @@ def test_what_is_made_once_is_no_cost_of_the_analysis_that_makes_it(tmp_path, mo
 
 
 def test_a_base_that_is_extended_is_no_cost_of_the_analysis_that_needs_it(tmp_path, monkeypatch):
-    real, slow = cache_of_models.KnownBase._extend, 1.5
+    real, slow = KnownBase._extend, 1.5
 
     def extend(base, reach):
         began = time.process_time()
@@ -201,7 +202,7 @@ def test_a_base_that_is_extended_is_no_cost_of_the_analysis_that_needs_it(tmp_pa
             pass
         real(base, reach)
 
-    monkeypatch.setattr(cache_of_models.KnownBase, "_extend", extend)
+    monkeypatch.setattr(KnownBase, "_extend", extend)
     sections = dict(
         contact={"friction_coefficient": 0.02},
         initial={"tilt_rad": 0.0, "velocity_m_s": [0.3, 0.0, 0.0]},

@@ -81,13 +81,13 @@ def test_stills_and_sequence_of_the_instants_asked_for(drum):
 
 def test_every_view_looks_elsewhere_and_shows_the_column(block):
     result = read_result(block)
-    seen = {view: camera.camera(result, view, result.poses.time, 1.5) for view in command.VIEWS}
+    seen = {view: camera.camera(result, view, result.poses[0].time, 1.5) for view in command.VIEWS}
     assert tuple(camera.VIEWS) == command.VIEWS
     assert seen["plan"].toward == pytest.approx([0, 0, 1]) and seen["plan"].right == pytest.approx(
         [1, 0, 0]
     )
     assert abs(seen["lean"].toward[0]) < 1e-6  # it leans towards x
-    points = result.poses.move(result.solid.mesh.body.points, slice(None)).reshape(-1, 3)
+    points = result.poses[0].move(result.scene.pieces[0].upright, slice(None)).reshape(-1, 3)
     for view in set(command.VIEWS) - {"foot"}:
         there = points - seen[view].focus
         assert (
@@ -179,8 +179,8 @@ def test_full_disk_is_told_and_leaves_nothing(tmp_path, capsys):
 
 
 def test_displacement_colours_the_points_of_a_tube_that_has_as_many_points_as_faces(tmp_path):
+    from fecolumn.render.canvas import Canvas
     from fecolumn.render.frames import Frames
-    from fecolumn.render.scene import Scene
 
     tube = BLOCK | {
         "column": {"outer_diameter_m": 0.2, "wall_m": 0.02, "height_m": 0.6},
@@ -189,12 +189,12 @@ def test_displacement_colours_the_points_of_a_tube_that_has_as_many_points_as_fa
     result = read_result(
         analysed(tube | {"integration": {"engine": "rigid", "duration_s": 0.02}}, tmp_path / "run")
     )
-    surface = result.solid.column
+    surface = result.scene.surface
     # of a torus, what a tube's surface is; both have a value for each
-    assert len(surface.points) == len(surface.faces)
+    assert len(surface.nodes) == len(surface.faces)
     frames = Frames(result, np.array([0.0]), 0.04)
-    with Scene(frames, camera.camera(result, "lean", frames.times, 1.0), (128, 128)) as scene:
+    with Canvas(frames, camera.camera(result, "lean", frames.times, 1.0), (128, 128)) as scene:
         assert (
-            scene._column.point_data["colour"] == pytest.approx(frames.frame(0).colour)
-            and "colour" not in scene._column.cell_data
+            scene._bodies.point_data["colour"] == pytest.approx(frames.frame(0).colour)
+            and "colour" not in scene._bodies.cell_data
         )

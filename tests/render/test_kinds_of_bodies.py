@@ -7,6 +7,7 @@ import scipy.sparse as sparse
 from rocking_structures import STONE, analysed
 
 from fecolumn.render.draw import Wish, render
+from fecolumn.render.frames import Frames
 from fecolumn.render.result import read_result
 
 
@@ -81,14 +82,16 @@ def row(tmp_path_factory):
 
 def test_all_kinds_of_bodies_are_drawn_and_those_without_elements_are_grey(row):
     result = read_result(row)
-    frame = result.frames_at(np.array([0.02]), 0.04, 1.0, "").frame(0)
-    surface, part = result.solid.surface, result.solid.surface.part
+    frame = Frames(result, np.array([0.02]), 0.04).frame(0)
+    surface, part = result.scene.surface, result.scene.surface.part
     assert np.isfinite(frame.colour[part == 0]).all() and np.isnan(frame.colour[part > 0]).all()
     assert [
-        np.ptp(surface.points[np.unique(surface.faces[part == k])], axis=0).tolist()
+        np.ptp(
+            result.scene.points[surface.nodes[np.unique(surface.faces[part == k])]], axis=0
+        ).tolist()
         for k in range(3)
     ] == [pytest.approx([0.4, 0.4, height]) for height in (0.8, 0.4, 0.8)]
-    leaning = frame.column[result.solid.first[2] :]
+    leaning = frame.points[result.scene.first[2] :]
     assert leaning[:, 0].max() > 1.2 + 0.05 and leaning[:, 2].min() == pytest.approx(0.0, abs=1e-4)
     assert render(row, Wish(only="movie", size=(360, 240), fps=25.0), quiet=True)
 

@@ -23,7 +23,7 @@ def test_fields_are_a_time_series_with_units_in_their_names(drum):
     grid = reader.read()
     assert set(grid.point_data) == {"displacement [m]", "contact pressure [Pa]"} and set(
         grid.cell_data
-    ) == {"von Mises stress [Pa]", "part"}
+    ) == {"von Mises stress [Pa]", "part", "body"}
     assert 0.01 < np.linalg.norm(grid.point_data["displacement [m]"], axis=1).max() < 1.6
 
 

@@ -55,7 +55,9 @@ def test_pictures_without_field_files_show_stress_and_pressure(stateful_block):
     result = read_result(stateful_block)
     frames = Frames(result, np.linspace(0, 0.2, 6), 0.04)
     assert frames.from_fields and frames.colour == "stress" and frames.pressure_quantity.largest > 0
-    pressure = frames.frame(1).pressure  # it stands on one edge: 4 of 16 faces of 0.1 x 0.1 m carry
+    pressure = frames.frame(1).pressures[
+        0
+    ]  # it stands on one edge: 4 of 16 faces of 0.1 x 0.1 m carry
     weight = 0.4**2 * 1.2 * 2700 * 9.80665
     assert np.count_nonzero(pressure) == 4 and 0.8 * weight < pressure.sum() * 0.1**2 < 1.1 * weight
     files = render(

@@ -9,6 +9,7 @@ from rocking_structures import GATE, TILTED, analysed, case_of
 from scipy.interpolate import griddata
 
 from fecolumn.reduced.states import NAME
+from fecolumn.render.frames import Frames
 from fecolumn.render.result import read_result
 from fecolumn.simulation import run
 
@@ -30,7 +31,7 @@ def standing(tmp_path_factory):
 
 def _forces(result, state):
     """Contact force (3,) [N] on each body."""
-    first = result.solid.first_node
+    first = result.states.drawn.first_node
     at_nodes = state.at_nodes(first[-1])
     return [at_nodes[a:b].sum(axis=0) for a, b in zip(first, first[1:])]
 
@@ -45,8 +46,10 @@ def test_contact_forces_of_a_standing_gate_carry_the_weight_of_each_body(standin
 def test_pressure_on_the_faces_carries_what_stands_on_them(standing):
     pressures, centres = standing.states.drawn.pressures(standing.states.state(0))
     carried = {
-        (contact.interface, contact.slave): (pressure @ contact.areas, centre)
-        for contact, pressure, centre in zip(standing.solid.contacts, pressures, centres)
+        (contact.interface, contact.slave): (pressure @ seat.areas, centre)
+        for contact, seat, pressure, centre in zip(
+            standing.scene.contacts, standing.states.drawn.seats, pressures, centres
+        )
     }
     assert carried["feet", "column 1"][0] == pytest.approx(
         GRAVITY * (COLUMN_KG + LINTEL_KG / 2), rel=1e-5
@@ -63,28 +66,28 @@ def test_deformed_meshes_of_a_standing_gate_touch_where_they_press(standing):
     fields, state, contacts = (
         standing.states.drawn,
         standing.states.state(0),
-        standing.solid.contacts,
+        standing.scene.contacts,
     )
-    placed = standing.solid.positions(state.center, state.rotation, fields.local(state)[0])
+    placed = standing.states.drawn.positions(state, fields.local(state)[0])
     shortening = 0.8 * GRAVITY * LINTEL_KG / 2 / (0.08 * 50e9)
-    for contact, pressure in zip(contacts, fields.pressures(state)[0]):
+    for contact, seat, pressure in zip(contacts, fields.seats, fields.pressures(state)[0]):
         if contact.interface.endswith(", edge"):
             continue  # the other side of a joint carries where its body has slid
-        feet = placed[contact.points][pressure[contact.nearest] > 0]
+        feet = placed[contact.points][pressure[seat.nearest] > 0]
         level = 0.0 if contact.on_ground else 0.8
         assert (
             len(feet) >= 3
             and np.abs(feet[:, 2] - level).max() < (1e-3 if contact.on_ground else 5) * shortening
         )
-    lintel = placed[standing.solid.first[2] :]
-    under = lintel[np.abs(standing.solid.points[standing.solid.first[2] :, 2] - 0.8) < 1e-9]
+    lintel = placed[standing.scene.first[2] :]
+    under = lintel[np.abs(standing.scene.points[standing.scene.first[2] :, 2] - 0.8) < 1e-9]
     head = next(
-        contact
-        for contact in contacts
+        k
+        for k, contact in enumerate(contacts)
         if (contact.interface, contact.slave) == ("heads", "column 1")
     )
-    pressed = placed[head.points][
-        fields.pressures(state)[0][contacts.index(head)][head.nearest] > 0
+    pressed = placed[contacts[head].points][
+        fields.pressures(state)[0][head][fields.seats[head].nearest] > 0
     ]
     gaps = griddata(under[:, :2], under[:, 2], pressed[:, :2]) - pressed[:, 2]
     assert np.abs(gaps).max() < 0.1 * shortening
@@ -92,7 +95,7 @@ def test_deformed_meshes_of_a_standing_gate_touch_where_they_press(standing):
 
 def test_stress_of_a_standing_column_is_what_it_carries_over_its_section(standing):
     _, _, stress = standing.states.drawn.local(standing.states.state(0))
-    of_column = stress[standing.solid.first_cell[0] : standing.solid.first_cell[1]]
+    of_column = stress[standing.scene.first_cell[0] : standing.scene.first_cell[1]]
     assert (
         np.median(of_column) == pytest.approx(GRAVITY * (LINTEL_KG + COLUMN_KG) / 2 / 0.08, rel=0.6)
         and not np.isnan(stress).any()
@@ -104,24 +107,24 @@ def test_states_place_the_tops_where_the_history_has_them(gate):
     fields = result.states.drawn
     for k, time in enumerate(result.states.time):
         state, row = result.states.state(k), np.searchsorted(result.time, time - 1e-9)
-        for number, part in enumerate(result.solid.structure.parts):
-            arm = part.model.marks["top"][0]
-            moved = state.center[number] + state.rotation[number] @ arm - part.center - arm
+        for number, (body, model) in enumerate(zip(result.scene.bodies, fields.models)):
+            arm = model.marks["top"][0]
+            moved = state.center[number] + state.rotation[number] @ arm - body.center - arm
             assert moved == pytest.approx(
-                result.history[f"mark/{part.name}.top/displacement"][row], abs=1e-5
+                result.history[f"mark/{body.name}.top/displacement"][row], abs=1e-5
             )
-        placed = result.solid.positions(state.center, state.rotation, fields.local(state)[0])
+        placed = result.states.drawn.positions(state, fields.local(state)[0])
         assert placed[:, 2].min() > -1e-6  # the rigid ground is never entered
 
 
 def test_floors_of_a_building_sway_as_the_history_says(building):
     result = read_result(building)
-    fields, first = result.states.drawn, len(result.solid.points) - 16
+    fields, first = result.states.drawn, len(result.scene.points) - 16
     swayed = []
     for k, time in enumerate(result.states.time):
         state, row = result.states.state(k), np.searchsorted(result.time, time - 1e-9)
         local, bent, _ = fields.local(state)
-        moved = result.solid.positions(state.center, state.rotation, local) - result.solid.points
+        moved = result.states.drawn.positions(state, local) - result.scene.points
         for floor in range(2):
             of_floor = slice(first + 8 * floor + 4, first + 8 * (floor + 1))  # its upper face
             assert moved[of_floor].mean(axis=0) == pytest.approx(
@@ -160,6 +163,6 @@ def test_a_broken_tendon_is_kept_as_broken_and_not_drawn(tmp_path):
     result = read_result(folder)
     broken = [bool(result.states.state(k).broken[0]) for k in range(len(result.states.time))]
     assert not broken[0] and broken[-1]
-    frames = result.frames_at(result.states.time, 0.02, 1.0, "displacement")
+    frames = Frames(result, result.states.time, 0.02, 1.0, "displacement")
     length = [np.linalg.norm(np.diff(frame.links[0], axis=0)) for frame in frames]
     assert length[0] == pytest.approx(0.8, rel=0.01) and length[-1] == 0

@@ -82,6 +82,23 @@ def test_full_order_writes_the_columns_and_the_summary_of_the_reduced_engine(lea
     assert summary["energy_left_j"] == pytest.approx(other["energy_left_j"], rel=1e-3)
 
 
+def test_total_lagrangian_bodies_move_as_corotated_ones(leaning, tmp_path):
+    """The strain of marble is 1e-6."""
+    _, _, rows = leaning
+    end = dict(integration=dict(kinematics="total_lagrangian", duration_s=0.1))
+    _, other = made(tmp_path / "run", **merge(end, QUIET))
+    for name in ("u_top", "tilt", "body/lower/tilt"):
+        np.testing.assert_allclose(other[name], rows[name][:101], rtol=0, atol=2e-6, err_msg=name)
+
+
+def test_literal_hht_of_a_case_has_no_impacts(tmp_path):
+    plan = dict(duration_s=0.05, substeps="none", alpha_hht=-0.1)
+    summary, rows = made(tmp_path / "run", contact=dict(impact="none"), integration=plan, **QUIET)
+    assert summary["impacts"] == 0 and rows["tilt"][-1] < rows["tilt"][0]
+    size = np.ptp(rows["energy/gravity"])
+    assert np.abs(rows["energy/closure"]).max() < 1e-5 * size
+
+
 def test_energy_of_a_structure_in_full_order_is_accounted_for(leaning):
     _, summary, rows = leaning
     assert summary["impacts"] > 0 and summary["energy_closure_rel"] < 1e-9

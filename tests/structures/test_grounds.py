@@ -2,12 +2,16 @@
 motions of their own, and sliding off.
 """
 
+import warnings
+
 import numpy as np
 import pytest
-from small_grounds import BLOCK, HEIGHT, MASS, SETTLED, SUBGRADE, WEIGHT, analysed
+from small_grounds import BLOCK, HEIGHT, MASS, SETTLED, SIDE, SUBGRADE, WEIGHT, analysed
 from small_structures import structure
 
 from fecolumn.case import GRAVITY
+from fecolumn.dynamics.history import read_history
+from fecolumn.simulation import read_folder_case, run
 from fecolumn.structures.structure import structure_model
 
 SOFT = dict(youngs_modulus_pa=5e7, poissons_ratio=0.3, thickness_m=0.6, element_size_m=0.1)
@@ -189,3 +193,63 @@ def test_a_block_slides_on_a_ground_that_moves_by_itself_as_by_the_motion_of_all
     assert slide == pytest.approx(exact, abs=1e-3 * np.abs(exact).max())
     assert summary["energy_closure_rel"] < 1e-8
     assert rows["energy/friction"][-1] == pytest.approx(alone["energy/friction"][-1], rel=2e-3)
+
+
+@pytest.mark.parametrize("substeps", ["rolling", "impacts"])
+def test_an_analysis_on_two_grounds_that_was_stopped_goes_on_to_the_last_digit(
+    tmp_path, shaken, substeps
+):
+    """Blocks that jump on yielding soil and on a plate which moves by itself."""
+    motion = dict(source=str(shaken[0]), units="m/s2", free_vibration_s=0.1, scale=10.0)
+    case = structure(
+        bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[3.0, 0, 0.5])),
+        interfaces=dict(
+            left=dict(between=["left", "soil"]),
+            right=dict(between=["right", "slab"], restitution=0.3),
+        ),
+        grounds=dict(
+            soil=dict(kind="pad", stiffness_n_m3=SUBGRADE, yield_pa=1.5 * WEIGHT / SIDE**2),
+            slab=SOFT | dict(kind="plate", level_m=0.5, motion=motion | dict(scale=-5.0)),
+        ),
+        initial=dict(left=dict(velocity_m_s=[0, 0, -0.3]), right=dict(velocity_m_s=[0.1, 0, 0.2])),
+        motion=motion,
+        contact=dict(friction_coefficient=0.2, interior_points=0),
+        integration=dict(
+            engine="rigid", dt_s=2e-3, alpha_hht=0.0, duration_s=1.5, substeps=substeps
+        ),
+    )
+    asked = iter([True] + [False] * 1000)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message=".*resolves the ground's own vibration")
+        with pytest.raises(KeyboardInterrupt):
+            run(case, tmp_path / "run", quiet=True, stop=lambda: next(asked))
+        again, file = read_folder_case(tmp_path / "run")
+        assert again.id == case.id
+        warnings.filterwarnings("error", message=".*cannot be used")
+        summary = run(again, tmp_path / "run", file=file, quiet=True)
+        run(case, tmp_path / "whole", quiet=True)
+    stopped, whole = (read_history(tmp_path / name / "history.h5") for name in ("run", "whole"))
+    for name in ("body/left/displacement", "body/right/displacement"):
+        assert np.array_equal(stopped[name], whole[name])
+    assert summary["energy_closure_rel"] < 1e-8
+    # bounced, and settled
+    rise = whole["interface/right: right on slab/rise"]
+    assert rise.max() - rise[0] == pytest.approx(0.2**2 / 2 / GRAVITY, rel=0.02)
+    assert whole["interface/left: left on soil/rise"][-1] < -1.2 * SETTLED
+
+
+def test_grounds_that_drift_apart_after_their_motions_are_told(tmp_path):
+    """A record that is cut while it moves: 1 m/s2 for 0.1 s leaves 0.1 m/s."""
+    (tmp_path / "push.csv").write_text("t,ax,ay\n0.0,1.0,0.0\n0.1,1.0,0.0\n", encoding="utf-8")
+    motion = dict(source=str(tmp_path / "push.csv"), units="m/s2", free_vibration_s=0.0)
+    with pytest.warns(UserWarning, match=r"grounds.hill goes on .* grounds.valley at 0.1 m/s"):
+        analysed(
+            tmp_path / "run",
+            bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[3.0, 0, 0])),
+            interfaces=dict(
+                left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])
+            ),
+            grounds=dict(valley={}, hill=dict(motion=motion)),
+            motion=motion | dict(scale=0.0),
+            integration=dict(dt_s=1e-3, duration_s=0.0),
+        )

@@ -53,37 +53,66 @@ def test_a_block_rocks_on_springs_at_the_frequency_of_its_foot(tmp_path):
     )
 
 
-def test_moment_and_rotation_of_a_footing_that_lifts(tmp_path):
-    """A rectangle on springs that push only: beyond W B / 6 the length in contact is c = 3 (B / 2 -
-    M / W), and the rotation 2 W / (k L c^2).
+def leaning(folder, pull, **soil):
+    """Rotation [rad] of a block on springs that a horizontal force of `pull` times its weight pulls
+    at half its height, and the moment about the middle of its foot [N m].
     """
-    for pull in (0.12, 0.22, 0.3):
-        _, rows = on_pad(
-            tmp_path / f"{pull}",
-            bodies=dict(block=dict(element_size_m=0.03)),
-            contact=dict(interior_points=400),
-            links=dict(
-                jack=dict(
-                    kind="tendon",
-                    body="block",
-                    point_m=[0, 0, HEIGHT / 2],
-                    to="soil",
-                    to_point_m=[50.0, 0, HEIGHT / 2],
-                    stiffness_n_m=1.0,
-                    prestress_n=pull * WEIGHT,
-                )
-            ),
-            integration=dict(duration_s=1e-3),
-        )
-        angle = rows["body/block/tilt"][0]
-        moment = WEIGHT * HEIGHT / 2 * (pull + angle)
-        contact = 3 * (SIDE / 2 - moment / WEIGHT)
-        exact = (
-            12 * moment / (SUBGRADE * SIDE**4)
-            if moment < WEIGHT * SIDE / 6
-            else 2 * WEIGHT / (SUBGRADE * SIDE * contact**2)
-        )
-        assert angle == pytest.approx(exact, rel=0.02)
+    _, rows = on_pad(
+        folder,
+        soil=soil,
+        bodies=dict(block=dict(element_size_m=0.03)),
+        contact=dict(interior_points=400),
+        links=dict(
+            jack=dict(
+                kind="tendon",
+                body="block",
+                point_m=[0, 0, HEIGHT / 2],
+                to="soil",
+                to_point_m=[50.0, 0, HEIGHT / 2],
+                stiffness_n_m=1.0,
+                prestress_n=pull * WEIGHT,
+            )
+        ),
+        integration=dict(duration_s=1e-3),
+    )
+    angle = rows["body/block/tilt"][0]
+    return angle, WEIGHT * HEIGHT / 2 * (pull + angle)
+
+
+@pytest.mark.parametrize("pull", [0.12, 0.22, 0.3])
+def test_moment_and_rotation_of_a_footing_that_lifts(tmp_path, pull):
+    """A rectangle on springs that push only: beyond W B / 6 the length in contact is c = 3 (B / 2 -
+    M / W), and the rotation 2 W / (k B c^2).
+    """
+    angle, moment = leaning(tmp_path / "run", pull)
+    contact = 3 * (SIDE / 2 - moment / WEIGHT)
+    exact = (
+        12 * moment / (SUBGRADE * SIDE**4)
+        if moment < WEIGHT * SIDE / 6
+        else 2 * WEIGHT / (SUBGRADE * SIDE * contact**2)
+    )
+    assert angle == pytest.approx(exact, rel=0.02)
+
+
+def test_moment_and_rotation_of_a_footing_that_lifts_and_yields(tmp_path):
+    """Pressure min(k theta (x - x0), q) above the weight's: where it lifts and yields, with l the
+    length from there to where it yields, W = q B (B / 2 - x0 - l / 2) and so on.
+    """
+    q = 2 * WEIGHT / SIDE**2
+    angle, moment = leaning(tmp_path / "run", 0.25, yield_pa=q)
+    ramp = q / (SUBGRADE * angle)
+    # from the far edge: q over a length f, falling to 0 over `ramp`
+    full = WEIGHT / (q * SIDE) - ramp / 2
+    assert 0 < full and full + ramp < SIDE
+    exact = q * SIDE * (full * (SIDE - full) / 2 + ramp / 2 * (SIDE / 2 - full - ramp / 3))
+    assert moment == pytest.approx(exact, rel=0.01)
+
+
+def test_a_pad_that_yields_under_the_weight_at_rest_is_refused(tmp_path):
+    with pytest.raises(
+        InputError, match=r"grounds.soil.yield_pa = 20000.0: must be more than 2.383e"
+    ):
+        on_pad(tmp_path / "run", soil=dict(yield_pa=2e4), integration=dict(duration_s=1e-3))
 
 
 def test_a_pad_that_yields_bears_no_more_and_keeps_its_settlement(tmp_path):

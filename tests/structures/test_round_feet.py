@@ -364,7 +364,7 @@ def test_the_edge_below_a_face_is_an_interface_of_its_own_name():
         "joint, edge: wide on narrow",
     ]
     edge, other = model.joints[2], model.parts[1].model
-    assert edge.pair == 1 and [len(corners) for corners in edge.corners] == [4, 4]
+    assert edge.pair == 1 and [len(sides) for sides in edge.outlines] == [4, 4]
     places = other.arms[other.surfaces[edge.slave_surface].nodes]
     # both blocks are equally deep: sides that the narrow one may slide over
     assert np.abs(places[:, 1]).max() == pytest.approx(0.2)

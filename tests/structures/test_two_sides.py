@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fecolumn.case import case_from_tables
-from fecolumn.reduced.observe import WIDTH
+from fecolumn.reduced.observe import PER_BODY, WIDTH
 from fecolumn.simulation import run
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
@@ -117,7 +117,7 @@ def test_a_block_that_slides_over_the_edges_of_another_keeps_its_energy(engine):
     time = 5e-4 * np.arange(1, 1001)
     rows, _ = made.advance(8.0 * np.sin(4 * np.pi * time)[:, None] * [1.0, 0.5, 0.0])
     assert np.abs(rows[:, WIDTH - 1]).max() < 1e-11 * np.abs(rows[:, 17]).max()
-    assert rows[:, 12].max() < 1e-10 and np.abs(rows[:, WIDTH + 4]).max() > 0.01
+    assert rows[:, 12].max() < 1e-10 and np.abs(rows[:, WIDTH + PER_BODY]).max() > 0.01
 
 
 @pytest.mark.parametrize("time, stands, falls", [(0.5, 0.25, 0.26), (1.0, 0.203, 0.207)])

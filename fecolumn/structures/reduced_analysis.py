@@ -1,4 +1,4 @@
-"""One analysis with the reduced engine, from a case to the result files of any analysis."""
+"""One analysis with the reduced or the rigid engine, from a case to its result files."""
 
 from __future__ import annotations
 
@@ -11,112 +11,72 @@ import numpy as np
 from fecolumn._compiled import compiled, interpreted
 from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.atomic import write_bytes
-from fecolumn.case import GRAVITY
 from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.gathered import base_to_resume, gather_again
-from fecolumn.contact.law import interface_compliance
-from fecolumn.contact.pad import pad_of
 from fecolumn.contact.problem import list_present
-from fecolumn.contact.rim import Rim
 from fecolumn.dynamics.cuts import StepFailed
 from fecolumn.dynamics.gravity import NoEquilibrium
-from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.overturning import STANDS
 from fecolumn.ending import Ending
 from fecolumn.progress import Progress
-from fecolumn.reduced import start
-from fecolumn.reduced.cache import load_model
-from fecolumn.reduced.engine import Engine, column_engine
-from fecolumn.reduced.observe import COLUMNS, view
+from fecolumn.reduced.observe import place_of
 from fecolumn.reduced.rigid_loss import loss_share
 from fecolumn.reduced.run import advance
 from fecolumn.reduced.states import States, state_of
+from fecolumn.structures.analysis import OfStructure, columns_of
+from fecolumn.structures.engine import engine_of, leans, upright
+from fecolumn.structures.pads import warn_of_grounds
+from fecolumn.structures.structure import structure_model
 
 # Steps between looks at the clock, Ctrl-C and the progress line: well below a second
 CHUNK = 500
 
 
-def engine_of(case, model, base, upright: bool = False) -> Engine:
-    """The reduced engine of a case at its start, or in gravity equilibrium."""
-    law = interface_compliance(
-        case.contact, case.material.youngs_modulus_pa, case.mesh.fine_size_m, model.areas
-    )
-    plan, pad = case.integration, pad_of(case, model.areas, model.mass)
-
-    def begin(engine):
-        return start.standing(engine) if upright else start.begin(engine, case.initial)
-
-    eye = view(
-        model, model.mass * GRAVITY, case.contact.friction_coefficient, case.overturn.displacement_m
-    )
-    return column_engine(
-        model,
-        base,
-        eye,
-        HHT(plan.dt_s, plan.alpha_hht),
-        begin,
-        [0.0, 0.0, -GRAVITY],
-        plan.max_cuts,
-        case.material.damping_ratio,
-        plan.substeps,
-        friction=case.contact.friction_coefficient,
-        law=law,
-        rim=None if pad else Rim.find(model.reference),
-        restitution=case.contact.restitution,
-        rolling=case.contact.rolling_resistance,
-        pad=pad,
-    )
-
-
-def standing_energy(case, model, base) -> float:
-    """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained column, where there
-    is none.
-    """
-    try:
-        return engine_of(case, model, base, upright=True).mechanical()
-    except NoEquilibrium:
-        return 0.0
-
-
-class ReducedAnalysis(Analysis):
-    """A running analysis of the reduced engine."""
+class ReducedAnalysis(OfStructure, Analysis):
+    """A running analysis of the reduced or the rigid engine."""
 
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
-        self.model, base, self.model_folder = load_model(case, self.say)
-        self.bases = (base,)
-        self.warn_of_base(base.frequency, pad_of(case, self.model.areas, self.model.mass), file)
+        self.structure = structure_model(case, file, self.say)
+        self.fields, self.states = self._fields() if self.field_steps else None, self._states()
+        self.bases = self.structure.bases
+        warn_of_grounds(case, self.structure, file)
         if not compiled(advance):
             self.say(
                 "compiling the reduced engine, once on this machine: a minute or two; "
                 "other processes wait for it"
             )
-        self.engine = engine_of(case, self.model, base)
+        self.engine = engine_of(case, self.structure, file)
         self.began, self.cpu_began = (
             time.perf_counter(),
             time.process_time(),
         )  # what was made and compiled so far was so for all analyses
-        self.stance, self.top_arm = self.engine.eye.stance, self.model.top_arm
-        self.fields, self.states = self._fields() if self.field_steps else None, self._states()
+        self.stance, self.top_arm = self.engine.eye.stance, self.engine.eye.top_arm
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
             self.standing_j = (
-                standing_energy(case, self.model, base)
-                if case.initial.tilt_rad
-                else self.engine.potential()
+                self._standing_energy(file) if leans(self.structure) else self.engine.potential()
             )
-            self.engine.motion.whole["ground"] = self.ground(0)
+            self.engine.begin_shaking(self.grounds(0))
             self._note(self.engine.row()[None])
             self._keep()
+
+    def _standing_energy(self, file) -> float:
+        """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained structure, where
+        there is none.
+        """
+        try:
+            return engine_of(self.case, upright(self.case, self.structure), file).mechanical()
+        except NoEquilibrium:
+            return 0.0
 
     def _fields(self):
         """Writer of the fields, and what expands a state to them."""
         from fecolumn.post.fields import FieldWriter
-        from fecolumn.reduced.fields import StateFields
 
-        fields = StateFields(self.case, self.model, self.model_folder)
-        return FieldWriter(self.folder / "fields", fields.specimen), fields
+        fields = self.scene().fields()
+        return FieldWriter(self.folder / "fields", fields), fields
 
     def _states(self) -> States | None:
         every = self.case.output.states_every_s
@@ -127,8 +87,9 @@ class ReducedAnalysis(Analysis):
         )
 
     def _bodies(self) -> tuple:
-        """Models of the bodies whose states are kept, and their names."""
-        return [self.model], ()
+        return [part.model for part in self.structure.parts], [
+            part.name for part in self.structure.parts
+        ]
 
     def _keep(self) -> None:
         """Keep the state of this step, and write its fields, where they are due."""
@@ -160,7 +121,11 @@ class ReducedAnalysis(Analysis):
                 last = engine.made[-1]
                 progress.show(
                     self.step,
-                    dict(time=last[0], tilt=last[4], active_nodes=int(last[11])),
+                    {
+                        "time": last[place_of("time")],
+                        "tilt": last[place_of("tilt")],
+                        "active_nodes": int(last[place_of("active_nodes")]),
+                    },
                     engine.record,
                 )
                 self._keep()
@@ -185,20 +150,28 @@ class ReducedAnalysis(Analysis):
             self.states.write(self.folder, {"case_id": self.case.id, **self.code})
         return self.finish(
             off or self.ending(fallen, engine.motion.rotation[0]),
-            self.model.dofs + sum(base.dofs for base in self.bases),
+            self._dofs(),
             engine.record,
             0,
         )
 
     def _off_base(self, failure) -> Ending | None:
-        """As `slid_off`, of the column."""
-        frame, rotation = self.engine.motion.frames[0], self.engine.motion.rotation[0]
-        return self.slid_off(
-            failure,
-            self.bases[0],
-            frame["center"] + self.model.arms @ rotation.T,
-            frame["velocity"] + np.cross(frame["spin"], self.model.arms) @ rotation.T,
-        )
+        motion = self.engine.motion
+
+        def foot(joint, model, nodes):
+            frame, arms = motion.frames[joint.slave], model.arms[nodes]
+            turn = motion.rotation[joint.slave].T
+            return (
+                frame["center"] + arms @ turn,
+                frame["velocity"] + np.cross(frame["spin"], arms) @ turn,
+            )
+
+        return self.off_ground(failure, self.bases, motion.grounds, foot)
+
+    def _dofs(self) -> int:
+        """Degrees of freedom of all different meshes."""
+        different = {id(part.model): part.model.dofs for part in self.structure.parts}
+        return sum(different.values()) + sum(base.dofs for base in self.bases)
 
     def rigid_loss_share(self) -> float | None:
         return loss_share(self.engine.ledger, self.engine.structure.interfaces)
@@ -253,19 +226,8 @@ class ReducedAnalysis(Analysis):
             sum(base.made_cpu_s for base in self.bases),
         )
 
-    def grounds(self, step: int) -> np.ndarray:
-        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        return self.ground(step)
-
     def _note(self, rows: np.ndarray) -> None:
-        columns, place = {}, 0
-        for name, width in COLUMNS:
-            values = rows[:, place] if width == 1 else rows[:, place : place + width]
-            columns[name] = (
-                values.astype(int) if name in ("active_nodes", "iterations") else values.copy()
-            )
-            place += width
-        self.history.extend(columns)
+        self.history.extend(columns_of(rows, self.structure))
 
     def _save(self) -> None:
         arrays = self._arrays()

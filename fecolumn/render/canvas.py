@@ -1,14 +1,18 @@
-"""The specimen in three dimensions, drawn off-screen frame by frame."""
+"""A scene in three dimensions, drawn off-screen frame by frame."""
 
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fecolumn.post.style import BLACK, VERMILION
 from fecolumn.render.camera import Camera
-from fecolumn.render.frames import Frame
+from fecolumn.render.frame import Frame
+
+if TYPE_CHECKING:
+    from fecolumn.render.frames import Frames
 
 #: Colour maps from light to dark, which all eyes tell apart and print in grey keeps (Brewer,
 #: colorbrewer2.org); at rest the column is light
@@ -25,14 +29,14 @@ _FINER, _UNSEEN, _ALIKE = 1.5, 0.1, 1 / 256
 _LIFT = 2e-3
 
 
-class Scene:
-    """Column and base, or a structure on the ground, as VTK draws them; `image` gives the pixels of
+class Canvas:
+    """The bodies and the ground as VTK draws them; `image` gives the pixels of
     a frame. To be closed.
 
     Parameters
     ----------
     frames
-        Frames or StructureFrames, for what is drawn and the ranges of colours; the way of the top
+        for what is drawn and the ranges of colours; the way of the top
         is drawn up to each frame's time.
     camera
         Camera.
@@ -43,7 +47,7 @@ class Scene:
         each pixel; and draw nothing anew that nobody sees move.
     """
 
-    def __init__(self, frames, camera: Camera, size: tuple[int, int], quick: bool = False):
+    def __init__(self, frames: Frames, camera: Camera, size: tuple[int, int], quick: bool = False):
         # VTK asks for an X server first and complains where there is none
         if not os.environ.get("DISPLAY"):
             os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
@@ -68,7 +72,7 @@ class Scene:
         self._plotter.set_background("white")
         self._line_width = max(1.0, size[1] / 720)
         first = frames.frame(0)
-        self._column = self._add(frames.surface, first.column, first.colour)
+        self._bodies = self._add(frames.scene.surface, first, first.colour)
         self._base = self._add_base(first)
         self._lines = [
             (name, self._add_lines(getattr(first, name), colour, 2.0))
@@ -84,7 +88,7 @@ class Scene:
             )
         # where the feet stood before they moved
         self._add_lines(
-            frames.result.outlines + camera.toward * _LIFT * 2 * camera.half_height, BLACK, 1.2
+            frames.scene.outlines + camera.toward * _LIFT * 2 * camera.half_height, BLACK, 1.2
         )
         self._light_and_look()
 
@@ -101,11 +105,9 @@ class Scene:
         )
         return mesh
 
-    def _add(self, surface, points, colour):
+    def _add(self, surface, frame: Frame, colour):
         """A surface coloured by values of its faces or of its points."""
-        import pyvista
-
-        mesh = pyvista.PolyData.from_regular_faces(np.array(points, np.float32), surface.faces)
+        mesh = _mesh_of(surface, frame)
         quantity = self._frames.colour_quantity
         self._coloured(mesh)["colour"] = np.asarray(colour, np.float32)
         # the edges of bricks show how the column turns about its axis
@@ -130,8 +132,6 @@ class Scene:
     def _add_base(self, first: Frame):
         import pyvista
 
-        if first.base_colour is not None:
-            return self._add(self._frames.base_surface, first.base, first.base_colour)
         look = dict(
             color=_BASE,
             show_edges=True,
@@ -141,26 +141,26 @@ class Scene:
             ambient=0.55,
             diffuse=0.5,
         )
-        if first.base is not None:
-            mesh = pyvista.PolyData.from_regular_faces(
-                np.array(first.base, np.float32), self._frames.base_surface.faces
+        for low, high, square in self._frames.result.grounds:
+            square = max(square, float((high - low).max()) / 200)
+            sides = high[:2] - low[:2]
+            plane = pyvista.Plane(
+                center=tuple((low + high) / 2),
+                direction=(0, 0, 1),
+                i_size=float(sides[0]),
+                j_size=float(sides[1]),
+                i_resolution=max(1, round(sides[0] / square)),
+                j_resolution=max(1, round(sides[1] / square)),
             )
-            self._plotter.add_mesh(mesh, **look)
-            return mesh
-        low, high, square = self._frames.result.ground
-        square = max(square, float((high - low).max()) / 200)
-        low, high = np.floor(low / square) * square, np.ceil(high / square) * square
-        count = np.round((high - low) / square).astype(int)
-        plane = pyvista.Plane(
-            center=(*((low + high) / 2), 0.0),
-            direction=(0, 0, 1),
-            i_size=float(np.ptp([low[0], high[0]])),
-            j_size=float(np.ptp([low[1], high[1]])),
-            i_resolution=int(count[0]),
-            j_resolution=int(count[1]),
-        )
-        self._plotter.add_mesh(plane, **look)
-        return None
+            self._plotter.add_mesh(plane, **look)
+        surface = self._frames.scene.base
+        if surface is None:
+            return None
+        if first.base_colour is not None:
+            return self._add(surface, first, first.base_colour)
+        mesh = _mesh_of(surface, first)
+        self._plotter.add_mesh(mesh, **look)
+        return mesh
 
     def _light_and_look(self) -> None:
         import pyvista
@@ -191,9 +191,10 @@ class Scene:
         """(height, width, 3) pixels of a frame."""
         if self._quick and self._last is not None and self._looks_like(*self._last[:2], frame):
             return self._last[2]
-        self._move(self._column, frame.column, frame.colour)
-        if self._base is not None and frame.base is not None and self._frames.from_fields:
-            self._move(self._base, frame.base, frame.base_colour)
+        scene = self._frames.scene
+        self._move(self._bodies, frame.points[scene.surface.nodes], frame.colour)
+        if self._base is not None and self._frames.from_fields:
+            self._move(self._base, frame.points[scene.base.nodes], frame.base_colour)
         for name, lines in self._lines:
             lines.points = np.asarray(getattr(frame, name), np.float32).reshape(-1, 3)
         if self._trace is not None:
@@ -207,10 +208,10 @@ class Scene:
             from PIL import Image
 
             image = np.asarray(Image.fromarray(image).resize(self._size, Image.Resampling.BOX))
-        self._last = frame.column, frame.colour, image
+        self._last = frame.points, frame.colour, image
         return image
 
-    def _looks_like(self, column: np.ndarray, colour: np.ndarray, frame: Frame) -> bool:
+    def _looks_like(self, points: np.ndarray, colour: np.ndarray, frame: Frame) -> bool:
         """Whether a frame differs from what was drawn by less than is seen."""
         if self._frames.from_fields:
             return False
@@ -219,7 +220,7 @@ class Scene:
             self._frames.colour_quantity.range,
         )
         return bool(
-            np.abs(frame.column - column).max() < _UNSEEN * pixel
+            np.abs(frame.points - points).max() < _UNSEEN * pixel
             and np.abs(frame.colour - colour).max() < _ALIKE * largest
         )
 
@@ -238,8 +239,16 @@ class Scene:
         """Give the picture's memory back."""
         self._plotter.close()
 
-    def __enter__(self) -> Scene:
+    def __enter__(self) -> Canvas:
         return self
 
     def __exit__(self, *_) -> None:
         self.close()
+
+
+def _mesh_of(surface, frame: Frame):
+    import pyvista
+
+    return pyvista.PolyData.from_regular_faces(
+        np.array(frame.points[surface.nodes], np.float32), surface.faces
+    )

@@ -1,0 +1,55 @@
+"""The motions of the grounds of a structure."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+
+# Speed at which two grounds go on to move apart after their motions, over their largest one, that
+# is told
+_DRIFTS = 0.05
+
+
+def motions_of(case, first, file) -> list:
+    """Ground motion of each ground, `first` that of those which have none of their own; None of a
+    ground at rest.
+    """
+    from fecolumn.motions.load import load_motion
+
+    found = [
+        load_motion(ground.motion, case.integration.dt_s, file) if ground.motion else first
+        for ground in case.grounds.values()
+    ]
+    names = list(case.grounds)
+    for name, motion in zip(names[1:], found[1:]):
+        if motion is not found[0]:
+            _warn_of_drift(f"grounds.{name}", f"grounds.{names[0]}", motion, found[0], file)
+    return found
+
+
+def accelerations(motions: list, step: int) -> np.ndarray:
+    """Accelerations (3 G,) of grounds at a step [m/s2]."""
+    found = np.zeros((len(motions), 3))
+    for own, motion in zip(found, motions):
+        if motion is not None and step < len(motion.acceleration):
+            own[:] = motion.acceleration[step]
+    return found.ravel()
+
+
+def _warn_of_drift(name: str, other: str, motion, first, file) -> None:
+    """Tell of a ground that goes on to move away from the first one when both motions are over."""
+    steps = max(len(one.acceleration) for one in (motion, first))
+    relative = np.zeros((steps, 3))
+    for one, sign in ((motion, 1.0), (first, -1.0)):
+        relative[: len(one.acceleration)] += sign * one.acceleration
+    speed = np.zeros_like(relative)
+    speed[1:] = np.cumsum((relative[1:] + relative[:-1]) / 2, axis=0) * motion.dt
+    left, largest = np.linalg.norm(speed[-1]), np.linalg.norm(speed, axis=1).max()
+    if left > _DRIFTS * largest:
+        warnings.warn(
+            f"{file}: {name} goes on to move away from {other} at {left:.3g} m/s when their motions "
+            f"are over, {left / largest:.0%} of the largest relative speed: correct the baselines "
+            "of the records, so that both end at rest",
+            stacklevel=2,
+        )

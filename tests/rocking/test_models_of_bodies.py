@@ -1,0 +1,180 @@
+"""Rocking models of rigid bodies from a structure's case: one more value of integration.engine."""
+
+import math
+
+import h5py
+import numpy as np
+import pytest
+
+from fecolumn.case import case_from_tables, read_case
+from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
+from fecolumn.rocking.table_case import table_case
+from fecolumn.schema import InputError
+from fecolumn.simulation import run
+
+BLOCK = dict(kind="block", length_m=0.4, width_m=0.6, height_m=1.6, density_kg_m3=2700.0)
+DRUM = dict(kind="cylinder", outer_diameter_m=0.4, height_m=1.6, density_kg_m3=2700.0)
+PLACES = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+PIER = dict(kind="block", length_m=0.2, width_m=0.3, height_m=1.6, mass_kg=250.0, copies_m=PLACES)
+POST = dict(kind="tube", outer_diameter_m=0.2, wall_m=0.02, height_m=1.6, mass_kg=100.0)
+SLAB = dict(kind="slab", length_m=3.0, width_m=0.6, thickness_m=0.2, mass_kg=900.0)
+STOREYS = SLAB | dict(kind="storeys", floors=3, floor_masses_kg=[900.0], storey_heights_m=[3.0])
+FOOT = dict(foot=dict(between=["body", "ground"]))
+FRAME = FOOT | dict(head=dict(between=["body", "slab"]))
+
+
+def case(engine, bodies, joints, **tables):
+    plan = dict(engine=engine, dt_s=1e-3, duration_s=1.0)
+    return case_from_tables(
+        dict(bodies=bodies, interfaces=joints, integration=plan) | tables, "case.toml"
+    )
+
+
+def frame(engine, column, slab, **tables):
+    column = dict(copies_m=PLACES) | column
+    return case(engine, dict(body=column, slab=slab | dict(at_m=[0, 0, 1.6])), FRAME, **tables)
+
+
+def own(**tables):
+    """The model of a table of its own."""
+    return table_case(tables, "case.toml").model("case.toml")
+
+
+@pytest.mark.parametrize(
+    "made, stated",
+    [
+        (
+            case("housner", dict(body=BLOCK), FOOT),
+            dict(block=dict(width_m=0.4, depth_m=0.6, height_m=1.6, density_kg_m3=2700.0)),
+        ),
+        (
+            case("wobbling", dict(body=DRUM), FOOT),
+            dict(wobbling=dict(outer_diameter_m=0.4, height_m=1.6, density_kg_m3=2700.0)),
+        ),
+        (
+            frame("rocking_frame", PIER, SLAB),
+            dict(frame=dict(column_mass_kg=250.0, beam_mass_kg=900.0, width_m=0.2, height_m=1.6)),
+        ),
+        (
+            frame("wobbling_frame", POST, SLAB),
+            dict(
+                wobbling_frame=dict(
+                    columns=2,
+                    column_mass_kg=100.0,
+                    slab_mass_kg=900.0,
+                    outer_diameter_m=0.2,
+                    wall_m=0.02,
+                    height_m=1.6,
+                )
+            ),
+        ),
+        (
+            frame(
+                "podium",
+                PIER,
+                STOREYS | dict(period_s=0.3, profile="shear", damping="rayleigh"),
+                materials=dict(steel=dict(damping_ratio=0.05)),
+            ).replace({"bodies.slab.material": "steel"}),
+            dict(
+                podium=dict(
+                    columns=2,
+                    column_mass_kg=250.0,
+                    floor_mass_kg=900.0,
+                    width_m=0.2,
+                    height_m=1.6,
+                    storeys=3,
+                    period_s=0.3,
+                    profile="shear",
+                )
+            ),
+        ),
+    ],
+    ids=lambda one: "" if isinstance(one, dict) else one.integration.engine,
+)
+def test_a_model_of_bodies_is_that_of_its_own_table(made, stated):
+    found, exact = model_of_bodies(made, "case.toml").describe(), own(**stated).describe()
+    assert set(found) == set(exact)
+    for name, (value, unit) in exact.items():
+        assert found[name] == (pytest.approx(value, rel=1e-12), unit)
+
+
+def test_one_file_runs_with_every_engine(tmp_path):
+    """A block let go from 0.05 rad: its tilt until it lands, and how much later it lands again."""
+    (tmp_path / "block.toml").write_text(
+        """
+[bodies.block]
+kind = "block"
+length_m = 0.4
+width_m = 0.6
+height_m = 1.6
+density_kg_m3 = 2700
+youngs_modulus_pa = 5e11
+element_size_m = 0.2
+[interfaces.foot]
+between = ["block", "ground"]
+[initial.block]
+tilt_rad = 0.05
+[contact]
+friction_coefficient = 0.8
+[integration]
+dt_s = 1e-3
+duration_s = 0.35
+n_modes = 10
+"""
+    )
+    stated, tilts = read_case(tmp_path / "block.toml"), {}
+    for engine in ("full", "reduced", "rigid", "housner"):
+        changes = {"integration.engine": engine}
+        folder = tmp_path / engine
+        summary = run(stated.replace(changes), folder, quiet=True)
+        assert summary["engine"] == engine and not summary["overturned"]
+        assert summary["critical_tilt_rad"] == pytest.approx(math.atan2(0.4, 1.6), rel=1e-9)
+        with h5py.File(folder / "history.h5") as file:
+            tilts[engine] = file["tilt"][()]
+    exact = tilts["housner"]
+    assert exact[0] == 0.05 and exact[150] < 0.04 and exact.min() < 2e-3
+    for engine, off in (("full", 5e-4), ("reduced", 5e-4), ("rigid", 1e-4)):
+        assert np.abs(tilts[engine][:150] - exact[:150]).max() < off, engine
+        assert np.argmin(tilts[engine][:300]) == pytest.approx(np.argmin(exact[:300]), abs=4)
+
+
+@pytest.mark.parametrize(
+    "made, told",
+    [
+        (frame("housner", PIER, SLAB), "is of one body on the ground; there are 3"),
+        (case("wobbling", dict(body=BLOCK), FOOT), "needs a round foot"),
+        (
+            case("podium", dict(body=BLOCK), FOOT),
+            "is of equal columns on the ground, one body with",
+        ),
+        (frame("rocking_frame", POST, SLAB), '"body" is a tube: wobbling_frame is the model'),
+        (frame("rocking_frame", PIER | dict(length_m=0.4), SLAB), "must be no longer than wide"),
+        (frame("wobbling_frame", PIER, SLAB), "needs round columns without flange and cap"),
+        (frame("podium", PIER, SLAB), 'needs storeys on the columns; "slab" is a slab'),
+        (
+            case("housner", dict(body=BLOCK | dict(foot_radius_m=2.0)), FOOT),
+            "bodies.body.foot_radius_m = 2.0: must be left out",
+        ),
+        (
+            case("housner", dict(body=BLOCK), FOOT, contact=dict(restitution=0.5)),
+            "contact.restitution = 0.5: must be left out",
+        ),
+    ],
+)
+def test_bodies_of_another_geometry_are_refused_with_the_reason(made, told):
+    with pytest.raises(InputError, match="integration.engine|foot_radius|restitution") as refused:
+        model_of_bodies(made, "case.toml")
+    assert told in str(refused.value)
+
+
+def test_columns_of_a_model_start_alike():
+    leaning = dict(tilt_rad=0.02, direction_deg=180.0)
+    start = start_of_bodies(frame("rocking_frame", PIER, SLAB, initial=dict(body=leaning)), "")
+    assert (start.tilt_rad, start.direction_deg) == (0.02, 180.0)
+    for initial, told in (
+        ({"body 1": leaning}, "needs one start for all"),
+        (dict(slab=leaning), "starts upright"),
+        (dict(body=dict(spin_rad_s=[0.0, 0.1, 0.0])), "must be 0 where integration.engine"),
+    ):
+        with pytest.raises(InputError, match=told):
+            start_of_bodies(frame("rocking_frame", PIER, SLAB, initial=initial), "")

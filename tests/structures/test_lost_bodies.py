@@ -1,0 +1,108 @@
+"""When bodies of a structure are lost: at their point of no return, and not before."""
+
+import math
+
+import numpy as np
+import pytest
+from small_structures import RIGID, STONE, frame, stack, structure
+
+from fecolumn.simulation import run
+from fecolumn.structures.lost import limits_of
+from fecolumn.structures.structure import standing_of, structure_model
+
+
+def limits(case):
+    model = structure_model(case)
+    found = limits_of(model, standing_of(case, model))
+    return dict(zip([part.name for part in model.parts], found.standing)), found.tilts
+
+
+def alone(length, height, tilt, engine="rigid", **initial):
+    """One block on the ground, let go from a tilt."""
+    body = dict(kind="block", length_m=length, width_m=length, height_m=height) | STONE
+    return structure(
+        bodies=dict(block=body | dict(element_size_m=min(length, height) / 2)),
+        interfaces=dict(foot=dict(slave="block", on="ground")),
+        initial=dict(block=dict(tilt_rad=tilt) | initial),
+        integration=dict(engine=engine, dt_s=1e-3, duration_s=1.5),
+        contact=dict(friction_coefficient=1.0, interior_points=0),
+    )
+
+
+@pytest.mark.parametrize("engine", ["rigid", "full"])
+def test_a_body_wider_than_high_comes_back_from_beyond_45_degrees(engine, tmp_path):
+    critical = math.atan2(1.0, 0.5)
+    case = alone(1.0, 0.5, 0.9, engine).replace({"integration.duration_s": 0.3})
+    summary = run(case, tmp_path, quiet=True)
+    assert summary["critical_tilt_rad"] == pytest.approx(critical, rel=1e-6)
+    assert not summary["overturned"] and summary["tilt_max_rad"] == pytest.approx(0.9, abs=0.01)
+
+
+@pytest.mark.parametrize("engine", ["rigid", "full"])
+@pytest.mark.parametrize("tilt, overturns", [(0.19, False), (0.205, True)])
+def test_a_slender_body_is_followed_to_its_point_of_no_return_alone(
+    engine, tilt, overturns, tmp_path
+):
+    """Nothing moves the ground: it is lost once it leans beyond its critical tilt and falls."""
+    critical = math.atan2(0.2, 1.0)
+    case = alone(0.2, 1.0, tilt, engine).replace({"integration.duration_s": 0.3})
+    summary = run(case, tmp_path, quiet=True)
+    assert summary["overturned"] == overturns
+    if overturns:
+        assert summary["tilt_max_rad"] < critical + 0.02
+        assert '"block" has tilted by' in summary["ended_by"]
+        assert f"critical {critical:.3g} rad" in summary["ended_by"]
+
+
+def test_equal_columns_below_a_slab_are_lost_where_one_of_them_would_be(tmp_path):
+    tables = frame(
+        initial=dict(column=dict(tilt_rad=0.14)),
+        integration=dict(engine="rigid", dt_s=1e-3, duration_s=2.0),
+    )
+    leans = structure(**tables)
+    rows, tilts = limits(leans)
+    alpha = math.atan2(0.2, 1.5)
+    for name, row in rows.items():
+        assert row["ground"] == name.startswith("column")
+    assert rows["column 1"]["critical"] == pytest.approx(alpha, rel=0.02) and np.isinf(tilts).all()
+    summary = run(leans, tmp_path, quiet=True)
+    found = summary["bodies"]["column 1"]["tilt_max_rad"]
+    assert summary["overturned"] and alpha < found < alpha + 0.02
+
+
+def test_a_block_of_a_stack_is_judged_by_its_tilt_from_what_it_stands_on():
+    rows, tilts = limits(structure(**stack()))
+    assert (rows["lower"]["below"], rows["upper"]["below"]) == (-1, 0)
+    assert rows["upper"]["critical"] == pytest.approx(math.atan2(0.4, 0.6), rel=1e-6)
+    assert not rows["upper"]["ground"] and not rows["lower"]["ground"] and np.isinf(tilts).all()
+
+
+def test_a_tendon_decides_whether_a_body_comes_back():
+    """It is lost at 45 degrees or, wider than high, at its critical tilt and the angle of friction."""
+    tendon = dict(kind="tendon", body="block", to="ground", stiffness_n_m=1e5)
+    for length, height in ((0.2, 1.0), (1.0, 0.5)):
+        held = dict(tendon, point_m=[0.0, 0.0, height], to_point_m=[0.0, 0.0, 0.0])
+        case = alone(length, height, 0.0)
+        rows, tilts = limits(case.replace({f"links.held.{key}": one for key, one in held.items()}))
+        most = min(math.atan2(length, height) + math.pi / 4, math.pi / 2)
+        assert tilts[0] == pytest.approx(max(math.pi / 4, most)) and np.isinf(
+            rows["block"]["critical"]
+        )
+
+
+def test_the_upper_of_two_blocks_ends_the_analysis_when_it_tips_off(tmp_path):
+    """It is pushed over on the lower one, which stays: friction of 0.6 holds no block that leans by
+    its critical tilt and 31 degrees.
+    """
+    case = structure(
+        **stack(
+            bodies=dict(upper=dict(length_m=0.1, width_m=0.1) | RIGID),
+            initial=dict(upper=dict(tilt_rad=0.2)),
+            contact=dict(friction_coefficient=0.6, interior_points=0),
+            integration=dict(engine="rigid", dt_s=1e-3, duration_s=3.0),
+        )
+    )
+    summary = run(case, tmp_path, quiet=True)
+    critical = math.atan2(0.1, 0.6)
+    assert summary["overturned"] and summary["ended_by"].startswith('point of no return: "upper"')
+    assert summary["tilt_max_rad"] == pytest.approx(critical + math.atan(0.6), abs=0.03)
