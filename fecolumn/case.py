@@ -389,9 +389,9 @@ def case_from_tables(tables: dict, file) -> StructureCase:
     from fecolumn.rocking.model import TABLES, model_engine_of
 
     if model_engine_of(tables, file):
-        from fecolumn.rocking.table_case import table_case
+        from fecolumn.rocking.model_table import case_of_table
 
-        return table_case(tables, file)
+        return case_of_table(tables, file)
     from fecolumn.structures.case import structure_from_tables
 
     return structure_from_tables(

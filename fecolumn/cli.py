@@ -176,12 +176,12 @@ def _mesh(args) -> int:
     from fecolumn.mesh_report import mesh_report
 
     case = read_case(args.case)
-    if hasattr(case, "table"):
+    for table in case.own:
         from fecolumn.schema import InputError
 
         raise InputError(
             args.case,
-            case.table,
+            table,
             None,
             "is a rocking model of rigid bodies, which has no mesh; fecolumn rocking "
             "tells its parameters",

@@ -10,7 +10,6 @@ from fecolumn.analysis import Analysis, AnalysisFailed
 from fecolumn.case import MODEL_ENGINES, check_duration, read_case
 from fecolumn.files import Unreadable, is_file, read_json
 from fecolumn.result_folder import held
-from fecolumn.rocking.table_case import TableCase
 from fecolumn.schema import InputError
 from fecolumn.sources import code, code_text
 from fecolumn.structures.case import StructureCase, check
@@ -20,7 +19,7 @@ __all__ = ["AnalysisFailed", "read_folder_case", "run"]
 
 
 def run(
-    case: StructureCase | TableCase | str | Path,
+    case: StructureCase | str | Path,
     folder,
     *,
     comm=None,
@@ -63,7 +62,7 @@ def run(
     comm = comm or MPI.COMM_WORLD
     if isinstance(case, (str, Path)):
         case, file = read_case(case), str(case)
-    if not isinstance(case, (StructureCase, TableCase)):
+    if not isinstance(case, StructureCase):
         raise TypeError(
             f"run takes a Case or the path of a case file, not {type(case).__name__}; "
             "see fecolumn.read_case"
@@ -126,7 +125,7 @@ def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
         return None, str(error)
 
 
-def read_folder_case(folder) -> tuple[StructureCase | TableCase, str]:
+def read_folder_case(folder) -> tuple[StructureCase, str]:
     """The case of a result folder, and its file's name."""
     from fecolumn.case import case_from_tables
 

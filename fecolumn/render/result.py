@@ -18,7 +18,6 @@ from fecolumn.render.state_frames import StateFrames
 from fecolumn.render.told import Told, told_by
 from fecolumn.schema import InputError
 from fecolumn.simulation import read_folder_case
-from fecolumn.structures.case import StructureCase
 from fecolumn.summary import NAME, read_summary
 
 # Base that is shown around a foot, and height that the view of the foot shows, over its width [-]
@@ -208,11 +207,10 @@ def read_result(folder, body: str = "") -> Result:
             f"{folder / 'analyses'}/CASE_ID",
         )
     case, _ = read_folder_case(folder)
-    model = isinstance(case, StructureCase) and case.integration.engine in MODEL_ENGINES
-    if hasattr(case, "table") or model:
+    if case.integration.engine in MODEL_ENGINES:
         raise InputError(
             folder,
-            "integration.engine" if model else case.table,
+            "integration.engine",
             None,
             "is a rocking model of rigid bodies: nothing is meshed that could be "
             "drawn; its history has figures",

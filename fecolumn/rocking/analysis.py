@@ -15,8 +15,7 @@ from fecolumn.atomic import write_json
 from fecolumn.ending import AT_REST, OVERTURNED, REST_SHARE, STILL_ROCKING, Ending
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.model import ModelResponse
-from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
-from fecolumn.structures.case import StructureCase
+from fecolumn.rocking.of_bodies import model_of, start_of
 from fecolumn.summary import NAME
 
 
@@ -29,10 +28,7 @@ class ModelAnalysis(Analysis):
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
         self.file = file
-        if isinstance(case, StructureCase):
-            self.model, self.start = model_of_bodies(case, file), start_of_bodies(case, file)
-        else:
-            self.model, self.start = case.model(file), case.initial
+        self.model, self.start = model_of(case, file), start_of(case, file)
         self.model.respond(
             GroundMotion(np.zeros((2, 3)), 1e-3, "", "")
         )  # compiles what is missing on this machine

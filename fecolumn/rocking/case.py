@@ -15,8 +15,8 @@ from fecolumn.motions.chosen import chosen_motions
 from fecolumn.motions.load import load_motion
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.model import Model, ModelResponse, model_class
-from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
-from fecolumn.rocking.table_case import Start, table_case
+from fecolumn.rocking.model_table import Start, case_of_table
+from fecolumn.rocking.of_bodies import model_of, start_of
 from fecolumn.schema import InputError, build, merge, read_toml
 
 
@@ -39,7 +39,7 @@ class ModelCase:
     motion
         the other keys of [motion], None for a base at rest.
     start
-        as `table_case.Start` says.
+        as `model_table.Start` says.
     dt_s
         step at which motions are sampled; between samples they are straight lines [s].
     duration_s
@@ -108,17 +108,10 @@ def read_model_case(name: str, path) -> ModelCase:
         )
     motion, sources = _motion(tables, path)
     if cls.TABLE in tables:
-        case = table_case(tables, path, name)
-        model, start = case.model(path), case.initial
-    elif "bodies" in tables:
-        case = case_from_tables(merge(tables, {"integration": {"engine": name}}), path)
-        model, start = model_of_bodies(case, path), start_of_bodies(case, path)
+        case = case_of_table(tables, path, name)
     else:
-        case = case_from_tables(tables, path)
-        model, start = (
-            cls.of_case(case, path),
-            Start(case.initial.tilt_rad, case.initial.direction_deg),
-        )
+        case = case_from_tables(merge(tables, {"integration": {"engine": name}}), path)
+    model, start = model_of(case, path), start_of(case, path)
     check_duration(case, path)
     return ModelCase(
         name,

@@ -10,10 +10,10 @@ import numpy as np
 from fecolumn.rocking.block import RockingBlock
 from fecolumn.rocking.column import RigidColumn
 from fecolumn.rocking.frame import RockingFrame
-from fecolumn.rocking.model import Model
+from fecolumn.rocking.model import Model, model_class
+from fecolumn.rocking.model_table import Start
 from fecolumn.rocking.podium import Podium
 from fecolumn.rocking.storeys import shear_building
-from fecolumn.rocking.table_case import Start
 from fecolumn.rocking.wobbling import Wobbling, cylinder_body
 from fecolumn.rocking.wobbling_frame import WobblingFrame
 from fecolumn.schema import InputError
@@ -22,8 +22,8 @@ from fecolumn.structures.check_keys import material_of
 from fecolumn.structures.storeys import building_of
 
 
-def model_of_bodies(case, file) -> Model:
-    """The model that integration.engine of a StructureCase names, of its bodies.
+def model_of(case, file) -> Model:
+    """The model that integration.engine of a case names, of its own table or of its bodies.
 
     housner, wobbling: one body on the ground. rocking_frame, wobbling_frame: equal columns on the
     ground and a body on all of them. podium: the same, a body of storeys on them.
@@ -33,10 +33,12 @@ def model_of_bodies(case, file) -> Model:
     InputError
         the bodies are not those of the model; it says what they lack.
     """
+    for section in case.own.values():
+        return model_class(case.integration.engine).of_section(section, file)
     return _Reader(case, file).model()
 
 
-def start_of_bodies(case, file) -> Start:
+def start_of(case, file) -> Start:
     """Tilt and direction at the start of the body that rocks, or of all columns alike.
 
     Raises
@@ -44,6 +46,9 @@ def start_of_bodies(case, file) -> Start:
     InputError
         columns that start unlike, or what a model cannot start with.
     """
+    for name in case.own:
+        start = case.initial[name]
+        return Start(start.tilt_rad, start.direction_deg)
     return _Reader(case, file).start()
 
 
@@ -54,7 +59,7 @@ class _Reader:
         self.case, self.file, self.engine = case, file, case.integration.engine
 
     def model(self) -> Model:
-        """As `model_of_bodies`."""
+        """As `model_of`."""
         self._refuse_laws()
         if self.engine in ("housner", "wobbling"):
             body = rigid_column(self.case, self._alone(), self.file)
@@ -75,7 +80,7 @@ class _Reader:
         return self._podium(name, slab, alpha, diagonal, count * body.mass)
 
     def start(self) -> Start:
-        """As `start_of_bodies`."""
+        """As `start_of`."""
         single = self.engine in ("housner", "wobbling")
         name, slab = (self._alone(), None) if single else self._columns()
         found = {}

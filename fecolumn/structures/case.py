@@ -26,13 +26,14 @@ from fecolumn.case import (
     Motion,
     Output,
     Overturn,
+    case_from_tables,
     located,
     section_table,
 )
 from fecolumn.content import content
 from fecolumn.files import is_file
 from fecolumn.paths import OF_BODIES as FILES
-from fecolumn.schema import InputError, build, meant, merge, nested, stated
+from fecolumn.schema import InputError, Section, build, meant, merge, nested, stated
 from fecolumn.short_form import ALIKE, ShortForm, full_tables, in_short_form, short_form
 from fecolumn.structures.check_grounds import check_grounds
 from fecolumn.structures.keys import (
@@ -73,9 +74,11 @@ _TAKEN = set(".\"'[]/ ")
 
 @dataclass(frozen=True, slots=True)
 class StructureCase:
-    """One analysis of a structure.
+    """One analysis.
 
-    Tables of tables are dictionaries by the names that the user gave.
+    Tables of tables are dictionaries by the names that the user gave. own: the table of a rocking
+    model, such as podium, that says what is analysed instead of bodies. short: the form of a column
+    on its base in which the case was stated.
     """
 
     bodies: dict[str, Placed]
@@ -92,6 +95,7 @@ class StructureCase:
     motion: Motion | None = None
     mesh: Mesh = Mesh()
     grounds: dict[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
+    own: dict[str, Section] = field(default_factory=dict)
     short: ShortForm | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self):
@@ -125,6 +129,8 @@ class StructureCase:
         if self.grounds == {GROUND: Ground()}:
             # as of cases that are older than grounds
             del tables["grounds"]
+        if self.own:
+            tables["own"] = {key: section_table("", one) for key, one in self.own.items()}
         text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
 
@@ -186,12 +192,14 @@ class StructureCase:
                 tables.pop(key, None)
             else:
                 tables = merge(tables, nested(key, value))
-        return structure_from_tables(stated(tables), "case")
+        return case_from_tables(stated(tables), "case")
 
     def tables(self, defaults: bool = True) -> dict:
         """The case as the tables of its file, in the full form, with keys at their `defaults` or
         without.
         """
+        if self.own:
+            return self._tables_of_model(defaults)
         found = {}
         for one in dataclasses.fields(self):
             value = getattr(self, one.name)
@@ -199,9 +207,23 @@ class StructureCase:
                 value = {key: _stated(section, defaults) for key, section in value.items()}
             elif dataclasses.is_dataclass(value):
                 value = _stated(value, defaults)
-            if one.name != "short" and value not in (None, {}, ""):
+            if one.name not in ("own", "short") and value not in (None, {}, ""):
                 found[one.name] = value
         return found
+
+    def _tables_of_model(self, defaults: bool) -> dict:
+        """As `tables`, of a case with a rocking model's own table."""
+        ((name, section),) = self.own.items()
+        start = self.initial[name]
+        found = {
+            name: section,
+            "integration": self.integration,
+            "overturn": self.overturn,
+            "output": self.output,
+        } | ({"motion": self.motion} if self.motion else {})
+        found = {key: _stated(one, defaults) for key, one in found.items()}
+        found["initial"] = {"tilt_rad": start.tilt_rad, "direction_deg": start.direction_deg}
+        return found | ({"title": self.title} if self.title else {})
 
     def as_stated(self) -> dict:
         """The case as the tables of its file, in the form that it was stated in."""
@@ -435,6 +457,8 @@ def check(case: StructureCase, file) -> None:
     def refuse(key, value, allowed):
         raise InputError(file, key, value, allowed)
 
+    if case.own:  # checked by the model
+        return
     if not case.bodies:
         refuse("bodies", None, "missing; a structure needs a table [bodies.NAME] at least")
     for name, body in case.bodies.items():

@@ -266,9 +266,9 @@ def _of_model(key: str) -> Any:
     """Type of a dotted key of a rocking model's own table, such as podium.storeys, or None."""
     if key.partition(".")[0] not in TABLES_OF_MODELS:
         return None
-    from fecolumn.rocking import table_case  # only now: the models need libraries
+    from fecolumn.rocking import model_table  # only now: the models need libraries
 
-    return table_case.model_key_type(key)
+    return model_table.model_key_type(key)
 
 
 def _known_keys(section: Any = ShortForm, prefix: str = "") -> dict[str, type]:

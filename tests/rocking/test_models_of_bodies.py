@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from fecolumn.case import case_from_tables, read_case
-from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
-from fecolumn.rocking.table_case import table_case
+from fecolumn.rocking.model_table import case_of_table
+from fecolumn.rocking.of_bodies import model_of, start_of
 from fecolumn.schema import InputError
 from fecolumn.simulation import run
 
@@ -37,7 +37,7 @@ def frame(engine, column, slab, **tables):
 
 def own(**tables):
     """The model of a table of its own."""
-    return table_case(tables, "case.toml").model("case.toml")
+    return model_of(case_of_table(tables, "case.toml"), "case.toml")
 
 
 @pytest.mark.parametrize(
@@ -91,8 +91,8 @@ def own(**tables):
     ],
     ids=lambda one: "" if isinstance(one, dict) else one.integration.engine,
 )
-def test_a_model_of_bodies_is_that_of_its_own_table(made, stated):
-    found, exact = model_of_bodies(made, "case.toml").describe(), own(**stated).describe()
+def test_a_model_of_is_that_of_its_own_table(made, stated):
+    found, exact = model_of(made, "case.toml").describe(), own(**stated).describe()
     assert set(found) == set(exact)
     for name, (value, unit) in exact.items():
         assert found[name] == (pytest.approx(value, rel=1e-12), unit)
@@ -163,13 +163,13 @@ n_modes = 10
 )
 def test_bodies_of_another_geometry_are_refused_with_the_reason(made, told):
     with pytest.raises(InputError, match="integration.engine|foot_radius|restitution") as refused:
-        model_of_bodies(made, "case.toml")
+        model_of(made, "case.toml")
     assert told in str(refused.value)
 
 
 def test_columns_of_a_model_start_alike():
     leaning = dict(tilt_rad=0.02, direction_deg=180.0)
-    start = start_of_bodies(frame("rocking_frame", PIER, SLAB, initial=dict(body=leaning)), "")
+    start = start_of(frame("rocking_frame", PIER, SLAB, initial=dict(body=leaning)), "")
     assert (start.tilt_rad, start.direction_deg) == (0.02, 180.0)
     for initial, told in (
         ({"body 1": leaning}, "needs one start for all"),
@@ -177,4 +177,4 @@ def test_columns_of_a_model_start_alike():
         (dict(body=dict(spin_rad_s=[0.0, 0.1, 0.0])), "must be 0 where integration.engine"),
     ):
         with pytest.raises(InputError, match=told):
-            start_of_bodies(frame("rocking_frame", PIER, SLAB, initial=initial), "")
+            start_of(frame("rocking_frame", PIER, SLAB, initial=initial), "")

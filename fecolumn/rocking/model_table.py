@@ -11,14 +11,12 @@ both is analysed: the name of a model, or an engine of bodies.
 
 from __future__ import annotations
 
-import dataclasses
-import hashlib
-import json
 from dataclasses import dataclass
 
-from fecolumn.case import Integration, Motion, Output, Overturn, located, section_table
-from fecolumn.rocking.model import TABLES, Model, model_class, model_engine_of
-from fecolumn.schema import InputError, Section, build, merge, nested, parameter, stated
+from fecolumn.case import Contact, Initial, Integration, Motion, Output, Overturn, located
+from fecolumn.rocking.model import TABLES, model_class, model_engine_of
+from fecolumn.schema import InputError, Section, build, parameter
+from fecolumn.structures.case import StructureCase
 
 #: Tables of a structure of [bodies] that a model of the same file passes over
 OF_BODIES = ("bodies", "materials", "interfaces", "links", "contact", "observed", "mesh")
@@ -48,63 +46,7 @@ COMMON = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class TableCase:
-    """One analysis of a rocking model.
-
-    Of the models' tables one is there, that of integration.engine.
-    """
-
-    integration: Integration
-    initial: Start
-    overturn: Overturn
-    output: Output
-    title: str = ""
-    motion: Motion | None = None
-    block: Section | None = None
-    frame: Section | None = None
-    wobbling: Section | None = None
-    wobbling_frame: Section | None = None
-    podium: Section | None = None
-
-    @property
-    def table(self) -> str:
-        """Name of the model's table."""
-        return next(name for name in TABLES if getattr(self, name) is not None)
-
-    @property
-    def id(self) -> str:
-        """Twelve hexadecimal digits that name everything but title and output cadence; motions
-        count by content.
-        """
-        names = (self.table, *(name for name in COMMON if name != "output"))
-        return hashlib.sha256(
-            json.dumps(
-                {name: section_table(name, getattr(self, name)) for name in names}, sort_keys=True
-            ).encode()
-        ).hexdigest()[:12]
-
-    def model(self, file) -> Model:
-        """The model of the table.
-
-        Raises
-        ------
-        InputError
-            keys that do not fit together.
-        """
-        return model_class(self.integration.engine).of_section(getattr(self, self.table), file)
-
-    def replace(self, changes: dict | None = None, **sections) -> TableCase:
-        """Case with other values by dotted key, such as {"podium.impact": "CAV"}, checked as a
-        file's would be; see `Case.replace`.
-        """
-        tables = stated(dataclasses.asdict(self))
-        for key, value in {**(changes or {}), **sections}.items():
-            tables = merge(tables, nested(key, value))
-        return table_case(stated(tables), "case")
-
-
-def table_case(tables: dict, file, engine: str | None = None) -> TableCase:
+def case_of_table(tables: dict, file, engine: str | None = None) -> StructureCase:
     """Case from TOML tables that have a model's own; relative paths are taken from the folder of
     `file`.
 
@@ -160,13 +102,21 @@ def table_case(tables: dict, file, engine: str | None = None) -> TableCase:
             found["output"].fields_every_s,
             f"must be 0 where integration.engine = {engine!r}: a rigid model has no fields",
         )
-    case = TableCase(
+    start = found.pop("initial")
+    own = build(section, tables[table], file, f"{table}.")
+    model_class(engine).of_section(own, file)
+    return StructureCase(
         **found,
-        **{table: build(section, tables[table], file, f"{table}.")},
+        bodies={},
+        materials={},
+        grounds={},
+        interfaces={},
+        links={},
+        initial={table: Initial(start.tilt_rad, start.direction_deg)},
+        contact=Contact(),
         title=tables.get("title", ""),
+        own={table: own},
     )
-    case.model(file)
-    return case
 
 
 def model_key_type(key: str):
