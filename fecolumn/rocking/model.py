@@ -124,12 +124,6 @@ class Model(Protocol):
         not fit.
         """
 
-    @classmethod
-    def of_case(cls, case, file) -> Model:
-        """Model of the column of a finite-element case, standing on its foot; InputError where
-        there is none.
-        """
-
     def respond(
         self,
         motion: GroundMotion,
