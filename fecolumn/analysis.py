@@ -70,9 +70,7 @@ class Analysis:
 
     def expected(self) -> str:
         """What meshes and analysis will take, in words."""
-        from fecolumn.mesh.estimate import estimate
-
-        return str(estimate(self.case))
+        raise NotImplementedError
 
     def _load_motion(self, file):
         if self.case.motion is None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import functools
 import io
 import os
 import sys
@@ -173,7 +174,7 @@ def _completion(args) -> int:
 def _mesh(args) -> int:
     from fecolumn.case import read_case
     from fecolumn.folder import written
-    from fecolumn.mesh_report import mesh_report
+    from fecolumn.mesh_report import FILES, mesh_report
 
     case = read_case(args.case)
     for table in case.own:
@@ -187,22 +188,9 @@ def _mesh(args) -> int:
             "tells its parameters",
         )
     _warn_of_motion(case, args.case)
-    if hasattr(case, "bodies"):
-        from fecolumn.structures.report import FILES, structure_report
-
-        with written(args.output, "mesh", names=FILES) as draft:
-            print(
-                structure_report(
-                    case, args.case, draft, lambda text: print(text, file=sys.stderr, flush=True)
-                )
-            )
-        return 0
-    with written(
-        args.output,
-        "mesh",
-        names=("specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt"),
-    ) as draft:
-        print(mesh_report(case, draft, lambda text: print(text, file=sys.stderr, flush=True)))
+    with written(args.output, "mesh", names=FILES) as draft:
+        tell = functools.partial(print, file=sys.stderr, flush=True)
+        print(mesh_report(case, args.case, draft, tell))
     return 0
 
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import collections
 import csv
-import dataclasses
 import json
 import re
 from pathlib import Path
@@ -180,7 +179,7 @@ def _write(place: Path, numbers, folder: Path, seed: int, specimens: int) -> Non
     for number in numbers:
         file = place / f"{number}.toml"
         if not file.exists():
-            file.write_text(toml(dataclasses.asdict(case_of(number, folder, seed, specimens))))
+            file.write_text(toml(case_of(number, folder, seed, specimens).as_stated()))
 
 
 def toml(tables: dict) -> str:

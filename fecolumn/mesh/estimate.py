@@ -34,18 +34,35 @@ _HUGE = 10.0
 
 
 @dataclass(frozen=True, slots=True)
-class Estimate:
-    """bricks, dofs: {part: number} of elements and of degrees of freedom. foot_points: nodes of the
-    foot. engine: of the case.
+class Load:
+    """What one mesh asks of an analysis: dofs of one of its copies, 0 of a rigid body; contact
+    points; copies; held: whether it is an elastic ground.
+    """
 
-    Numbers of bricks and degrees of freedom of a built column are exact; memory and times are
+    dofs: int
+    points: int
+    copies: int = 1
+    held: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """bricks, dofs: number of elements and of degrees of freedom by body, or by part of a column;
+    loads: of each mesh. engine: of the case.
+
+    Numbers of elements and degrees of freedom of built bodies are exact; memory and times are
     rough.
     """
 
-    bricks: dict[int, int]
-    dofs: dict[int, int]
-    foot_points: int
+    bricks: dict
+    dofs: dict
+    loads: tuple[Load, ...]
     engine: str
+
+    @property
+    def elements(self) -> dict:
+        """Number of elements by body, or by part of a column."""
+        return self.bricks
 
     @property
     def all_bricks(self) -> int:
@@ -58,49 +75,59 @@ class Estimate:
         return sum(self.dofs.values())
 
     @property
-    def _bodies(self) -> tuple[int, int]:
-        """Degrees of freedom of the column with all that is tied to it, and of the base."""
-        base = self.dofs.get(BASE, 0)
-        return self.all_dofs - base, base
+    def foot_points(self) -> int:
+        """Contact points of all bodies."""
+        return sum(load.copies * load.points for load in self.loads if not load.held)
 
     @property
     def memory(self) -> float:
-        """Most memory [bytes] of the analysis, or of the making of its reduced model."""
-        column, base = self._bodies
+        """Most memory [bytes] of the analysis, or of the making of its reduced models."""
+        return PROGRAM + sum(map(self._memory, self.loads))
+
+    def _memory(self, load: Load) -> float:
+        n = load.dofs
         # matrices have 81 numbers a row for bricks, twice (mass, stiffness) and a copy to factor,
         # 12 bytes a number
-        operators = 12 * 81 * 3 * (column + base) + 8 * FILL * (column ** (4 / 3) + base ** (4 / 3))
-        columns = 3 * self.foot_points
+        operators = 12 * 81 * 3 * n + 8 * FILL * n ** (4 / 3)
+        if load.held:
+            return operators
+        columns = 3 * load.points
         wide = 5 * columns if self.engine == "full" else 4 * 120
-        return PROGRAM + operators + 8 * column * wide + 8 * 3 * columns**2
+        return operators + 8 * n * wide + 8 * 3 * columns**2
 
     @property
     def setup(self) -> float:
-        """Time [s] before the first step; the reduced model is made once and kept."""
-        column, base = self._bodies
-        factors = 2 if self.engine == "full" else 3
-        solves = 3 * self.foot_points * (3 if self.engine == "full" else 4)
-        return (
-            2
-            + 1e-4 * (column + base)
-            + factors * FACTOR * (column**2 + base**2)
-            + MANY * FILL * (solves * column ** (4 / 3) + 3 * self.foot_points * base ** (4 / 3))
+        """Time [s] before the first step; reduced models are made once and kept."""
+        factors, passes = (2, 3) if self.engine == "full" else (3, 4)
+        return 2 + sum(
+            1e-4 * load.dofs
+            + factors * FACTOR * load.dofs**2
+            + MANY * FILL * 3 * load.points * (1 if load.held else passes) * load.dofs ** (4 / 3)
+            for load in self.loads
         )
 
     @property
     def step(self) -> float:
         """Time [s] of a step, in the mean of a shaken analysis."""
+        bodies = [load for load in self.loads if not load.held]
         if self.engine != "full":
-            # 10 us where the column rocks; landings on 32 and on 96 nodes make it 35 and 155
-            return 1e-5 + 1.5e-8 * self.foot_points**2
-        column, _ = self._bodies
-        return 5 * SOLVE * FILL * column ** (4 / 3) + 2e-7 * column
+            # 10 us where a column rocks; landings on 32 and on 96 nodes make it 35 and 155
+            return 1e-5 + 1.5e-8 * sum(load.copies * load.points**2 for load in bodies)
+        return sum(
+            load.copies * (5 * SOLVE * FILL * load.dofs ** (4 / 3) + 2e-7 * load.dofs)
+            for load in bodies
+        )
+
+    @property
+    def counts(self) -> str:
+        """Elements and degrees of freedom, in words."""
+        return f"{self.all_bricks:,} elements, {self.all_dofs:,} degrees of freedom"
 
     def __str__(self) -> str:
-        parts = ", ".join(f"{PART_NAMES[part]} {n:,}" for part, n in sorted(self.bricks.items()))
+        parts = ", ".join(f"{PART_NAMES.get(one, one)} {n:,}" for one, n in self.bricks.items())
         return (
             f"{self.all_bricks:,} elements ({parts}), {self.all_dofs:,} degrees of "
-            f"freedom, {self.foot_points:,} nodes in the foot; "
+            f"freedom, {self.foot_points:,} contact points; "
             f"about {self.memory / 1e9:.1f} GB, {_span(self.setup)} to start and "
             f"{1e3 * self.step:.2g} ms a step with the "
             f"{self.engine} engine"
@@ -122,9 +149,10 @@ def estimate(case: ShortForm) -> Estimate:
     bricks, nodes, foot = body_counts(case)
     if counts := base_counts(case):
         bricks[BASE], nodes[BASE] = math.prod(counts), math.prod(n + 1 for n in counts)
-    return Estimate(
-        bricks, {part: 3 * n for part, n in nodes.items()}, foot, case.integration.engine
-    )
+    dofs = {part: 3 * n for part, n in nodes.items()}
+    base = dofs.get(BASE, 0)
+    loads = (Load(sum(dofs.values()) - base, foot), Load(base, foot, held=True))
+    return Estimate(bricks, dofs, loads, case.integration.engine)
 
 
 def body_counts(case) -> tuple[dict[int, int], dict[int, int], int]:
@@ -237,13 +265,4 @@ def _with(case: ShortForm, key: str, value: float) -> Estimate:
     )
     return estimate(
         dataclasses.replace(case, mesh=dataclasses.replace(mesh, **sizes | {name: value}))
-    )
-
-
-def estimate_of_all(cases) -> str:
-    """What a study says of its meshes: how many there are, and the estimate of the largest."""
-    different = {(case.column, case.flange, case.cap, case.base, case.mesh): case for case in cases}
-    largest = max((estimate(case) for case in different.values()), key=lambda one: one.all_dofs)
-    return (
-        f"{len(different)} meshes, the largest of {largest}" if len(different) > 1 else str(largest)
     )

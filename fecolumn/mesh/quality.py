@@ -232,8 +232,8 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[QualityRow, 
                 float(np.arctan2(reach, whole.centre[2])),
             )
         ]
-    plate = case.base
     if len(base.cells):
+        plate = case.base
         rows += [
             QualityRow(
                 "base: volume",

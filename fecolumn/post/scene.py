@@ -267,9 +267,10 @@ class Scene:
     @property
     def meshes(self) -> list[BrickMesh]:
         """Mesh of each piece where it stands at first, as `post.fields.FieldWriter` takes it."""
+        parts = np.split(self.of_cells["part"], self.first_cell[1:-1])
         return [
-            BrickMesh(piece.upright, piece.elements, np.zeros(len(piece.elements), np.int8))
-            for piece in self.pieces
+            BrickMesh(piece.upright, piece.elements, part)
+            for piece, part in zip(self.pieces, parts)
         ]
 
     @cached_property

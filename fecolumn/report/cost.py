@@ -5,6 +5,7 @@ cost.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -35,8 +36,8 @@ class CostRatio:
     % interval over motions.
     """
 
-    low: object
-    high: object
+    low: Any
+    high: Any
     n: int
     ratio: float
     ratio_low: float

@@ -121,14 +121,18 @@ def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
     return [(f"cdf_by_{axis.split('.')[-1]}", axis) for axis in axes[:3]] or [("cdf", None)]
 
 
+def _median(u_max, overturned) -> float:
+    return percentile(u_max, overturned, 0.5)
+
+
 def _panels(sweep: Sweep, axis: str | None) -> list[CdfPanel]:
     if axis is None:
-        chosen = sweep.done
+        chosen = list(sweep.done)
         # of many unordered ones the least, the middle and the most dangerous
         if len(chosen) > _LINES:
             ranked = sorted(
                 chosen,
-                key=lambda one: (one.column("overturned").mean(), percentile(*one.peaks(), 0.5)),
+                key=lambda one: (one.column("overturned").mean(), _median(*one.peaks())),
             )
             chosen = [ranked[0], ranked[len(ranked) // 2], ranked[-1]]
         labels = _labels(sweep)

@@ -51,13 +51,14 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
         return None
     own = {key: value for key, value in sweep.reference.values.items() if key != SCALE}
     here = next((one for one in found if one.values == own and one.fit), None)
-    if here is None:
+    if here is None or here.fit is None:
         return None
+    fit, records = here.fit, here.fit.clusters or here.fit.n
     panels = [
         CurvePanel(
             LABEL,
             r"$P$(overturn)",
-            _curves(here),
+            _curves(here.runs, fit),
             {"ylim": (0, 1), "xlim": (0, None)},
             legend="upper left",
         )
@@ -81,18 +82,18 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
             f" Right: for each {axis_name(axis)}; bands as bars, of each curve at places of "
             "its own, where there are more than two."
         )
-    fit, repeated = here.fit, here.fit.clusters < here.fit.n
+    low, high = fit.median_interval()
     told = (
         f"{sentence(sweep.at(own))} half of the {sweep.subject.noun}s overturn at "
-        f"{_speed(fit.median)} m/s {interval(*fit.median_interval(), _speed)}, with a "
+        f"{_speed(fit.median)} m/s {interval(low, high, _speed)}, with a "
         "logarithmic "
         f"standard deviation of {fixed(fit.beta)}{_more(_second(here.runs))}. "
     )
     known = (
-        f"The {count(fit.n, 'run')} are of {count(fit.clusters, 'record')} at several "
+        f"The {count(fit.n, 'run')} are of {count(records, 'record')} at several "
         "scales or in several directions: intervals and bands count records and "
         "not runs (Liang and Zeger 1986). "
-        if repeated
+        if records < fit.n
         else ""
     )
     columns = (
@@ -153,9 +154,8 @@ def curve_axis(sweep: Sweep, values: list[dict]) -> str | None:
     levels = {
         axis: len({repr(one[axis]) for one in values}) for axis in sweep.varied if axis != SCALE
     }
-    return max(
-        (axis for axis in levels if 1 < levels[axis] <= _CURVES), key=levels.get, default=None
-    )
+    few = (axis for axis in levels if 1 < levels[axis] <= _CURVES)
+    return max(few, key=levels.__getitem__, default=None)
 
 
 def settings_curves(axis: str, own: dict, found: list[FittedSetting]) -> list[Curve]:
@@ -169,6 +169,7 @@ def settings_curves(axis: str, own: dict, found: list[FittedSetting]) -> list[Cu
     return [
         Curve(axis_text(axis, one.values[axis]), grid, p.p, (p.lower, p.upper))
         for one in line
+        if one.fit
         for p in [one.fit.probability(grid)]
     ]
 
@@ -226,11 +227,11 @@ def _second(runs: Runs) -> float | None:
     return float(chi2.sf(max(more, 0.0), 1))
 
 
-def _curves(one: FittedSetting) -> list[Curve]:
+def _curves(runs: Runs, fit: Fragility) -> list[Curve]:
     """The curve with its band, and shares in groups of equal number."""
-    pgv, over = one.runs.measures[:, 0], one.runs.overturned
+    pgv, over = runs.measures[:, 0], runs.overturned
     grid = _grid([pgv])
-    p = one.fit.probability(grid)
+    p = fit.probability(grid)
     bins = np.array_split(np.argsort(pgv, kind="stable"), _BINS)
     shares = np.array([over[place].mean() for place in bins])
     low, high = np.transpose([np.ravel(wilson([over[place].sum()], place.size)) for place in bins])

@@ -171,7 +171,7 @@ def _motions(sweep: Sweep) -> PageTable:
                 *slid,
                 low,
                 high,
-                high / low if low else None,
+                high / low if low and high else None,
             )
         )
     return PageTable(

@@ -81,10 +81,10 @@ def building_laws(profile: str, storeys: int, crv, cav, resamples: int = 1999) -
     """
     a, b, shears = crv["tilt"], cav["tilt"], (crv["shear"], cav["shear"])
     both = np.isfinite(a) & np.isfinite(b)
-    tests = [
+    tilt, shear = (
         paired_kolmogorov_smirnov(*pair, resamples=resamples)
         for pair in ((a, b), (shears[0][both], shears[1][both]))
-    ]
+    )
     draws = np.random.default_rng(1).integers(len(a), size=(_RESAMPLES, len(a)))
     drawn = np.array(
         [_sizes(a[some], b[some], shears[0][some], shears[1][some]) for some in draws]
@@ -96,7 +96,8 @@ def building_laws(profile: str, storeys: int, crv, cav, resamples: int = 1999) -
         float((a <= STILL).mean()),
         (float(np.isinf(a).mean()), float(np.isinf(b).mean())),
         float((np.isinf(a) != np.isinf(b)).mean()),
-        *((test.statistic, test.p) for test in tests),
+        (tilt.statistic, tilt.p),
+        (shear.statistic, shear.p),
         _outside(a, b),
         _outside(shears[0][both], shears[1][both]),
         *_sizes(a, b, *shears),
@@ -109,12 +110,14 @@ def _sizes(a, b, shear_a, shear_b) -> tuple[float, float, float, float]:
     both = np.isfinite(a) & np.isfinite(b)
     rocking = both & (a > STILL) & (b > STILL)
     if rocking.sum() < 2:
-        return (np.nan,) * 4
+        return np.nan, np.nan, np.nan, np.nan
     logs = [np.log(two[rocking] / one[rocking]) for one, two in ((a, b), (shear_a, shear_b))]
+    scatter = [float(np.diff(np.percentile(one, [16, 84]))[0] / 2) for one in logs]
     return (
         float(np.exp(np.median(logs[1]))),
         float(np.median(shear_b[both]) / np.median(shear_a[both])),
-        *(float(np.diff(np.percentile(one, [16, 84]))[0] / 2) for one in logs),
+        scatter[0],
+        scatter[1],
     )
 
 

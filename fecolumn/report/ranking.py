@@ -81,6 +81,9 @@ def _effect(axis: str, low, high, at_low: list[Setting], at_high: list[Setting])
     motions = common_motions(at_low + at_high) if at_low else []
     if len(motions) < _LEAST_MOTIONS:
         return None
-    peaks = [[setting.peaks(motions) for setting in settings] for settings in (at_low, at_high)]
-    arrays = [np.array([pair[kind] for pair in side]) for side in peaks for kind in (0, 1)]
-    return Rank(axis, low, high, len(at_low), sensitivity(*arrays))
+    u_low, over_low, u_high, over_high = (
+        np.array([setting.peaks(motions)[kind] for setting in settings])
+        for settings in (at_low, at_high)
+        for kind in (0, 1)
+    )
+    return Rank(axis, low, high, len(at_low), sensitivity(u_low, over_low, u_high, over_high))

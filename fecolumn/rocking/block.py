@@ -12,7 +12,7 @@ from typing import ClassVar
 import numpy as np
 
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.column import RigidColumn, rigid_column
+from fecolumn.rocking.column import RigidColumn
 from fecolumn.rocking.impact import body_restitution, one_sided_restitution
 from fecolumn.rocking.model import ModelResponse
 from fecolumn.rocking.plane import Plane, respond
@@ -193,19 +193,6 @@ class RockingBlock:
         for plane in block.planes:
             _refuse_fallen(plane, file, section)
         return block
-
-    @classmethod
-    def of_case(cls, case, file) -> RockingBlock:
-        """The column of a case on its foot, with its mass, centre and inertia; its restitution by
-        the plastic impact, or contact.restitution where that is given.
-
-        Raises
-        ------
-        InputError
-            the column does not stand on its foot.
-        """
-        friction, kept = case.contact.friction_coefficient, case.contact.restitution or None
-        return cls.of_body(rigid_column(case), friction, file, kept)
 
     @classmethod
     def of_body(cls, body: RigidColumn, friction: float, file, restitution=None) -> RockingBlock:

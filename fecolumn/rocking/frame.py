@@ -21,7 +21,7 @@ from fecolumn.rocking.model import ModelResponse
 from fecolumn.rocking.plane import Plane, respond
 from fecolumn.rocking.restraint import Restraint
 from fecolumn.rocking.swing import GRAVITY
-from fecolumn.schema import InputError, Section, parameter
+from fecolumn.schema import Section, parameter
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,16 +184,6 @@ class RockingFrame:
             friction,
         )
         return cls(columns, column_mass, beam_mass, slenderness, half_diagonal, plane)
-
-    @classmethod
-    def of_case(cls, case, file) -> RockingFrame:
-        """None: a case has one column and no beam."""
-        raise InputError(
-            file,
-            "integration.engine",
-            "rocking_frame",
-            "needs a [frame]: a case of [column] has no beam; see fecolumn rocking rocking_frame",
-        )
 
     @property
     def mass_ratio(self) -> float:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import importlib
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from fecolumn.schema import InputError
 
@@ -21,8 +21,8 @@ if TYPE_CHECKING:  # the command line asks for the names alone, and must not wai
 
 #: Name of each model: "module:class" in this package. The modules are imported only when asked for.
 MODELS = {
-    "housner": "block:Block",
-    "rocking_frame": "frame:Frame",
+    "housner": "block:RockingBlock",
+    "rocking_frame": "frame:RockingFrame",
     "wobbling": "wobbling:Wobbling",
     "wobbling_frame": "wobbling_frame:WobblingFrame",
     "podium": "podium:Podium",
@@ -101,30 +101,27 @@ class Model(Protocol):
         name of its own table in a model's case file, such as "block".
     SECTION
         dataclass (schema.Section) of that table's keys.
-    critical_tilt
-        at which it is lost without help [rad]
-    critical_displacement
-        of the top there [m]
-    energy_to_overturn
-        that takes it there from upright [J].
     """
 
-    TABLE: str
-    SECTION: type
-    critical_tilt: float
-    critical_displacement: float
-    energy_to_overturn: float
+    TABLE: ClassVar[str]
+    SECTION: ClassVar[type]
+
+    @property
+    def critical_tilt(self) -> float:
+        """Tilt at which it is lost without help [rad]."""
+
+    @property
+    def critical_displacement(self) -> float:
+        """Displacement of the top at the critical tilt [m]."""
+
+    @property
+    def energy_to_overturn(self) -> float:
+        """Energy that takes it from upright to the critical tilt [J]."""
 
     @classmethod
-    def of_section(cls, section, file) -> Model:
+    def of_section(cls, section: Any, file) -> Model:
         """Model of its own table; InputError(file, "block.height_m", value, allowed) where keys do
         not fit.
-        """
-
-    @classmethod
-    def of_case(cls, case, file) -> Model:
-        """Model of the column of a finite-element case, standing on its foot; InputError where
-        there is none.
         """
 
     def respond(

@@ -62,13 +62,13 @@ class _Reader:
         """As `model_of`."""
         self._refuse_laws()
         if self.engine in ("housner", "wobbling"):
-            body = rigid_column(self.case, self._alone(), self.file)
+            body = rigid_body(self.case, self._alone(), self.file)
             friction = self._friction(self._alone())
             kind = RockingBlock if self.engine == "housner" else Wobbling
             return kind.of_body(body, friction, self.file)
         name, slab = self._columns()
         count, friction = len(self.case.bodies[name].places), self._friction(name)
-        body = rigid_column(self.case, name, self.file)
+        body = rigid_body(self.case, name, self.file)
         if self.engine == "wobbling_frame":
             return self._wobbling_frame(name, body, slab, count, friction)
         half, height = self._upright_block(name)
@@ -227,10 +227,10 @@ class _Reader:
 
     def _mass(self, name: str) -> float:
         """Mass [kg] of a body; of storeys that of the slab alone."""
-        return rigid_column(self.case, name, self.file).mass
+        return rigid_body(self.case, name, self.file).mass
 
 
-def rigid_column(case, name: str, file) -> RigidColumn:
+def rigid_body(case, name: str, file) -> RigidColumn:
     """A body of a StructureCase as one rigid body on its foot, from closed forms; of a mesh, by its
     volume.
 
@@ -252,26 +252,27 @@ def rigid_column(case, name: str, file) -> RigidColumn:
             "a body of another kind",
         )
     density = material_of(body, case.materials).density_kg_m3
+    flange, cap = getattr(body, "flange", None), getattr(body, "cap", None)
+    seat = flange.thickness_m if flange else 0.0
     if isinstance(body, keys.Meshed):
         own = own_mesh(body.mesh_file)
         found, extent, top = mass_properties(own.mesh, density), own.foot, own.height
     elif isinstance(body, (keys.Tube, keys.Cylinder)):
         is_round, outer = True, body.outer_diameter_m / 2
-        seat = body.flange.thickness_m if body.flange else 0.0
         inner = outer - body.wall_m if isinstance(body, keys.Tube) else 0.0
         found, top = ring(outer, inner, body.height_m, seat, density), seat + body.height_m
         extent = (2 * outer,) * 2
-        if body.flange:
-            wide, bore = body.flange.outer_diameter_m, body.flange.inner_diameter_m
-            found, extent = found + ring(wide / 2, bore / 2, seat, 0.0, density), (wide,) * 2
-        if body.cap:
-            cap = body.cap
-            found = found + box(cap.length_m, cap.width_m, cap.thickness_m, top, density)
-            top += cap.thickness_m
     else:
         extent = body.length_m, body.width_m
-        top = body.height_m if isinstance(body, keys.Block) else body.thickness_m
-        found = box(*extent, top, 0.0, density)
+        height = body.height_m if isinstance(body, keys.Block) else body.thickness_m
+        found, top = box(*extent, height, seat, density), seat + height
+    if flange:
+        wide, bore = flange.outer_diameter_m, flange.inner_diameter_m
+        found, extent = found + ring(wide / 2, bore / 2, seat, 0.0, density), (wide,) * 2
+        is_round = True
+    if cap:
+        found = found + box(cap.length_m, cap.width_m, cap.thickness_m, top, density)
+        top += cap.thickness_m
     more = 1.0 if body.mass_kg is None else body.mass_kg / found.mass
     return RigidColumn(
         float(found.mass * more),

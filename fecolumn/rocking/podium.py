@@ -147,16 +147,6 @@ class Podium:
             )
         return found
 
-    @classmethod
-    def of_case(cls, case, file) -> Podium:
-        """None: a case has one column and no building."""
-        raise InputError(
-            file,
-            "integration.engine",
-            cls.TABLE,
-            "needs a [podium]: a case of [column] has no building; see fecolumn rocking podium",
-        )
-
     @property
     def building_mass(self) -> float:
         """M: of all floors [kg]."""

@@ -18,7 +18,7 @@ from fecolumn._compiled import interpreted
 from fecolumn.case import GRAVITY
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking import wobbling_equations as equations
-from fecolumn.rocking.column import RigidColumn, rigid_column
+from fecolumn.rocking.column import RigidColumn
 from fecolumn.rocking.model import ModelResponse
 from fecolumn.schema import InputError, Section, parameter
 
@@ -135,17 +135,6 @@ class Wobbling:
             restitution=section.restitution,
             friction=section.friction_coefficient,
         )
-
-    @classmethod
-    def of_case(cls, case, file) -> Wobbling:
-        """The column of a case on its round foot, with its mass, centre and inertia.
-
-        Raises
-        ------
-        InputError
-            the foot is not round, or the column not alike around its axis.
-        """
-        return cls.of_body(rigid_column(case), case.contact.friction_coefficient, file)
 
     @classmethod
     def of_body(cls, column: RigidColumn, friction: float, file) -> Wobbling:

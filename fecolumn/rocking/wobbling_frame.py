@@ -20,7 +20,7 @@ from fecolumn.rocking import wobbling_equations as equations
 from fecolumn.rocking.frame import RockingFrame
 from fecolumn.rocking.restraint import Restraint
 from fecolumn.rocking.wobbling import Wobbling, bore, cylinder_body, round_outline
-from fecolumn.schema import InputError, Section, parameter
+from fecolumn.schema import Section, parameter
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,17 +106,6 @@ class WobblingFrame(Wobbling):
             section.tendon_prestress_n,
         )
         return cls(body, section.columns, section.restitution, section.friction_coefficient)
-
-    @classmethod
-    def of_case(cls, case, file) -> WobblingFrame:
-        """None: a case has one column and no slab."""
-        raise InputError(
-            file,
-            "integration.engine",
-            cls.TABLE,
-            "needs a [wobbling_frame]: a case of [column] has no slab; see fecolumn "
-            "rocking wobbling_frame",
-        )
 
     @property
     def planar(self) -> RockingFrame:

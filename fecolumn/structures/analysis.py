@@ -32,11 +32,9 @@ class OfStructure:
 
     def expected(self) -> str:
         """What is analysed, in words."""
-        copies = sum(len(body.places) for body in self.case.bodies.values())
-        return (
-            f"{copies} bodies, {len(self.case.bodies)} of them different, "
-            f"{len(self.case.links)} kinds of links, {self.case.integration.engine} engine"
-        )
+        from fecolumn.structures.size import expected
+
+        return str(expected(self.case, self.folder / "case.json"))
 
     def scene(self):
         """`post.scene.Scene` of the case."""

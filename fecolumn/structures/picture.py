@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.atomic import write_bytes
 from fecolumn.mesh.picture import projection_axes, rendered
-from fecolumn.structures.drawn import link_ends, outside
+from fecolumn.structures.model import GROUND
 
 _COLOURS = ("#c67b5c", "#9fb2c1", "#d8c08a", "#7f9a75", "#b58fa8", "#8c8fb5", "#c9a27e", "#86aeb0")
 _GROUND, _EDGE, _LINK, _JOINT = "#dcded9", "#2f3437", "#1f4e79", "#a02020"
@@ -20,16 +20,16 @@ _MARGIN, _MIDDLE = 0.15, 0.1
 _ON_LINK = 0.3
 
 
-def structure_picture(layout, structure, copies, path) -> Path:
+def structure_picture(scene, structure, path) -> Path:
     """PNG of a structure at its start, in parallel projection; the bodies' names, and those of
     interfaces and links, stand beside it.
 
     Parameters
     ----------
-    layout
-        with the drawings.
-    copies
-        (body, number) of each part.
+    scene
+        upright.
+    structure
+        StructureModel at its start.
     """
     import io
 
@@ -37,9 +37,7 @@ def structure_picture(layout, structure, copies, path) -> Path:
     from matplotlib.figure import Figure
 
     right, up, toward = projection_axes()
-    solids = [
-        _solid(layout.drawings[name], part) for (name, _), part in zip(copies, structure.parts)
-    ]
+    solids = [_solid(piece, part) for piece, part in zip(scene.bodies, structure.parts)]
     low, high = _ground(solids)
     points = np.concatenate(
         [
@@ -61,8 +59,8 @@ def structure_picture(layout, structure, copies, path) -> Path:
         xlim=centre[0] + half[0] * np.array([-1, 1]), ylim=centre[1] + half[1] * np.array([-1, 1])
     )
     axes.set_axis_off()
-    names = list(layout.drawings)
-    colours = [_COLOURS[names.index(name) % len(_COLOURS)] for name, _ in copies]
+    names = list(dict.fromkeys(piece.kind for piece in scene.bodies))
+    colours = [_COLOURS[names.index(piece.kind) % len(_COLOURS)] for piece in scene.bodies]
     image = _rendered(
         solids,
         colours,
@@ -106,10 +104,18 @@ def _ground(solids) -> tuple[np.ndarray, np.ndarray]:
     return low - margin, high + margin
 
 
-def _solid(drawing, part) -> tuple[np.ndarray, list]:
+def _solid(piece, part) -> tuple[np.ndarray, np.ndarray]:
     """Points (n, 3) [m] of a part where it is, and its outer faces."""
-    points, faces = outside(drawing)
-    return (points - part.model.center) @ part.rotation.T + part.center, faces
+    return (piece.points - part.model.center) @ part.rotation.T + part.center, piece.faces
+
+
+def link_ends(link, parts) -> np.ndarray:
+    """Both ends (2, 3) [m] of a link where its parts are."""
+
+    def at(place, arm):
+        return arm if place == GROUND else parts[place].center + parts[place].rotation @ arm
+
+    return np.array([at(link.a, link.arm_a), at(link.b, link.arm_b)])
 
 
 def _labels(structure, along: np.ndarray, middle: float, width: float) -> list:
@@ -202,19 +208,18 @@ def _rendered(solids, colours, structure, axes, focus, half_height, millimetres)
             diffuse=0.3,
         )
         for (nodes, faces), colour in zip(solids, colours):
-            for quads in faces:
-                plotter.add_mesh(
-                    pyvista.PolyData.from_regular_faces(nodes, quads),
-                    color=colour,
-                    show_edges=True,
-                    edge_color=_EDGE,
-                    line_width=1.0,
-                    ambient=0.5,
-                    diffuse=0.55,
-                    specular=0.05,
-                    smooth_shading=False,
-                    opacity=0.85 if structure.links else 1.0,
-                )
+            plotter.add_mesh(
+                pyvista.PolyData.from_regular_faces(nodes, faces),
+                color=colour,
+                show_edges=True,
+                edge_color=_EDGE,
+                line_width=1.0,
+                ambient=0.5,
+                diffuse=0.55,
+                specular=0.05,
+                smooth_shading=False,
+                opacity=0.85 if structure.links else 1.0,
+            )
         for link in structure.links:
             plotter.add_mesh(
                 pyvista.Line(*link_ends(link, structure.parts)), color=_LINK, line_width=5.0

@@ -3,32 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from fecolumn.mesh.estimate import refuse_sizes
+import numpy as np
+
+from fecolumn.mesh.estimate import Estimate, Load, refuse_sizes
+from fecolumn.mesh.imported import own_mesh
 from fecolumn.schema import InputError
+from fecolumn.structures.feet import half_sides
+from fecolumn.structures.ground import sized_ground
 from fecolumn.structures.keys import Block, Matrices, Meshed, Plate, Storeys
 from fecolumn.structures.shapes import counts_of, element_size
 
 
-@dataclass(frozen=True)
-class Size:
-    """Elements and degrees of freedom of the meshes by body; those of copies count where each has
-    its own, with engine = "full".
-    """
-
-    elements: dict[str, int]
-    dofs: dict[str, int]
-
-    def __str__(self) -> str:
-        return (
-            f"{sum(self.elements.values()):,} elements, {sum(self.dofs.values()):,} degrees "
-            "of freedom"
-        )
-
-
-def size_of(case, file, spots=None, bodies=None) -> Size:
-    """Size of the meshes of a case.
+def size_of(case, file, spots=None, bodies=None) -> Estimate:
+    """Size of the meshes of bodies; those of copies count where each has its own, with engine =
+    "full".
 
     Parameters
     ----------
@@ -38,16 +28,116 @@ def size_of(case, file, spots=None, bodies=None) -> Size:
     bodies
         names; all unless given.
     """
-    elements, dofs = {}, {}
+    elements, dofs, loads, full = {}, {}, [], case.integration.engine == "full"
     for name in case.bodies if bodies is None else bodies:
-        body, times = (
-            case.bodies[name],
-            len(case.names_of(name)) if case.integration.engine == "full" else 1,
-        )
-        if not isinstance(body, Matrices):
-            count, nodes = counts_of(f"bodies.{name}", body, file, (spots or {}).get(name, ()))
-            elements[name], dofs[name] = times * count, 3 * times * nodes
-    return Size(elements, dofs)
+        body, copies = case.bodies[name], len(case.names_of(name))
+        if isinstance(body, Matrices):
+            continue
+        count, nodes = counts_of(f"bodies.{name}", body, file, (spots or {}).get(name, ()))
+        times = copies if full else 1
+        elements[name], dofs[name] = times * count, 3 * times * nodes
+        rigid = isinstance(body, Storeys) or body.rigid
+        loads.append(Load(0 if rigid else 3 * nodes, _points(case, name, nodes), copies))
+    return Estimate(elements, dofs, tuple(loads), case.integration.engine)
+
+
+def _points(case, name: str, nodes: int) -> int:
+    """Contact points of a body of so many nodes, roughly: on the outlines of the faces that touch,
+    and as many inside as the case says.
+    """
+    face = nodes ** (2 / 3)
+    touching = [
+        one
+        for one in case.interfaces.values()
+        if name in (one.on.rpartition(" ")[0] or one.on, one.slave.rpartition(" ")[0] or one.slave)
+    ]
+    inner = [
+        case.contact.interior_points if one.interior_points is None else one.interior_points
+        for one in touching
+    ]
+    return sum(round(min(face, 4 * math.sqrt(face) + each)) for each in inner)
+
+
+def expected(case, file) -> Estimate:
+    """What the meshes of bodies and elastic grounds, and the analysis, will take."""
+    found = size_of(case, file)
+    bricks, dofs, loads = dict(found.bricks), dict(found.dofs), list(found.loads)
+    for name, ground in case.grounds.items():
+        feet = _feet(case, name) if ground.kind == "plate" else []
+        if feet:
+            sized = sized_ground(name, ground, feet, file)
+            counts = [len(line) for line in (sized.x, sized.y, sized.z)]
+            bricks[name] = math.prod(count - 1 for count in counts)
+            dofs[name] = 3 * math.prod(counts)
+            loads.append(Load(dofs[name], max((load.points for load in loads), default=0), 1, True))
+    return Estimate(bricks, dofs, tuple(loads), found.engine)
+
+
+def made_of(case, models: dict, scene) -> Estimate:
+    """As `expected`, of bodies that are made.
+
+    Parameters
+    ----------
+    models
+        by the names of bodies.
+    scene
+        `post.scene.Scene` of the case.
+    """
+    full = case.integration.engine == "full"
+    bricks, dofs, loads = {}, {}, []
+    for piece in {piece.kind: piece for piece in scene.pieces}.values():
+        name, count = piece.kind, len(piece.elements) - piece.carried // 8
+        if piece.held:
+            bricks[name], dofs[name] = count, 3 * len(piece.points)
+            on = {scene.pieces[one.piece].kind for one in scene.contacts if one.on_ground}
+            points = sum(len(models[kind].arms) for kind in on)
+            loads.append(Load(dofs[name], points, held=True))
+            continue
+        model, copies = models[name], len(case.names_of(name))
+        times = copies if full else 1
+        if model.dofs:
+            bricks[name], dofs[name] = times * count, times * model.dofs
+        loads.append(Load(model.dofs if piece.stressed else 0, len(model.arms), copies))
+    return Estimate(bricks, dofs, tuple(loads), case.integration.engine)
+
+
+def _feet(case, ground: str) -> list[np.ndarray]:
+    """Corners (4, 3) [m] of the rectangles around the feet on a ground, by the keys of bodies."""
+    found = []
+    for one in case.interfaces.values():
+        if one.on != ground:
+            continue
+        name, numbers = case.meant_by(one.slave)
+        body = case.bodies[name]
+        if isinstance(body, Matrices):
+            continue
+        low, high = _plan(body)
+        corners = np.array([[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])])
+        found += [corners + np.array(body.places[number]) for number in numbers]
+    return found
+
+
+def _plan(body) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest corner (2,) [m] of a foot."""
+    if isinstance(body, Meshed):
+        points = own_mesh(body.mesh_file).mesh.points
+        foot = points[points[:, 2] < points[:, 2].min() + 1e-6 * np.ptp(points[:, 2]), :2]
+        return foot.min(axis=0), foot.max(axis=0)
+    if isinstance(body, (Plate, Storeys)):
+        half = np.array([body.length_m, body.width_m]) / 2
+    else:
+        x, y = half_sides(body)
+        half = np.array([x, y or x])
+    return -half, half
+
+
+def expected_of_all(cases, file) -> str:
+    """What a study says of its meshes: how many structures there are, and the estimate of the
+    largest.
+    """
+    found = {str(one): one for one in (expected(case, file) for case in cases)}
+    largest = max(found.values(), key=lambda one: one.all_dofs)
+    return f"{len(found)} meshes, the largest of {largest}" if len(found) > 1 else str(largest)
 
 
 def refuse_too_large(case, file, spots=None) -> None:
@@ -61,7 +151,7 @@ def refuse_too_large(case, file, spots=None) -> None:
     body, key = case.bodies[name], f"bodies.{name}"
     too_many = (
         f"the meshes would have {total:,} degrees of freedom "
-        f"({sum(found.elements.values()):,} elements, {found.elements[name]:,} of them "
+        f"({sum(found.bricks.values()):,} elements, {found.bricks[name]:,} of them "
         f'of "{name}"), '
         f"mesh.limit_dofs allows {limit:,}"
     )

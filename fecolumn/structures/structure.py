@@ -72,7 +72,7 @@ def _layout(case, file, say) -> dict:
     key = key_of(_geometry(case))
     found = kept_layout(key)
     if found is None:
-        say(f"meshing {len(case.bodies)} different bodies, at least {size_of(case, file)}")
+        say(f"meshing {len(case.bodies)} different bodies, at least {size_of(case, file).counts}")
         found = keep_models(case, layout_of(case, file), file, say)
         keep_layout(key, found)
     return found

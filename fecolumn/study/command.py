@@ -199,7 +199,7 @@ def _run(
     # an analysis function of the user's may read motions this package does not know
     if args.entry is None:
         from fecolumn.case import MODEL_ENGINES
-        from fecolumn.mesh.estimate import estimate_of_all
+        from fecolumn.structures.size import expected_of_all
 
         check_motions(plan)
         meshed = [
@@ -207,15 +207,8 @@ def _run(
             for analysis in plan.analyses
             if analysis.case.integration.engine not in MODEL_ENGINES
         ]
-        if "bodies" in plan.case:
-            print(
-                f"{len(plan.analyses)} analyses of a structure of "
-                f"{len(plan.case['bodies'])} different bodies",
-                file=sys.stderr,
-                flush=True,
-            )
-        elif meshed:
-            print(estimate_of_all(meshed), file=sys.stderr, flush=True)
+        if meshed:
+            print(expected_of_all(meshed, args.study), file=sys.stderr, flush=True)
     entry, rule = args.entry or ENTRY, _rule(args, share, plan)
     # a batch system's stop is answered like Ctrl-C
     signal.signal(signal.SIGTERM, signal.default_int_handler)

@@ -28,7 +28,7 @@ from fecolumn.verification import REDUCED
 
 # The stout column on the coarsest mesh that keeps every part; meshes/stout.toml has the sources of
 # the numbers.
-COARSE = {
+COARSE: dict = {
     "title": "Coarse specimen",
     "column": {"outer_diameter_m": 0.1016, "wall_m": 0.005, "height_m": 1.0, "fine_height_m": 0.03},
     "cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.01},

@@ -17,7 +17,7 @@ def specimen():
 def test_written_files_hold_the_mesh_and_its_parts(specimen, tmp_path):
     whole = merged_mesh([specimen.body, specimen.base])
     for _ in range(2):  # the second time over existing files
-        paths = write_meshes(specimen, tmp_path / "new" / "folder")
+        paths = write_meshes([specimen.body, specimen.base], tmp_path / "new" / "folder")
     assert sorted(p.name for p in (tmp_path / "new" / "folder").iterdir()) == sorted(
         p.name for p in paths
     )
@@ -29,14 +29,15 @@ def test_written_files_hold_the_mesh_and_its_parts(specimen, tmp_path):
 
 
 def test_a_failed_write_leaves_the_earlier_files(specimen, tmp_path, monkeypatch):
-    before = {path: path.read_bytes() for path in write_meshes(specimen, tmp_path)}
+    meshes = [specimen.body, specimen.base]
+    before = {path: path.read_bytes() for path in write_meshes(meshes, tmp_path)}
 
     def full_disk(*arguments, **options):
         raise OSError("no space left on device")
 
     monkeypatch.setattr("fecolumn.mesh.export._write_xdmf", full_disk)
     with pytest.raises(OSError):
-        write_meshes(specimen, tmp_path)
+        write_meshes(meshes, tmp_path)
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 

@@ -4,7 +4,6 @@ does, plus the effects a test asks for.
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import math
 import random
@@ -83,9 +82,7 @@ def write_synthetic(
                 continue
             result = store.result_folder(analysis.id)
             result.mkdir(parents=True, exist_ok=True)
-            (result / "case.json").write_text(
-                json.dumps({"case": dataclasses.asdict(analysis.case)})
-            )
+            (result / "case.json").write_text(json.dumps({"case": analysis.case.as_stated()}))
             summary = _summary(analysis, effect, scatter, cost)
             (result / "summary.json").write_text(
                 json.dumps(summary | also(analysis.values, summary))

@@ -11,8 +11,8 @@ import pytest
 
 from fecolumn.case import GRAVITY, case_from_tables
 from fecolumn.dynamics.energy import TERMS
-from fecolumn.rocking.block import RockingBlock
 from fecolumn.rocking.impact import body_restitution
+from fecolumn.rocking.of_bodies import model_of
 from fecolumn.schema import InputError, merge
 from fecolumn.simulation import run
 from fecolumn.study.plan import read_plan
@@ -47,7 +47,7 @@ def case(tables, **more):
 )
 def test_block_of_a_column_has_its_slenderness_and_its_inertia_about_the_rim(tables, half):
     column = case(tables).short.column
-    block, h = RockingBlock.of_case(case(tables), "case.toml"), tables["column"]["height_m"] / 2
+    block, h = model_of(case(tables), "case.toml"), tables["column"]["height_m"] / 2
     for plane, b in zip(block.planes, half):
         if column.shape == "block":
             central = ((2 * b) ** 2 + (2 * h) ** 2) / 12
@@ -64,7 +64,7 @@ def test_block_of_a_column_has_its_slenderness_and_its_inertia_about_the_rim(tab
 
 
 def test_cap_raises_the_centre_and_the_top():
-    plane = RockingBlock.of_case(case(CAPPED), "").planes[0]
+    plane = model_of(case(CAPPED), "").planes[0]
     tube, cap = math.pi * (0.03805**2 - 0.03305**2) * 1.5, 0.15 * 0.15 * 0.01
     assert plane.mass == pytest.approx(7850 * (tube + cap))
     assert plane.height == pytest.approx(

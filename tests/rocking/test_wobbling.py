@@ -13,6 +13,7 @@ from benchmarks import wobbling_equations
 from fecolumn.case import GRAVITY, case_from_tables
 from fecolumn.motions.record import GroundMotion
 from fecolumn.rocking.block import body_plane
+from fecolumn.rocking.of_bodies import model_of
 from fecolumn.rocking.plane import respond
 from fecolumn.rocking.restraint import Restraint
 from fecolumn.rocking.wobbling import Wobbling, WobblingSection
@@ -183,11 +184,11 @@ def test_of_a_case_it_has_mass_and_inertia_of_the_mesh_and_refuses_a_block():
         "material": {"density_kg_m3": 2700},
         "integration": {"engine": "wobbling"},
     }
-    found, stated = Wobbling.of_case(case_from_tables(tables, "drum.toml"), "drum.toml"), column()
+    found, stated = model_of(case_from_tables(tables, "drum.toml"), "drum.toml"), column()
     assert found.body[:7] == pytest.approx(stated.body[:7], rel=1e-9)
     tables["column"] = {"length_m": 0.4, "width_m": 0.4, "height_m": 1.2, "shape": "block"}
     with pytest.raises(InputError, match="block.toml: integration.engine = .*round foot"):
-        Wobbling.of_case(case_from_tables(tables, "block.toml"), "block.toml")
+        model_of(case_from_tables(tables, "block.toml"), "block.toml")
 
 
 @pytest.mark.parametrize(
@@ -207,8 +208,3 @@ def test_more_friction_than_there_is_is_told():
     model = column(outer_diameter_m=1.6, height_m=1.0, friction_coefficient=0.3)
     found = model.respond(shaken(1, 2.0 * GRAVITY * math.tan(model.slenderness)))
     assert found.peaks["friction demanded [-]"] > 0.3 and "it would slide" in found.notes[0]
-
-
-def test_a_frame_of_a_case_is_refused():
-    with pytest.raises(InputError, match="has no slab"):
-        WobblingFrame.of_case(None, "case.toml")

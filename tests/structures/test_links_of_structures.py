@@ -10,11 +10,11 @@ import pytest
 from small_structures import block, structure
 
 from fecolumn.dynamics.history import read_history
+from fecolumn.mesh_report import mesh_report
 from fecolumn.post.history_figures import has_figures, history_figures
 from fecolumn.results.analysis import AnalysisResult
 from fecolumn.schema import merge
 from fecolumn.simulation import run
-from fecolumn.structures.report import structure_report
 
 UNITS = dict(tension="N", elongation="m", yielded="m", work="J", broken="-")
 TOP = dict(body="block", point_m=[0, 0, 1.0])
@@ -196,7 +196,7 @@ def test_figures_have_a_panel_of_each_link(rocking):
 
 
 def test_mesh_lists_length_stiffness_prestress_and_where_each_yields_and_breaks(tmp_path):
-    table = structure_report(structure(**ROCKING), "case.toml", tmp_path / "mesh").splitlines()
+    table = mesh_report(structure(**ROCKING), "case.toml", tmp_path / "mesh").splitlines()
     head = next(line for line in table if line.startswith("link"))
     columns = [
         "length [m]",
