@@ -23,7 +23,7 @@ from benchmarks.checks import print_checks
 from benchmarks.profile import shares
 from fecolumn._mpi import launch_environment
 from fecolumn.case import case_from_tables, read_toml
-from fecolumn.dynamics.assembly import build_system, column_body
+from fecolumn.dynamics.assembly import column_body
 from fecolumn.fem.modes import free_modes
 from fecolumn.mesh.bending import free_free_bending_frequency
 from fecolumn.mesh.specimen import specimen_mesh
@@ -31,6 +31,7 @@ from fecolumn.motions.load import load_motion
 from fecolumn.schema import merge
 from fecolumn.verification import rocking
 from fecolumn.verification.models import COARSE
+from fecolumn.verification.one_column import build_system
 from fecolumn.verification.trial import RigidRocking, Trial
 
 SPECIMEN = Path(__file__).parent.parent / "meshes" / "stout.toml"

@@ -13,10 +13,10 @@ from pathlib import Path
 from mpi4py import MPI
 
 from benchmarks.engines.impact import BESIDE
-from fecolumn.dynamics.assembly import build_system
 from fecolumn.fem.rotation import tilt_angle
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.study.plan import read_plan
+from fecolumn.verification.one_column import build_system
 from fecolumn.verification.rocking import leaning_start
 from fecolumn.verification.trial import RigidRocking
 from fecolumn.verification.trials import begin_trial

@@ -9,7 +9,6 @@ import numpy as np
 from mpi4py import MPI
 
 from fecolumn.case import case_from_tables
-from fecolumn.dynamics.assembly import build_system
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.reduced.engine import Engine
 from fecolumn.reduced.observe import COLUMNS
@@ -17,6 +16,7 @@ from fecolumn.schema import merge, read_toml
 from fecolumn.structures.case import StructureCase
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
+from fecolumn.verification.one_column import build_system
 
 SPECIMEN = Path(__file__).parents[2] / "meshes" / "specimen.toml"
 # a base wide enough to slide on

@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.engines.motions import strong_shaking
 from benchmarks.engines.pair import case_of, column, engine, mesh, system_of
-from fecolumn.dynamics.assembly import top_of
+from fecolumn.verification.one_column import top_of
 from fecolumn.verification.rocking import leaning_start, rocked_trial, uplift_accelerations
 from fecolumn.verification.sliding import slipped
 from fecolumn.verification.trial import RigidRocking, Trial

@@ -19,9 +19,9 @@ from mpi4py import MPI
 
 from benchmarks.peers.case import Release, release
 from benchmarks.peers.track import write_rows
-from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.gravity import tilted
 from fecolumn.verification import rocking
+from fecolumn.verification.one_column import build_system
 from fecolumn.verification.trial import Trial
 
 # CPU seconds that the timing of a compiled engine takes at least

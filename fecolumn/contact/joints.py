@@ -41,34 +41,6 @@ def left_faces(names, points: np.ndarray) -> str:
     return f"{', '.join(found)}; a larger interfaces.{key}.allowance_m prepares more of it"
 
 
-def joint_on_base(
-    arms: np.ndarray,
-    friction: float,
-    law: np.ndarray,
-    rim: Rim | None = None,
-    restitution: float = 0.0,
-    rolling: float = 0.0,
-    pad=None,
-) -> Joints:
-    """The only foot, with nodes at arms (n, 3) [m], on the base.
-
-    Parameters
-    ----------
-    law
-        (n, 3) compliance of the contact law [m/N].
-    rim
-        of a round foot.
-    restitution, rolling, pad
-        see `contact.interface`.
-    """
-    return Joints(
-        node_points(arms, friction, law, pad),
-        interface_of(arms, rim, restitution, rolling, pad),
-        np.asarray(rim.nodes if rim else [], np.int64),
-        np.zeros(0, FACET),
-    )
-
-
 def joints_of(parts, joints) -> Joints:
     """Points and interfaces of the joints (`structures.model.Joint`) of parts
     (`structures.model.Part`), whose nodes come one after another.

@@ -14,7 +14,7 @@ from fecolumn.dynamics.system import State
 
 
 @dataclass(slots=True)
-class Made:
+class StepMade:
     """A step of HHT from one State to another, before the impulses of an impact.
 
     Attributes
@@ -49,7 +49,7 @@ class Made:
     springs: tuple
 
 
-def book(system, made: Made, ledger) -> float:
+def book_step(system, made: StepMade, ledger) -> float:
     """Energy of a step into the ledger; returns the work of contact but that of dashpots [J].
 
     From the identity dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean = (1-ga)

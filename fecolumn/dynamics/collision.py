@@ -17,17 +17,17 @@ from fecolumn.contact.impact import (
 )
 from fecolumn.contact.problem import OK
 from fecolumn.contact.work import book_impulses
-from fecolumn.dynamics.booking import Made
+from fecolumn.dynamics.booking import StepMade
 from fecolumn.dynamics.cuts import StepFailed, Stop
 
 
-def collide(system, made: Made, contact_work: float, booked: dict, ledger, record) -> None:
+def collide(system, made: StepMade, contact_work: float, booked: dict, ledger, record) -> None:
     """Take the velocities at the end of a step anew where a point lands or slip ends.
 
     Parameters
     ----------
     contact_work
-        of `booking.book` [J].
+        of `booking.book_step` [J].
     booked
         works of the ledger at the start of the step.
     record

@@ -191,9 +191,7 @@ class Interface(Places):
 
     def _mark_unused(self, x, poses, rims) -> None:
         if len(self.overlaps.joints):
-            mark_unused(
-                self.overlaps, self.interfaces, frames_at(self.centers(x)), poses, rims
-            )
+            mark_unused(self.overlaps, self.interfaces, frames_at(self.centers(x)), poses, rims)
 
     def _lay_points(self, state, poses, before, rims) -> None:
         """Lay the points of joints with two sides."""

@@ -11,7 +11,7 @@ from fecolumn.contact.pose import move_grounds
 from fecolumn.contact.rolling import least_rim_width, part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import move_anchors
-from fecolumn.dynamics.booking import Made, book
+from fecolumn.dynamics.booking import StepMade, book_step
 from fecolumn.dynamics.collision import collide
 from fecolumn.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
 from fecolumn.dynamics.hht import HHT
@@ -251,7 +251,7 @@ class Stepper:
             # the same at alpha = 0
             drags = [damped, damping.force(after.v - dt * al**2 / (4 * be) * w, after.rotation)]
         inner, drag = (self._halfway(forces, start, after, R) for forces in (ends, drags))
-        made = Made(
+        made = StepMade(
             start=start,
             before=before,
             after=after,
@@ -291,6 +291,6 @@ class Stepper:
             ]
         return sum(forces)
 
-    def _book(self, made: Made) -> float:
-        """As `booking.book`."""
-        return book(self.system, made, self.ledger)
+    def _book(self, made: StepMade) -> float:
+        """As `booking.book_step`."""
+        return book_step(self.system, made, self.ledger)

@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.contact.joints import joints_of
 from fecolumn.dynamics.hht import HHT
 from fecolumn.dynamics.links import links_of
-from fecolumn.dynamics.system import State, System
+from fecolumn.dynamics.system import State, System, Touching
 from fecolumn.fem.composite import Composite, CompositeDamping, CompositeKinematics
 from fecolumn.fem.corotated import Corotated
 
@@ -80,15 +80,11 @@ def structure_system(
     return System(
         composite,
         CompositeKinematics(composite, kinematics),
-        model.bases,
-        nodes,
-        joints_of(parts, model.joints),
+        Touching(model.bases, nodes, joints_of(parts, model.joints), tuple(model.levels), filtered),
         gravity,
         hht,
-        filtered,
         damping,
         links_of(model, hht),
-        model.levels,
     )
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from fecolumn.contact.interface import rims_at_rest
-from fecolumn.contact.joints import Joints, joint_on_base
+from fecolumn.contact.joints import Joints
 from fecolumn.contact.points import CONTACT, may_touch
 from fecolumn.contact.pose import grounds_at
 from fecolumn.dynamics.hht import HHT
@@ -102,6 +103,21 @@ class Operators:
     nodal: Nodal | None = None
 
 
+class Touching(NamedTuple):
+    """What bodies touch, and with what.
+
+    bases: each ground, a BasePlate or what answers as it does; levels: their heights [m]. nodes: of
+    each body, (n,) surface nodes that may touch; joints: where they touch what. filtered: contact
+    with a filter, as the plastic impact law needs it.
+    """
+
+    bases: tuple
+    nodes: list
+    joints: Joints
+    levels: tuple = (0.0,)
+    filtered: bool = True
+
+
 class System:
     """Bodies, their kinematics, their contact with the base and one another, and the operators of
     each step size.
@@ -110,50 +126,36 @@ class System:
     ----------
     bodies
         all of them, in their places; a column is the only one.
-    bases
-        each ground: BasePlate, or what answers as it does.
-    nodes
-        of each body, (n,) surface nodes that may touch.
-    joints
-        where they touch what.
+    touching
+        what they touch.
     gravity
         (3,) [m/s2].
     hht
         time integration whose step decides the filter of the contact.
-    filtered
-        contact with a filter, as the plastic impact law needs it.
     links
         (nl,) of LINK.
-    levels
-        heights of the grounds [m].
     """
 
     def __init__(
         self,
         bodies: Composite,
         kinematics: CompositeKinematics,
-        bases: tuple,
-        nodes: list,
-        joints: Joints,
+        touching: Touching,
         gravity,
         hht: HHT,
-        filtered=True,
         damping: CompositeDamping | None = None,
         links=None,
-        levels=(0.0,),
     ):
         self.bodies, self.kinematics, self.damping = bodies, kinematics, damping
-        self.bases, self.levels = tuple(bases), levels
-        #: Of a column: its Footprint, and its laws as `joint_on_base` takes them.
-        self.footprint, self.laws = None, {}
+        self.bases, self.levels = tuple(touching.bases), touching.levels
         self.gravity, self.hht = np.asarray(gravity, float), hht
         self.weight = bodies.total_mass * np.linalg.norm(self.gravity)
         self.factorizations = len(self.bases)
         self._operators: dict[tuple, Operators] = {}
         factors = hht.mass_factor, hht.stiffness_factor
         factor = self._factor(*factors)
-        foot = CompositeFoot(bodies, nodes, factor, *factors, filtered)
-        self.interface = Interface(bodies, foot, self.bases, joints, levels)
+        foot = CompositeFoot(bodies, touching.nodes, factor, *factors, touching.filtered)
+        self.interface = Interface(bodies, foot, self.bases, touching.joints, self.levels)
         self.links = Linkage(bodies, links) if links is not None and len(links) else None
         self._add(*factors, hht.rate_factor, factor, bodies.unturned)
         self.resistance = (
@@ -169,10 +171,6 @@ class System:
     def base(self):
         """What a column stands on, the first ground of many."""
         return self.bases[0]
-
-    def take_rim_as_polygon(self) -> None:
-        """Let the foot of a column roll from node to node."""
-        self.laws["rim"], self.interface.interfaces["rim_count"] = None, 0
 
     def unstrained(self, x: np.ndarray) -> State:
         """The bodies at rest at positions x (n_owned, 3) to which rigid motions have carried them;
@@ -276,54 +274,3 @@ class System:
         """
         loads = self.bodies.unit_loads
         return ((self.gravity - ground[:3]) @ loads.reshape(3, -1)).reshape(loads.shape[1:])
-
-
-def one_column(
-    body,
-    kinematics,
-    base,
-    foot,
-    friction,
-    law,
-    gravity,
-    hht: HHT,
-    filtered=True,
-    rim=None,
-    damping: tuple = (0, 0.0),
-    restitution: float = 0.0,
-    rolling: float = 0.0,
-    pad=None,
-) -> System:
-    """System of a single column on the base, where it is drawn.
-
-    Parameters
-    ----------
-    body
-        Body of the column.
-    kinematics
-        Corotated or TotalLagrangian.
-    foot
-        Footprint, the column nodes that may touch.
-    damping
-        number of elastic modes that are damped, the lowest, and ratio of each.
-    friction, law, rim, restitution, rolling, pad
-        as of `contact.joints.joint_on_base`; the others of System.
-    """
-    bodies = Composite([body], [body.center], np.eye(3)[None])
-    laws = dict(
-        friction=friction, law=law, rim=rim, restitution=restitution, rolling=rolling, pad=pad
-    )
-    count, ratio = damping
-    system = System(
-        bodies,
-        CompositeKinematics(bodies, kinematics),
-        (base,),
-        [foot.nodes],
-        joint_on_base(body.all_X[foot.nodes] - body.center, **laws),
-        gravity,
-        hht,
-        filtered,
-        CompositeDamping(bodies, [count], [ratio]) if ratio else None,
-    )
-    system.footprint, system.laws = foot, laws
-    return system

@@ -47,7 +47,6 @@ from dataclasses import replace
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.dynamics.assembly import build_system, share_specimen_mesh
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.post.style import LINES
 from fecolumn.verification import FULL
@@ -59,6 +58,7 @@ from fecolumn.verification.moving_base import (
     hht_path,
     on_exact_path,
 )
+from fecolumn.verification.one_column import build_system, share_specimen_mesh
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import RigidRocking, Trial, solver_drift
 from fecolumn.verification.trials import begin_trial

@@ -32,7 +32,6 @@ from mpi4py import MPI
 from fecolumn import simulation
 from fecolumn._mpi import launch_environment
 from fecolumn.case import read_case
-from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
 from fecolumn.dynamics.history import read_history
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
@@ -40,6 +39,7 @@ from fecolumn.post.style import LINES
 from fecolumn.schema import merge
 from fecolumn.verification import FULL
 from fecolumn.verification.models import COARSE, column_case, shaking
+from fecolumn.verification.one_column import build_system
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import solver_drift
 from fecolumn.verification.trials import begin_trial

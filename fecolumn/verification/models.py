@@ -13,9 +13,8 @@ from mpi4py import MPI
 from fecolumn.case import Material
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.footprint import Footprint
-from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.system import System, one_column
+from fecolumn.dynamics.system import System
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.total_lagrangian import TotalLagrangian
@@ -25,6 +24,7 @@ from fecolumn.mesh.surface import nodal_areas
 from fecolumn.schema import merge
 from fecolumn.short_form import short_form
 from fecolumn.verification import REDUCED
+from fecolumn.verification.one_column import build_system, one_column
 
 # The stout column on the coarsest mesh that keeps every part; meshes/stout.toml has the sources of
 # the numbers.
@@ -165,11 +165,11 @@ def block_system(
         kinematics,
         plate,
         Footprint.of_all(body.find_nodes(mesh.points[points]), areas),
-        given["friction"],
-        np.zeros((len(points), 3)),
-        given["gravity"],
         hht,
+        given["gravity"],
         filtered=given["filtered"],
         damping=(DAMPED, damping_ratio),
+        friction=given["friction"],
+        law=np.zeros((len(points), 3)),
         restitution=given["restitution"],
     )

@@ -69,7 +69,8 @@ def on_base(
     law
         (n, 3) compliance of the contact law [m/N].
     laws
-        rim, restitution, rolling and pad, as of `contact.joints.joint_on_base`.
+        rim: Rim or None, of which it counts whether there is one; restitution, rolling and pad as
+        of Joint.
     """
     is_round = laws.pop("rim", None) is not None
     part = Part("column", model, model.center, np.eye(3), damping_ratio, np.zeros(3), np.zeros(3))

@@ -50,13 +50,13 @@ from mpi4py import MPI
 
 from fecolumn.case import Material
 from fecolumn.contact.projection import nodes_under
-from fecolumn.dynamics.assembly import share_specimen_mesh
 from fecolumn.dynamics.gravity import standing
 from fecolumn.dynamics.hht import HHT
 from fecolumn.mesh.bricks import LOWER, UPPER
 from fecolumn.mesh.column import divisions, section
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.verification.models import block_system, column_case
+from fecolumn.verification.one_column import share_specimen_mesh
 from fecolumn.verification.result import CaseRows, Row, order_of
 from fecolumn.verification.tied import STRETCH, Tied, end_areas, tied_blocks
 from fecolumn.verification.trial import Trial

@@ -54,6 +54,7 @@ from fecolumn.dynamics.hht import HHT
 from fecolumn.mesh.bricks import LOWER
 from fecolumn.mesh.gmsh_section import Annulus, extruded
 from fecolumn.verification.models import block_system, box, column_system
+from fecolumn.verification.one_column import roll_on_corners
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.trial import RigidRocking, Trial
@@ -314,7 +315,7 @@ def wobbling_column(
     )
     corners = len(system.laws["rim"].nodes)
     if not circle:
-        system.take_rim_as_polygon()
+        roll_on_corners(system)
     rim = RollingRim.of(system)
     spin = rim.untwisted(tilt)
     steps = round(np.pi / rim.rate(tilt, spin) / COLUMN_DT)

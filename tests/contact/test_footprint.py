@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from fecolumn.dynamics.assembly import build_system, column_body, foot_of
+from fecolumn.dynamics.assembly import column_body
 from fecolumn.dynamics.gravity import standing
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.short_form import short_form
+from fecolumn.verification.one_column import build_system, footprint_of
 
 SHAPES = {
     "drum": {"shape": "solid", "outer_diameter_m": 0.5, "height_m": 0.8},
@@ -33,7 +34,7 @@ def marble(shape, interior, **tables):
 def foot(case):
     specimen = specimen_mesh(case)
     column = column_body(case, specimen, MPI.COMM_SELF)
-    return foot_of(case, specimen, column), column
+    return footprint_of(case, specimen, column), column
 
 
 @pytest.mark.parametrize("shape, outline", [("drum", 32), ("block", 48)])

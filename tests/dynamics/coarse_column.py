@@ -4,9 +4,9 @@ base.
 
 from mpi4py import MPI
 
-from fecolumn.dynamics.assembly import build_system
 from fecolumn.schema import merge, read_toml
 from fecolumn.short_form import short_form
+from fecolumn.verification.one_column import build_system
 
 SPECIMEN = "meshes/stout.toml"
 # A wall four times as thick, of bricks of its size: a fourth of the nodes in the foot, a third of

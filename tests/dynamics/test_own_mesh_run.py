@@ -8,10 +8,10 @@ import meshio
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.gravity import standing
 from fecolumn.fem.modes import free_modes
 from fecolumn.simulation import run
+from fecolumn.verification.one_column import build_system
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "mesh"))
 from own_meshes import bricks, own_case, tetrahedra, write  # noqa: E402

@@ -7,13 +7,13 @@ import pytest
 from coarse_column import coarse_case
 from mpi4py import MPI
 
-from fecolumn.dynamics.assembly import build_system
 from fecolumn.dynamics.energy import Ledger
 from fecolumn.dynamics.gravity import standing, tilted
 from fecolumn.dynamics.stepper import Stepper
 from fecolumn.mesh.column import column_mesh
 from fecolumn.schema import merge, read_toml
 from fecolumn.short_form import short_form
+from fecolumn.verification.one_column import build_system
 
 SPECIMEN = "meshes/stout.toml"
 

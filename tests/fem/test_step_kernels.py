@@ -38,8 +38,9 @@ def tied_body():
     """A tube with its cap tied on."""
     from mpi4py import MPI
 
-    from fecolumn.dynamics.assembly import column_body, share_specimen_mesh
+    from fecolumn.dynamics.assembly import column_body
     from fecolumn.short_form import short_form
+    from fecolumn.verification.one_column import share_specimen_mesh
 
     case = short_form(
         {

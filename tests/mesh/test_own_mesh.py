@@ -65,7 +65,8 @@ def test_linear_tetrahedra_are_refused(tmp_path):
 def test_nodes_of_second_order_are_counted_before_anything_is_built(tmp_path):
     from mpi4py import MPI
 
-    from fecolumn.dynamics.assembly import column_body, foot_of
+    from fecolumn.dynamics.assembly import column_body
+    from fecolumn.verification.one_column import footprint_of
 
     for kind, made in (("tetra", tetrahedra), ("hexahedron", bricks)):
         case = own_case(write(tmp_path, "own.vtu", kind, *made()), mesh={"element_order": 2})
@@ -76,7 +77,7 @@ def test_nodes_of_second_order_are_counted_before_anything_is_built(tmp_path):
             3 * body.n_nodes == expected.dofs[2]
             and 3 * len(specimen.base.points) == expected.dofs[4]
         )
-        foot = foot_of(case, specimen, body)
+        foot = footprint_of(case, specimen, body)
         assert len(foot.all_nodes) == expected.foot_points
         assert foot.all_areas.min() > 0 and foot.areas.sum() == pytest.approx(
             SIDES[0] * SIDES[1], rel=1e-12

@@ -11,6 +11,7 @@ from fecolumn.case import GRAVITY
 from fecolumn.dynamics.gravity import standing
 from fecolumn.verification.models import column_system, shaking
 from fecolumn.verification.moving_base import InertialTrial, by_hht
+from fecolumn.verification.one_column import roll_on_corners
 from fecolumn.verification.rocking import leaning_start, rocked_trial
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.sliding import FRICTION, RESISTANCE, block, centre
@@ -141,7 +142,7 @@ def rolled(circle):
     spin = rim.untwisted(TILT)
     system = tube(2 * np.pi / rim.rate(TILT, spin) / (STEPS * corners))
     if not circle:
-        system.take_rim_as_polygon()
+        roll_on_corners(system)
     return system, rim, spin, corners
 
 
