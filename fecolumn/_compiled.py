@@ -21,8 +21,9 @@ _SOURCES, _HOW = (
 
 
 def cache_folder() -> Path:
-    """$FECOLUMN_CACHE, or fecolumn in $XDG_CACHE_HOME or ~/.cache. It may be deleted at any
-    time.
+    """$FECOLUMN_CACHE, or fecolumn in $XDG_CACHE_HOME or ~/.cache.
+
+    It may be deleted at any time.
     """
     if folder := os.environ.get("FECOLUMN_CACHE"):
         return Path(folder)

@@ -153,7 +153,8 @@ def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set
         ("[initial]\nvelocity_m_s = 1", "initial.velocity_m_s"),
         ('[contact]\nimpact = "none"\nrestitution = 0.5', "contact.restitution"),
         (
-            '[integration]\nengine = "full"\nkinematics = "total_lagrangian"\n[material]\ndamping_ratio = 0.02',
+            '[integration]\nengine = "full"\nkinematics = '
+            '"total_lagrangian"\n[material]\ndamping_ratio = 0.02',
             "material.damping_ratio",
         ),
     ],

@@ -6,8 +6,8 @@ import numpy as np
 
 from fecolumn.contact.record import record
 
-#: An interface: slave, master and ground as of POINT; width of the foot [m], to which tolerances of length
-#: are related; restitution, see `contact.restitution`; rolling: coefficient of the rim's
+#: An interface: slave, master and ground as of POINT; width of the foot [m], to which tolerances of
+#: length are related; restitution, see `contact.restitution`; rolling: coefficient of the rim's
 #: resistance, see `contact.rolling`; on_pad: whether a pad lies between, relaxation of it [s];
 #: rim_first, rim_count: places of its rim among those of all interfaces, none where it is not
 #: round; rim_angle of the rim's first point, sector between two [rad], radius [m]. Of the master's

@@ -108,8 +108,8 @@ class OverlapBuilder:
         )
 
     def _add_sides(self, ends, places, nodes, size: float) -> np.ndarray:
-        """Add the sides (m, 2, 2) of a polygon; the number (n,) of a side on which each of the nodes lies, -1
-        of those on none.
+        """Add the sides (m, 2, 2) of a polygon; the number (n,) of a side on which each of the
+        nodes lies, -1 of those on none.
         """
         found, inner = np.full(len(places), -1), _inset(ends, SAME_OUTLINE * size)
         for q, (start, end) in enumerate(ends):

@@ -12,9 +12,10 @@ from fecolumn.contact.tolerances import OPEN
 #: What a point carries from step to step: force of the master on the slave [N]; anchor: horizontal
 #: position at which it sticks [m]; relative: its position on the slave relative to the master's
 #: surface, the third the gap [m], `located`: whether that was found, else the point is somewhere
-#: above; indentation of a pad below it, and by how much that has settled [m]; beyond: whether it was elsewhere than over the master's
-#: surface when it was last looked at. Of a joint with two sides: present: whether it took part;
-#: arm: (3,) [m] where it was on the slave, of a point of a rim how far it was moved off the rim.
+#: above; indentation of a pad below it, and by how much that has settled [m]; beyond: whether it
+#: was elsewhere than over the master's surface when it was last looked at. Of a joint with two
+#: sides: present: whether it took part; arm: (3,) [m] where it was on the slave, of a point of a
+#: rim how far it was moved off the rim.
 CONTACT = record(
     ("force", "f8", 3),
     ("anchor", "f8", 2),
@@ -27,18 +28,17 @@ CONTACT = record(
     ("arm", "f8", 3),
 )
 
-#: A point in a step. slave, master: bodies, -1 for a ground; interface: to which it belongs; ground:
-#: on which it stands where its master is one. node:
-#: row of the slave's node in whose place it is; friction: coefficient; law: compliance of the
-#: contact law [m/N], springs: stiffness of a pad [N/m], each in x, y, z; bears: force at which the
-#: pad yields [N], 0 where it never does. carriers, weights: the
-#: slave's nodes that carry it, `count` of them; arm: from the slave's centre of mass in its frame
-#: [m]; lift: height given to it [m], rolls: whether it belongs to a contact that rolls on in this
-#: step, see `contact.rolling`. below, shares: the master's nodes below it, or slots of the base's
-#: compliance; facet: where on a moving master it was found last; beyond: OVER the master's surface
-#: in this step or where else; seat: its place there, from the master's centre of mass in its frame
-#: [m]. uneven: compliance [m/N] that a point between nodes lacks, see `compliance.even_out`. idle:
-#: whether it takes no part in this step, see `contact.two_sided`.
+#: A point in a step. slave, master: bodies, -1 for a ground; interface: to which it belongs;
+#: ground: on which it stands where its master is one. node: row of the slave's node in whose place
+#: it is; friction: coefficient; law: compliance of the contact law [m/N], springs: stiffness of a
+#: pad [N/m], each in x, y, z; bears: force at which the pad yields [N], 0 where it never does.
+#: carriers, weights: the slave's nodes that carry it, `count` of them; arm: from the slave's centre
+#: of mass in its frame [m]; lift: height given to it [m], rolls: whether it belongs to a contact
+#: that rolls on in this step, see `contact.rolling`. below, shares: the master's nodes below it, or
+#: slots of the base's compliance; facet: where on a moving master it was found last; beyond: OVER
+#: the master's surface in this step or where else; seat: its place there, from the master's centre
+#: of mass in its frame [m]. uneven: compliance [m/N] that a point between nodes lacks, see
+#: `compliance.even_out`. idle: whether it takes no part in this step, see `contact.two_sided`.
 POINT = record(
     ("slave", "i8"),
     ("master", "i8"),
@@ -83,8 +83,8 @@ def node_points(
     first: int = 0,
     interface: int = 0,
 ) -> np.ndarray:
-    """Points (n,) of POINT on the slave's nodes with arms (n, 3) [m], in rows from `first` on; law: (n, 3),
-    pad: Pad below them.
+    """Points (n,) of POINT on the slave's nodes with arms (n, 3) [m], in rows from `first` on; law:
+    (n, 3), pad: Pad below them.
     """
     points = np.zeros(len(arms), POINT)
     points["slave"], points["master"], points["interface"], points["friction"], points["arm"] = (

@@ -79,8 +79,8 @@ SWEEPS_FIRST, SWEEPS_MOST = 50, 800
 STICK_TURN, STICK_WAY = 1e-4, 5e-5
 #: Rotation [rad] on a pad, whose springs are nearly all of the compliance and the same everywhere.
 PAD_TURN = 5e-3
-#: Compliance of a pad that yields over that of its springs in a step: what it bears then exceeds its
-#: yield force by the settlement of one step over so many indentations, a millionth.
+#: Compliance of a pad that yields over that of its springs in a step: what it bears then exceeds
+#: its yield force by the settlement of one step over so many indentations, a millionth.
 YIELDED_GIVES = 1e4
 #: A foot that in one step moves by less than this share of the above will stay long enough for the
 #: operator to pay.

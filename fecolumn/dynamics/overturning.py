@@ -91,8 +91,8 @@ class Stance(NamedTuple):
     cap: float
 
 
-#: Tilt [rad] at which a body is lost of which links, or bodies beside it, decide whether it returns:
-#: far beyond what any that still stands reaches.
+#: Tilt [rad] at which a body is lost of which links, or bodies beside it, decide whether it
+#: returns: far beyond what any that still stands reaches.
 FAR = np.pi / 4
 
 

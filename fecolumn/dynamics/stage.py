@@ -26,15 +26,13 @@ class Stage:
     target: (n_owned, 3) where the bodies would go without internal forces at the end, but for
     `memory` [m]. load: (n_owned, 3) effective forces known beforehand, but for `held` [N]. start:
     (n_owned, 3) first guess of the positions [m]. scale: effective force per contact force, beside:
-    per force of links. before:
-    (n,) of CONTACT, what the points bring to the stage; the forces are the first guess. dt: length
-    of the step [s], inf at rest. rotation: (nb, 3, 3) of the bodies at the start. Contact forces act
-    on a body in the rotation halfway, so that their work over a turn of it by t is that of the
-    foot's path up to t^3.
-    velocity: (n_owned, 3) that the damping C of the elastic modes meets at the target, but for
-    `memory` [m/s]; None where nothing is damped. centers: (nb, 3) of mass at the start [m], grounds:
-    (G,) of GROUND at start and end, ties: (nl,) of TIE at the start; None of a structure without
-    links. memory: (n_owned, 3) acceleration that
+    per force of links. before: (n,) of CONTACT, what the points bring to the stage; the forces are
+    the first guess. dt: length of the step [s], inf at rest. rotation: (nb, 3, 3) of the bodies at
+    the start. Contact forces act on a body in the rotation halfway, so that their work over a turn
+    of it by t is that of the foot's path up to t^3. velocity: (n_owned, 3) that the damping C of
+    the elastic modes meets at the target, but for `memory` [m/s]; None where nothing is damped.
+    centers: (nb, 3) of mass at the start [m], grounds: (G,) of GROUND at start and end, ties: (nl,)
+    of TIE at the start; None of a structure without links. memory: (n_owned, 3) acceleration that
     the start brings [m/s2], None at rest; shares: of it in target [s2] and velocity [s]; held:
     (n_owned, 3) internal
         forces that the start brings to the load [N]. turns: whether internal forces and what the

@@ -269,8 +269,8 @@ class System:
         return 4 * np.finfo(float).eps * scale * bodies.extent
 
     def load(self, ground: np.ndarray) -> np.ndarray:
-        """Gravity and base-motion forces (n_owned, 3) on the bodies, in the frame of the first ground;
-        ground: (3 G,) accelerations [m/s2].
+        """Gravity and base-motion forces (n_owned, 3) on the bodies, in the frame of the first
+        ground; ground: (3 G,) accelerations [m/s2].
         """
         loads = self.bodies.unit_loads
         return ((self.gravity - ground[:3]) @ loads.reshape(3, -1)).reshape(loads.shape[1:])

@@ -11,9 +11,9 @@ class ModalDamping:
     """Viscous forces of the elastic modes of a body, which may be turned.
 
     f = R sum M phi 2 zeta w (M phi . R^T v), with the body's rotation R, its velocities v and its
-    elastic modes phi of unit modal mass. The modes are M-orthogonal to every rigid motion, so that translation, rotation and their
-    impacts lose nothing. They diagonalise the effective matrix, too, so that its factor serves with
-    a correction in each mode.
+    elastic modes phi of unit modal mass. The modes are M-orthogonal to every rigid motion, so that
+    translation, rotation and their impacts lose nothing. They diagonalise the effective matrix,
+    too, so that its factor serves with a correction in each mode.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
-"""Displacement, stress and contact pressure of all pieces of a scene, from the states that a reduced
-or rigid analysis keeps.
+"""Displacement, stress and contact pressure of all pieces of a scene, from the states that a
+reduced or rigid analysis keeps.
 """
 
 from __future__ import annotations

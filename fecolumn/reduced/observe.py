@@ -67,11 +67,11 @@ ENERGY = WIDTH - len(TERMS)
 #: A point of a body that is watched: arm: (3,) from its centre of mass in its frame [m].
 MARK = record(("body", "i8"), ("arm", "f8", 3))
 #: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its
-#: centre of mass [m], tilt [rad] and rotation vector [rad]; of each interface tilt of the slave from
-#: the master [rad], rise of the middle of its foot and its slide along two tangents [m], normal
-#: force [N]; of each mark its displacement [m]; of each link tension [N], elongation from its
-#: unstressed length and the part of it that has yielded [m], energy that it has taken [J], whether
-#: it is broken.
+#: centre of mass [m], tilt [rad] and rotation vector [rad]; of each interface tilt of the slave
+#: from the master [rad], rise of the middle of its foot and its slide along two tangents [m],
+#: normal force [N]; of each mark its displacement [m]; of each link tension [N], elongation from
+#: its unstressed length and the part of it that has yielded [m], energy that it has taken [J],
+#: whether it is broken.
 OF_BODY, OF_INTERFACE, OF_MARK = (
     (("displacement", 3), ("tilt", 1), ("rotation", 3)),
     (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)),
@@ -94,9 +94,9 @@ class View(NamedTuple):
     which top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape (3, m) are means over top and
     foot; stance: when it is lost, if it stands alone. limits: (nb,) tilts [rad] at which a body of
     many is lost, none for one alone; standing: (nb,) of `overturning.STANDING`, by which it is lost
-    before, with the corners (k, 2) [m] of all. feet: (ni, 3) of the interfaces [m] and normals: (ni, 3) of
-    them in the frames of their slaves, in the reference configuration; marks: (nm,) of MARK, their
-    shapes (nm, 3, m). links: how many. levels: (G,) heights of the grounds [m].
+    before, with the corners (k, 2) [m] of all. feet: (ni, 3) of the interfaces [m] and normals:
+    (ni, 3) of them in the frames of their slaves, in the reference configuration; marks: (nm,) of
+    MARK, their shapes (nm, 3, m). links: how many. levels: (G,) heights of the grounds [m].
     """
 
     center: np.ndarray

@@ -55,8 +55,8 @@ from fecolumn.reduced.rotation import orthonormal, turn_by
 
 @njit
 def step(structure, base, scheme, work, start, ground, end, ledger, counts):
-    """Carry `start` to `end`, one scheme.dt later, under the accelerations (3 G,) of the grounds; the
-    steps of `dynamics.stepper`.
+    """Carry `start` to `end`, one scheme.dt later, under the accelerations (3 G,) of the grounds;
+    the steps of `dynamics.stepper`.
 
     Returns: a way to end, OK or the reason why not; then `start` is unharmed and `ledger` is not to
     be used.

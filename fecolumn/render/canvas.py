@@ -30,8 +30,9 @@ _LIFT = 2e-3
 
 
 class Canvas:
-    """The bodies and the ground as VTK draws them; `image` gives the pixels of
-    a frame. To be closed.
+    """The bodies and the ground as VTK draws them; `image` gives the pixels of a frame.
+
+    To be closed.
 
     Parameters
     ----------

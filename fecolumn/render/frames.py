@@ -271,7 +271,9 @@ class Frames:
         return at_points[contact.faces].mean(axis=1)
 
     def _centre(self, contact: Contact, faces: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-        """Centre (2,) [m] of the pressure (n_faces, k) [Pa] at the corners (n_faces, k, 3) of faces."""
+        """Centre (2,) [m] of the pressure (n_faces, k) [Pa] at the corners (n_faces, k, 3) of
+        faces.
+        """
         plan = self.plan(contact, faces)
         x, y = plan[..., 0], plan[..., 1]
         areas = np.abs((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)) / 2

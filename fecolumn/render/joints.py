@@ -33,8 +33,8 @@ def gaps(contact: Contact, moved: np.ndarray, rest: np.ndarray) -> np.ndarray:
 
 
 def motion(scene, contact: Contact, poses: tuple[Poses, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Uplift (n,) [m] of the point of the edge that is lifted most, and slide (n, 2) [m] of the face's middle, at n
-    poses.
+    """Uplift (n,) [m] of the point of the edge that is lifted most, and slide (n, 2) [m] of the
+    face's middle, at n poses.
     """
     corners = scene.points[np.unique(contact.outline if len(contact.outline) else contact.points)]
     rest = np.vstack([corners, corners.mean(axis=0)])

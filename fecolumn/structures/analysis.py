@@ -62,8 +62,8 @@ class OfStructure:
         return accelerations(self.motions, step)
 
     def off_ground(self, failure, bases, grounds, foot) -> Ending | None:
-        """The ending of a structure whose step failed because a foot met the edge of its ground, one
-        of `bases` and of `grounds` (G,) of GROUND; None for another failure.
+        """The ending of a structure whose step failed because a foot met the edge of its ground,
+        one of `bases` and of `grounds` (G,) of GROUND; None for another failure.
 
         Parameters
         ----------
@@ -112,7 +112,8 @@ class OfStructure:
             return super().ending(fallen, rotation)
         return Ending(
             SLID_OFF,
-            f'"{self._lowest()}" has fallen past the ground, z = {min(self.structure.levels):g}, at '
+            f'"{self._lowest()}" has fallen past the ground, z = '
+            f"{min(self.structure.levels):g}, at "
             f"{self.history.last()['time']:.3f} s",
         )
 

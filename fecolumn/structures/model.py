@@ -250,7 +250,8 @@ class StructureModel:
 
     parts, joints, links: in the order of the case; joints and links name parts by their places.
     base: what the ground is to those that stand on it, as `structures.ground.bases_of` makes it;
-    more: those of further grounds; levels: heights of all grounds [m]. observed: place of the part and name of its mark whose horizontal displacement is u_top.
+    more: those of further grounds; levels: heights of all grounds [m]. observed: place of the part
+    and name of its mark whose horizontal displacement is u_top.
     """
 
     parts: tuple[Part, ...]

@@ -104,7 +104,10 @@ def warn_of_grounds(case, structure: StructureModel, file) -> None:
             continue
         keys, where = pad_keys(case, joint.name.partition(":")[0])
         steps = 1 / (joint.pad.frequency * dt)
-        text = f"the vertical vibration on it, of {joint.pad.frequency:.3g} Hz, takes {steps:.2g} steps"
+        text = (
+            f"the vertical vibration on it, of {joint.pad.frequency:.3g} Hz, takes "
+            f"{steps:.2g} steps"
+        )
         if steps < FEWEST_STEPS:
             raise InputError(
                 file,

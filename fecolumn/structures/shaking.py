@@ -48,7 +48,8 @@ def _warn_of_drift(name: str, other: str, motion, first, file) -> None:
     left, largest = np.linalg.norm(speed[-1]), np.linalg.norm(speed, axis=1).max()
     if left > _DRIFTS * largest:
         warnings.warn(
-            f"{file}: {name} goes on to move away from {other} at {left:.3g} m/s when their motions "
+            f"{file}: {name} goes on to move away from {other} at {left:.3g} m/s when "
+            "their motions "
             f"are over, {left / largest:.0%} of the largest relative speed: correct the baselines "
             "of the records, so that both end at rest",
             stacklevel=2,

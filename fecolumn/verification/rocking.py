@@ -316,6 +316,7 @@ def between_nodes(engine: str) -> Row:
 
 def overturning(engine: str) -> Row:
     """Least half-sine pulse that overturns without impact, by bisection, against Shi et al.
+
     (1996).
     """
     system = column_system(

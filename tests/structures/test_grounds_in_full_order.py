@@ -44,7 +44,9 @@ def test_a_block_settles_on_a_pad_and_bounces_at_its_frequency(tmp_path):
 
 
 def test_a_pad_that_yields_bears_no_more_and_keeps_its_settlement(tmp_path):
-    """As of the rigid engine: springs hold what they do at the yield force, the flow takes the rest."""
+    """As of the rigid engine: springs hold what they do at the yield force, the flow takes the
+    rest.
+    """
     bears, speed = 1.8 * WEIGHT, 0.3
     summary, rows = on_pad(
         tmp_path / "run",
