@@ -40,7 +40,7 @@ def column_body(case, specimen: SpecimenMesh, comm) -> Body:
 
 
 def _tie_links(body: Body, mesh, tie):
-    """(slave node, (master nodes, weights)) of one tie, at the Lagrange nodes of the body's order."""
+    """(slave node, (master nodes, weights)) of one tie, at the Lagrange nodes of the body."""
     slave_quads = boundary_faces(
         mesh,
         tie.slave_part,

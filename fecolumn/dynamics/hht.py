@@ -38,10 +38,12 @@ class HHT:
 
     @property
     def beta(self) -> float:
+        """Share of the end in the displacement [-]."""
         return (1 - self.alpha) ** 2 / 4
 
     @property
     def gamma(self) -> float:
+        """Share of the end in the velocity [-]."""
         return 0.5 - self.alpha
 
     @property

@@ -39,13 +39,12 @@ _STOPS = {CONTACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.CONTACT, OFF_BASE
 
 
 class Interface(Places):
-    """Contact of bodies with the grounds and with one another, step by step; parameters beside those
-    of Places:
+    """Contact of bodies with the grounds and with one another, step by step.
 
     Parameters
     ----------
     bases
-        each ground: BasePlate, or what answers as it does.
+        each ground: BasePlate, or what answers as it does; the others as of Places.
     """
 
     def __init__(self, composite, foot, bases, joints: Joints, levels=(0.0,)):

@@ -99,7 +99,9 @@ class Linkage:
         return [inverse @ wrench for inverse, wrench in zip(self._inverse, wrenches)]
 
     def load(self, pulls: np.ndarray, halfway: np.ndarray) -> np.ndarray:
-        """Nodal forces (n_owned, 3) [N] of the links' forces (nl, 3) on bodies turned by `halfway`."""
+        """Nodal forces (n_owned, 3) [N] of the links' forces (nl, 3) on bodies turned by
+        `halfway`.
+        """
         return self._spread(self._momenta, pulls, halfway)
 
     def acceleration(self, pulls: np.ndarray, halfway: np.ndarray) -> np.ndarray:

@@ -50,7 +50,7 @@ class Stay:
             self._worth = all(map(interpreted(is_worth), self._interfaces, poses, turns, ways))
 
     def begin(self, problem, nodal) -> None:
-        """Begin a contact problem of a stage with the compliance `nodal` of `dynamics.interface`."""
+        """Begin a contact problem of a stage with the compliance `nodal` of `dynamics.places`."""
         still = self._still and (self._nodal is nodal or self._nodal is None)
         begin_problem(problem, still, self._worth and not still)
 

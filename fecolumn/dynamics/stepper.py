@@ -28,7 +28,8 @@ class Stepper:
     accelerations that HHT blends (Kane, Repetto, Ortiz and Marsden 1999):
 
         x1 = x0 + dt v0 + dt^2 [(1/2 - beta) a0 + beta a1 + w1 / 2],   w = M^-1 U r
-        v1 = v0 + dt [(1 - gamma) a0 + gamma a1 + w1],                 M a1 = (1+al) (F1 - f1) - al (F0 - f0)
+        v1 = v0 + dt [(1 - gamma) a0 + gamma a1 + w1],
+        M a1 = (1+al) (F1 - f1) - al (F0 - f0)
 
     For alpha = 0 the contact's work is r1 (g1 - g0) <= 0 exactly, so that contact only takes
     energy. When a contact closes or slip ends in a step, the velocities are projected at its end:

@@ -74,10 +74,11 @@ class State:
 
     @property
     def relative(self) -> np.ndarray:
-        """Positions (P, 3) of the points relative to base or master, the third column the gap [m]."""
+        """Positions (P, 3) of the points relative to ground or master, the third the gap [m]."""
         return self.contact["relative"]
 
     def copy(self) -> State:
+        """A state with arrays of its own."""
         return replace(
             self,
             **{

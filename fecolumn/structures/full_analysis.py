@@ -135,7 +135,7 @@ class FullAnalysis(OfStructure, Analysis):
         return tuple(bodies.parts[part].gather(nodes, values[own]) for values in (state.x, state.v))
 
     def _standing(self):
-        """Gravity equilibrium, its energy noted; None of what is released leaning and cannot stand."""
+        """Gravity equilibrium, its energy noted; None of what leans and cannot stand."""
         from fecolumn.dynamics import gravity
 
         try:
@@ -196,6 +196,7 @@ class FullAnalysis(OfStructure, Analysis):
         self.fields.add(state.time, drawn.values(moved, local + rest, positions, state.forces))
 
     def run(self, stop) -> dict:
+        """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         from fecolumn.dynamics.cuts import StepFailed
         from fecolumn.dynamics.overturning import STANDS
         from fecolumn.progress import Progress

@@ -167,7 +167,7 @@ class Structure:
     def full(
         self, dt=1e-3, alpha=-0.05, stands=True, impact="plastic", kinematics=Corotated, base=None
     ):
-        """Further arguments: of Stepper, of each body, and what they stand on unless it is rigid."""
+        """Further arguments: of Stepper, of each body, and what they stand on, rigid or not."""
         model = self.model()
         model = replace(model, base=base or model.base)
         bodies = [body for _, body, *_ in self.bodies]
