@@ -16,8 +16,8 @@ def write_meshes(meshes: list[BrickMesh], folder) -> tuple[Path, ...]:
     (ParaView).
 
     The part of each element is its physical group in the first and the cell field `part` in the
-    second, and `body` there its mesh, from 1. A reader never meets a half-written file: everything is written elsewhere in the folder
-    and then renamed.
+    second, and `body` there its mesh, from 1. A reader never meets a half-written file: everything
+    is written elsewhere in the folder and then renamed.
 
     Parameters
     ----------

@@ -10,8 +10,8 @@ import numpy as np
 @dataclass(frozen=True, slots=True)
 class Fields:
     """Displacement (n_points, 3) [m], von Mises stress (n_cells,) [Pa] and contact pressure
-    (n_points,) [Pa] of all pieces of a scene; and the centre (n_contacts, 2) [m] of that in the plan
-    of each face, None where only the points tell it.
+    (n_points,) [Pa] of all pieces of a scene; and the centre (n_contacts, 2) [m] of that in the
+    plan of each face, None where only the points tell it.
     """
 
     displacement: np.ndarray
