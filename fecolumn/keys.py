@@ -165,7 +165,7 @@ def _of_structures() -> list[Table]:
         "materials.NAME": Material,
         "grounds.NAME": Ground,
         "grounds.NAME.motion": Motion,
-        "interfaces.NAME": Interface,
+        "joints.NAME": Interface,
         "links.NAME": LinkKeys,
         "initial.NAME": Initial,
         "mesh": Mesh,

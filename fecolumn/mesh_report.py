@@ -76,8 +76,8 @@ def mesh_report(case, file, folder, say=lambda text: None) -> str:
             "",
             *_interfaces(case, structure),
             *_grounds(case, structure),
-            *_links(case, structure),
             *_closed_forms(layout.drawings, scene),
+            *_links(case, structure),
         ]
     )
     (folder / "table.txt").write_text(text + "\n")
@@ -95,7 +95,7 @@ def _draw(scene, structure, path: Path) -> None:
     picture(SpecimenMesh(meshes[0], base, (), feet[0].points), path)
 
 
-def _parts(scene):
+def _parts(scene) -> list[str]:
     """Table of the parts of bodies of several grids, and of elastic grounds."""
     rows = []
     for piece, mesh in {piece.kind: (piece, mesh) for piece, mesh in _each(scene)}.values():
@@ -105,13 +105,11 @@ def _parts(scene):
         jacobian = scaled_jacobian(mesh)
         for part in parts:
             inside = mesh.part == part
-            rows.append(
-                f"{piece.kind + ', ' + PART_NAMES.get(part, 'floors'):<32}"
-                f"{len(mesh.part_nodes(part)):>8}{inside.sum():>10}{jacobian[inside].min():>27.3f}"
-            )
-    if rows:
-        yield from ("", f"{'part':<32}{'nodes':>8}{'elements':>10}{'smallest scaled Jacobian':>27}")
-        yield from rows
+            name = f"{piece.kind}, {PART_NAMES.get(part, 'floors')}"
+            count = len(mesh.part_nodes(part))
+            rows.append((name, count, int(inside.sum()), float(jacobian[inside].min())))
+    columns = "<32 part; >8 nodes; >10 elements; >27.3f smallest scaled Jacobian"
+    return ["", *_table(columns, rows)] if rows else []
 
 
 def _each(scene):
@@ -120,7 +118,7 @@ def _each(scene):
     return reversed(pairs)
 
 
-def _closed_forms(drawings: dict[str, Drawing], scene):
+def _closed_forms(drawings: dict[str, Drawing], scene) -> list[str]:
     """Masses of bodies and grounds, and the first bending of bodies, beside closed forms."""
     rows = [(name, row) for name, drawing in drawings.items() for row in _rows(drawing)]
     for piece, mesh in _each(scene):
@@ -128,15 +126,15 @@ def _closed_forms(drawings: dict[str, Drawing], scene):
             volume = float(np.prod(np.ptp(mesh.points, axis=0)))
             found = mass_properties(mesh, 1.0).volume
             rows.append((piece.name, QualityRow("volume", "m3", found, volume)))
-    if rows:
-        yield from (
-            "",
-            f"{'quantity':<74}{'unit':<8}{'mesh':>14}{'closed form':>14}{'difference':>12}",
-        )
+    table = []
     for name, row in rows:
-        exact = f"{row.exact:>14.6g}{100 * row.difference:>11.3f}%" if row.exact is not None else ""
         what = row.name.removeprefix("column: ").removesuffix(" of the column")
-        yield f"{name + ': ' + what:<74}{row.unit:<8}{row.mesh:>14.6g}{exact}"
+        exact = (
+            ("", "") if row.exact is None else (float(row.exact), f"{100 * row.difference:.3f}%")
+        )
+        table.append((f"{name}: {what}", row.unit, float(row.mesh), *exact))
+    columns = "<74 quantity; <8 unit; >14.6g mesh; >14.6g closed form; >12 difference"
+    return ["", *_table(columns, table)] if table else []
 
 
 def _rows(drawing: Drawing) -> list[QualityRow]:
@@ -218,43 +216,75 @@ def _bending(drawing: Drawing, made: Made) -> tuple[float, float | None, str]:
     return float(modes.frequencies[6 + int(np.argmax(bent))]), bending_theory(made), name
 
 
-def _bodies(case, layout, models):
-    yield (
-        f"{'body':<16}{'copies':>7}{'mass [kg]':>14}{'centre z [m]':>14}{'inertia x, y, z [kg m2]':>36}{'elements':>10}{'dofs':>9}{'Jacobian':>10}{'points':>8}"
-        f"{'modes':>7}{'first frequencies [Hz]':>34}"
-    )
+def _table(columns: str, rows) -> list[str]:
+    """Lines of a table, the head and a line each row; columns: format and head of each column, such
+    as "<16 body; >14.6g mass [kg]". No lines where there are no rows.
+    """
+    heads = [column.strip().partition(" ") for column in columns.split(";")]
+    plain = ["".join(f"{head:{form.partition('.')[0]}}" for form, _, head in heads)]
+    for row in rows:
+        line = ""
+        for (form, _, _), value in zip(heads, row, strict=True):
+            line += f"{value:{form.partition('.')[0] if isinstance(value, str) else form}}"
+        plain.append(line)
+    return plain if len(plain) > 1 else []
+
+
+def _bodies(case, layout, models) -> list[str]:
+    rows = []
     for name, model in models.items():
-        shape = layout.drawings[name].shape
-        hertz = (
-            ", ".join(f"{value:.4g}" for value in model.frequencies[:4] / (2 * np.pi)) or "rigid"
+        shape, hertz = layout.drawings[name].shape, model.frequencies[:4] / (2 * np.pi)
+        rows.append(
+            (
+                name,
+                len(case.names_of(name)),
+                float(model.mass),
+                float(model.center[2]),
+                ", ".join(f"{value:.5g}" for value in np.diag(model.inertia)),
+                len(shape.mesh.cells) if shape else 0,
+                model.dofs,
+                float(scaled_jacobian(shape.mesh).min()) if shape else 1.0,
+                len(model.arms),
+                min(case.modes_of(name), len(model.frequencies)),
+                ", ".join(f"{value:.4g}" for value in hertz) or "rigid",
+            )
         )
-        inertia = ", ".join(f"{value:.5g}" for value in np.diag(model.inertia))
-        yield (
-            f"{name:<16}{len(case.names_of(name)):>7}{model.mass:>14.6g}{model.center[2]:>14.5g}{inertia:>36}{len(shape.mesh.cells) if shape else 0:>10}"
-            f"{model.dofs:>9}{scaled_jacobian(shape.mesh).min() if shape else 1:>10.3f}{len(model.arms):>8}{min(case.modes_of(name), len(model.frequencies)):>7}{hertz:>34}"
-        )
+    columns = (
+        "<16 body; >7 copies; >14.6g mass [kg]; >14.5g centre z [m]; >36 inertia x, y, z [kg m2];"
+        ">10 elements; >9 dofs; >10.3f Jacobian; >8 points; >7 modes; >34 first frequencies [Hz]"
+    )
+    return _table(columns, rows)
 
 
-def _interfaces(case, structure):
-    yield f"{'interface':<50}{'points':>8}{'of them touch':>15}{'area [m2]':>12}{'friction':>10}{'rim':>8}"
-    standing = standing_of(case, structure)
+def _interfaces(case, structure) -> list[str]:
+    rows, standing = [], standing_of(case, structure)
     for joint in structure.joints:
         if joint.pair >= 0:
             continue  # the other side of a joint that has its line
         surface = structure.parts[joint.slave].model.surfaces[joint.slave_surface]
         over = touching(standing, joint)
-        yield f"{joint.name:<50}{len(surface.nodes):>8}{len(over):>15}{surface.areas[over].sum():>12.5g}{joint.friction:>10.3g}{'dome' if joint.ball and joint.ball.is_dome else 'round' if joint.round else 'edges':>8}"
+        rim = "round" if joint.round else "edges"
+        rows.append(
+            (
+                joint.name,
+                len(surface.nodes),
+                len(over),
+                float(surface.areas[over].sum()),
+                float(joint.friction),
+                "dome" if joint.ball and joint.ball.is_dome else rim,
+            )
+        )
+    columns = (
+        "<50 interface; >8 points; >15 of them touch; >12.5g area [m2]; >10.3g friction; >8 rim"
+    )
+    return _table(columns, rows)
 
 
-def _grounds(case, structure):
+def _grounds(case, structure) -> list[str]:
     """What stands on each ground, and how it gives."""
     if all(ground == Ground() for ground in case.grounds.values()):
-        return
-    yield from (
-        "",
-        f"{'ground':<26}{'kind':<12}{'level [m]':>10}{'feet':>6}{'area [m2]':>12}"
-        f"{'frequency [Hz]':>16}{'dofs':>9}",
-    )
+        return []
+    rows = []
     for place, (name, ground) in enumerate(case.grounds.items()):
         feet = [one for one in structure.joints if one.master == GROUND and one.ground == place]
         area = sum(
@@ -264,35 +294,52 @@ def _grounds(case, structure):
         frequency = min(
             [one.pad.frequency for one in feet if one.pad] or [structure.bases[place].frequency]
         )
-        shown = f"{frequency:.4g}" if np.isfinite(frequency) else "-"
-        yield (
-            f"{name:<26}{ground.kind:<12}{ground.level_m:>10.4g}{len(feet):>6}{area:>12.5g}"
-            f"{shown:>16}{structure.bases[place].dofs:>9}"
+        rows.append(
+            (
+                name,
+                ground.kind,
+                float(ground.level_m),
+                len(feet),
+                float(area),
+                f"{frequency:.4g}" if np.isfinite(frequency) else "-",
+                structure.bases[place].dofs,
+            )
         )
+    columns = (
+        "<26 ground; <12 kind; >10.4g level [m]; >6 feet; >12.5g area [m2]; >16 frequency [Hz];"
+        ">9 dofs"
+    )
+    return ["", *_table(columns, rows)]
 
 
-def _links(case, structure):
-    if structure.links:
-        yield from (
-            "",
-            f"{'link':<26}{'between':<40}{'length [m]':>12}{'stiffness [N/m]':>17}{'damping [N s/m]':>17}{'prestress [N]':>15}{'slack [m]':>11}{'yields [N]':>12}{'at [m]':>11}"
-            f"{'breaks [N]':>12}{'at [m]':>11}",
-        )
-    standing, grounds = standing_of(case, structure), list(case.grounds)
+def _links(case, structure) -> list[str]:
+    rows, standing, grounds = [], standing_of(case, structure), list(case.grounds)
     for link in structure.links:
-        ends = (
-            f"{structure.parts[link.a].name} - "
-            f"{grounds[link.ground] if link.b == GROUND else structure.parts[link.b].name}"
-        )
+        held = grounds[link.ground] if link.b == GROUND else structure.parts[link.b].name
         other = link.arm_b if link.b == GROUND else standing[link.b].center + link.arm_b
-        length = np.linalg.norm(other - standing[link.a].center - link.arm_a)
         # elongations from the unstressed length
-        limits = "".join(
-            f"{force:>12.5g}{link.slack + force / link.stiffness:>11.4g}"
+        limits = [
+            (float(force), float(link.slack + force / link.stiffness))
             if np.isfinite(force)
-            else f"{'-':>12}{'-':>11}"
+            else ("-", "-")
             for force in (link.yield_n, link.breaking_n)
+        ]
+        rows.append(
+            (
+                f"{link.kind} {link.name}",
+                f"{structure.parts[link.a].name} - {held}",
+                float(np.linalg.norm(other - standing[link.a].center - link.arm_a)),
+                float(link.stiffness),
+                float(link.damping),
+                float(link.prestress),
+                float(link.slack),
+                *limits[0],
+                *limits[1],
+            )
         )
-        yield (
-            f"{link.kind + ' ' + link.name:<26}{ends:<40}{length:>12.5g}{link.stiffness:>17.5g}{link.damping:>17.5g}{link.prestress:>15.5g}{link.slack:>11.4g}{limits}"
-        )
+    columns = (
+        "<26 link; <40 between; >12.5g length [m]; >17.5g stiffness [N/m]; >17.5g damping [N s/m];"
+        ">15.5g prestress [N]; >11.4g slack [m]; >12.5g yields [N]; >11.4g at [m];"
+        ">12.5g breaks [N]; >11.4g at [m]"
+    )
+    return ["", *_table(columns, rows)] if rows else []

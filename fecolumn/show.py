@@ -34,7 +34,7 @@ def full_form(case, defaults: bool = False) -> dict:
         keys at their defaults, too.
     """
     tables = case.tables(defaults)
-    tables["joints"] = {name: _joint(table) for name, table in tables.pop("interfaces").items()}
+    tables["joints"] = {name: _joint(table) for name, table in tables.pop("joints").items()}
     return tables
 
 

@@ -38,7 +38,7 @@ def left_faces(names, points: np.ndarray) -> str:
     found = sorted({names[k] for k in points["interface"][points["beyond"] == UNPREPARED]})
     # "joint, edge: lower on upper" has the keys of interfaces.joint
     key = found[0].partition(":")[0].removesuffix(", edge")
-    return f"{', '.join(found)}; a larger interfaces.{key}.allowance_m prepares more of it"
+    return f"{', '.join(found)}; a larger joints.{key}.allowance_m prepares more of it"
 
 
 def joints_of(parts, joints) -> Joints:

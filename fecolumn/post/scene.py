@@ -67,7 +67,7 @@ class Piece:
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
+class JointFace:
     """The slave's face of a joint.
 
     Attributes
@@ -123,7 +123,7 @@ class Contact:
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class Outside:
     """The outside of some pieces.
 
     Attributes
@@ -171,7 +171,7 @@ class Scene:
     """
 
     pieces: tuple[Piece, ...]
-    contacts: tuple[Contact, ...]
+    contacts: tuple[JointFace, ...]
     of_cells: dict[str, np.ndarray]
     expand: Callable
     give: Callable
@@ -185,7 +185,7 @@ class Scene:
         return self.expand(self)
 
     def plates(self) -> list:
-        """(`post.state_fields.Plate`, number of the ground) of each piece that belongs to one."""
+        """`post.state_fields.SunkPlate` and number of the ground of each elastic plate."""
         return self.give()
 
     @cached_property
@@ -223,26 +223,26 @@ class Scene:
         return self.points[: self.first[len(self.bodies)]]
 
     @cached_property
-    def surface(self) -> Surface:
+    def surface(self) -> Outside:
         """The outside of all bodies."""
         return self._surface(range(len(self.bodies)))
 
     @cached_property
-    def base(self) -> Surface | None:
+    def base(self) -> Outside | None:
         """The outside of the ground; None where it is a plane."""
         held = range(len(self.bodies), len(self.pieces))
         return self._surface(held) if held else None
 
-    def _surface(self, numbers) -> Surface:
+    def _surface(self, numbers) -> Outside:
         own = [self.pieces[k] for k in numbers]
-        faces = joined([piece.faces + self.first[k] for k, piece in zip(numbers, own)])
+        faces = same_corners([piece.faces + self.first[k] for k, piece in zip(numbers, own)])
         cells = [
             np.where(piece.cells < 0, -1, piece.cells + self.first_cell[k])
             for k, piece in zip(numbers, own)
         ]
         nodes, corners = np.unique(faces, return_inverse=True)
         part = np.repeat(np.array(numbers), [len(piece.faces) for piece in own])
-        return Surface(nodes, corners.reshape(faces.shape), np.concatenate(cells), part)
+        return Outside(nodes, corners.reshape(faces.shape), np.concatenate(cells), part)
 
     @cached_property
     def struts(self) -> np.ndarray:
@@ -283,7 +283,7 @@ class Scene:
         return slice(self.first[k], self.first[k + 1])
 
 
-def joined(faces: list[np.ndarray]) -> np.ndarray:
+def same_corners(faces: list[np.ndarray]) -> np.ndarray:
     """Faces of three and four corners as one array; a triangle among quadrilaterals names its last
     corner twice.
     """

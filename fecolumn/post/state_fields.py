@@ -52,7 +52,7 @@ class StateFields:
     seats
         of each contact.
     grounds
-        (Plate, number of the ground) of each piece that belongs to one.
+        (SunkPlate, number of the ground) of each piece that belongs to one.
     """
 
     def __init__(self, scene: Scene, movers, models, seats: list[Seat], grounds=()):
@@ -211,7 +211,7 @@ class Continuum:
         ]
 
 
-class Building:
+class SwayingFloors:
     """A building: its floors shift by its modes, and turn with its slab.
 
     Parameters
@@ -251,7 +251,7 @@ def _turning(arms: np.ndarray) -> np.ndarray:
     return np.stack([np.cross(axis, arms).ravel() for axis in np.eye(3)], axis=1)
 
 
-class Plate:
+class SunkPlate:
     """An elastic base plate (`contact.base_plate.BasePlate`)."""
 
     def __init__(self, plate):

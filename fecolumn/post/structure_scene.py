@@ -6,8 +6,8 @@ import numpy as np
 
 from fecolumn.mesh.bricks import BASE, FACES, outer_faces
 from fecolumn.mesh.quality import MassProperties
-from fecolumn.post.scene import Contact, Piece, Scene, cells_of, joined
-from fecolumn.post.state_fields import Building, Continuum, Plate, Rigid, Seat, StateFields
+from fecolumn.post.scene import JointFace, Piece, Scene, cells_of, same_corners
+from fecolumn.post.state_fields import Continuum, Rigid, Seat, StateFields, SunkPlate, SwayingFloors
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.feet import ball_of, rise
 from fecolumn.structures.keys import Matrices, Storeys
@@ -149,7 +149,7 @@ class _Shown:
             part.name,
             kind,
             self.points,
-            joined(self.kinds),
+            same_corners(self.kinds),
             self.elements,
             self.cells,
             part.center - part.model.center,
@@ -203,7 +203,7 @@ def floor_boxes(body: Storeys) -> np.ndarray:
     )
 
 
-def _contact(joint, shown: _Shown, part, first: np.ndarray) -> Contact:
+def _contact(joint, shown: _Shown, part, first: np.ndarray) -> JointFace:
     surface = part.model.surfaces[joint.slave_surface]
     # the second tangent of a face that looks down is -y
     axes = surface.axes * [1.0, -1.0 if surface.normal[2] < 0 else 1.0, 1.0]
@@ -211,7 +211,7 @@ def _contact(joint, shown: _Shown, part, first: np.ndarray) -> Contact:
     name = joint.name.partition(":")[0]
     origin = part.center + surface.origin
     domed = bool(joint.ball and joint.ball.is_dome)
-    return Contact(
+    return JointFace(
         name,
         part.name,
         joint.name,
@@ -251,10 +251,10 @@ def _expanded(case, structure, kinds, shown, scene: Scene, file) -> StateFields:
     return StateFields(scene, movers, models, seats, scene.plates())
 
 
-def _plate(sized, ground) -> Plate:
+def _plate(sized, ground) -> SunkPlate:
     from fecolumn.structures.ground import plate_of
 
-    return Plate(plate_of(sized, ground))
+    return SunkPlate(plate_of(sized, ground))
 
 
 def _mover(piece: Piece, model, one: _Shown, folder):
@@ -262,7 +262,7 @@ def _mover(piece: Piece, model, one: _Shown, folder):
     from fecolumn.structures.reduction import body_of
 
     if one.floors:
-        return Building(piece.points - model.center, model, one.floors)
+        return SwayingFloors(piece.points - model.center, model, one.floors)
     if not piece.stressed:
         return Rigid(len(piece.points))
     body = body_of(one.drawing.shape, one.drawing.material)

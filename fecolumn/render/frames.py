@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.post.scene import GROUND, Contact
+from fecolumn.post.scene import GROUND, JointFace
 from fecolumn.render.frame import Fields, Frame
-from fecolumn.render.joints import displacement, gaps
+from fecolumn.render.joints import gaps, moved_from_master
 from fecolumn.render.pose import nearest_rigid
 from fecolumn.render.quantity import Quantity
 from fecolumn.schema import InputError
@@ -262,18 +262,16 @@ class Frames:
         ends[broken, 1] = ends[broken, 0]
         return ends
 
-    def _gaps(self, contact: Contact, true: np.ndarray, k: int) -> np.ndarray:
+    def _gaps(self, contact: JointFace, true: np.ndarray, k: int) -> np.ndarray:
         """Mean gap (n_faces,) [m] below the faces of a contact."""
         rest = self.scene.points[contact.points]
-        moved = displacement(contact, true[contact.points], rest, self._poses, k)
+        moved = moved_from_master(contact, true[contact.points], rest, self._poses, k)
         at_points = np.zeros(len(true))
         at_points[contact.points] = gaps(contact, moved, rest)
         return at_points[contact.faces].mean(axis=1)
 
-    def _centre(self, contact: Contact, faces: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-        """Centre (2,) [m] of the pressure (n_faces, k) [Pa] at the corners (n_faces, k, 3) of
-        faces.
-        """
+    def _centre(self, contact: JointFace, faces: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+        """Centre (2,) [m] of the pressure (n_faces, k) [Pa] at corners (n_faces, k, 3) [m]."""
         plan = self.plan(contact, faces)
         x, y = plan[..., 0], plan[..., 1]
         areas = np.abs((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)) / 2
@@ -284,7 +282,7 @@ class Frames:
             else np.full(2, np.nan)
         )
 
-    def plan(self, contact: Contact, faces: np.ndarray) -> np.ndarray:
+    def plan(self, contact: JointFace, faces: np.ndarray) -> np.ndarray:
         """Faces (n_faces, k, 2) [m] in the plan in which a contact is drawn: of a body alone where
         they are on the ground, else where they are on the body.
         """

@@ -1,4 +1,4 @@
-"""Path of the pressure's centre from the rigid motion of a column, where no pressure was written."""
+"""Path of the pressure's centre from the rigid motion of a body, where none was written."""
 
 from __future__ import annotations
 

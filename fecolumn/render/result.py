@@ -10,7 +10,7 @@ import numpy as np
 from fecolumn.case import MODEL_ENGINES
 from fecolumn.dynamics.history import read_history
 from fecolumn.files import Unreadable, is_file, read_json
-from fecolumn.post.scene import Contact, Scene
+from fecolumn.post.scene import JointFace, Scene
 from fecolumn.reduced.states import NAME as STATES
 from fecolumn.render.field_frames import FieldFrames, FrameSeries
 from fecolumn.render.pose import Poses, nearest_rigid
@@ -100,7 +100,7 @@ class Result:
 
     @property
     def height(self) -> float:
-        """[m]"""
+        """Of all bodies [m]."""
         return self.scene.height
 
     @property
@@ -157,7 +157,7 @@ class Result:
         ]
         return np.concatenate([self._reached(times, range(len(self.poses))), *around])
 
-    def _foot(self) -> Contact:
+    def _foot(self) -> JointFace:
         """The lowest face of the followed body, or where it has none of its own, of the body on the
         ground that tilts most.
         """
@@ -165,10 +165,10 @@ class Result:
         own = [contact for contact in contacts if contact.piece == self.told.body]
         return (own or sorted(contacts, key=self._largest_tilt))[-1]
 
-    def _largest_tilt(self, contact: Contact) -> float:
+    def _largest_tilt(self, contact: JointFace) -> float:
         return -float(self.poses[contact.piece].rotation[:, 2, 2].min())
 
-    def _around(self, contact: Contact, times: np.ndarray) -> tuple[np.ndarray, float]:
+    def _around(self, contact: JointFace, times: np.ndarray) -> tuple[np.ndarray, float]:
         """Corners (n, 3) [m] of what is shown of the ground around a foot, and its width [m]."""
         foot = self.scene.points[contact.points]
         size = float(np.ptp(foot[:, :2], axis=0).max())

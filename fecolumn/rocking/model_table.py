@@ -19,7 +19,7 @@ from fecolumn.schema import InputError, Section, build, parameter
 from fecolumn.structures.case import StructureCase
 
 #: Tables of a structure of [bodies] that a model of the same file passes over
-OF_BODIES = ("bodies", "materials", "interfaces", "links", "contact", "observed", "mesh")
+OF_BODIES = ("bodies", "materials", "joints", "links", "contact", "observed", "mesh")
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +110,7 @@ def case_of_table(tables: dict, file, engine: str | None = None) -> StructureCas
         bodies={},
         materials={},
         grounds={},
-        interfaces={},
+        joints={},
         links={},
         initial={table: Initial(start.tilt_rad, start.direction_deg)},
         contact=Contact(),

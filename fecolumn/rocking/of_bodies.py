@@ -119,8 +119,8 @@ class _Reader:
             "contact.restitution": contact.restitution,
             "contact.rolling_resistance": contact.rolling_resistance,
         }
-        for name, interface in self.case.interfaces.items():
-            stated[f"interfaces.{name}.restitution"] = interface.restitution
+        for name, interface in self.case.joints.items():
+            stated[f"joints.{name}.restitution"] = interface.restitution
         for name, body in self.case.bodies.items():
             for key in ("foot_radius_m", "edge_radius_m", "turned_deg"):
                 stated[f"bodies.{name}.{key}"] = getattr(body, key, None)
@@ -138,7 +138,7 @@ class _Reader:
     def _joints(self) -> set[tuple[str, str]]:
         """Pairs of bodies, or a body and the ground, between which there are interfaces."""
         pairs = set()
-        for interface in self.case.interfaces.values():
+        for interface in self.case.joints.values():
             own, other = (
                 one if one == keys.GROUND else self.case.meant_by(one)[0]
                 for one in (interface.slave, interface.on)
@@ -219,7 +219,7 @@ class _Reader:
 
     def _friction(self, name: str) -> float:
         """Coefficient of friction between a body and the ground."""
-        for interface in self.case.interfaces.values():
+        for interface in self.case.joints.values():
             if interface.on == keys.GROUND and self.case.meant_by(interface.slave)[0] == name:
                 own = interface.friction_coefficient
                 return self.case.contact.friction_coefficient if own is None else own

@@ -1,7 +1,7 @@
 """The case of a structure of many bodies: tables by name, validated, hashable by content, beside
 the short form of one column.
 
-[bodies.column]            [interfaces.feet]         [interfaces.heads]        [initial.column]
+[bodies.column]            [joints.feet]             [joints.heads]        [initial.column]
 kind = "cylinder"          slave = "column"          slave = "column"          tilt_rad = 0.05
 ...                        on = "ground"             on = "slab"
 """
@@ -52,7 +52,7 @@ NAMED = {
     "bodies": Placed,
     "materials": Material,
     "grounds": Ground,
-    "interfaces": Interface,
+    "joints": Interface,
     "links": LinkKeys,
     "initial": Initial,
 }
@@ -83,7 +83,7 @@ class StructureCase:
 
     bodies: dict[str, Placed]
     materials: dict[str, Material]
-    interfaces: dict[str, Interface]
+    joints: dict[str, Interface]
     links: dict[str, LinkKeys]
     initial: dict[str, Initial]
     contact: Contact
@@ -252,7 +252,7 @@ def _is_full(key: str, value) -> bool:
             or isinstance(value, dict)
             and any(isinstance(v, dict) for v in value.values())
         )
-    return first in NAMED or first in ("joints", "observed")
+    return first in NAMED or first in ("interfaces", "observed")
 
 
 def identity(section) -> dict:
@@ -275,8 +275,9 @@ def structure_from_tables(tables: dict, file) -> StructureCase:
     """
     if "column" in tables:
         return _of_short_form(tables, file)
+    if "interfaces" in tables:
+        return _of_interfaces(tables, file)
     tables, errors, found = stated(tables), [], {}
-    tables = _with_joints(tables, file)
     if not tables.get("grounds"):
         tables = tables | {"grounds": {GROUND: {}}}
     grounds = set(tables["grounds"]) if isinstance(tables["grounds"], dict) else {GROUND}
@@ -328,18 +329,32 @@ def _of_short_form(tables: dict, file) -> StructureCase:
     return dataclasses.replace(case, short=form)
 
 
-def _with_joints(tables: dict, file) -> dict:
-    """Tables with [joints] under the name of earlier versions, [interfaces]."""
-    if "joints" not in tables:
-        return tables
-    joints, older = tables["joints"], tables.get("interfaces", {})
-    if not isinstance(joints, dict):
-        raise InputError(file, "joints", joints, "must hold tables by name, such as [joints.NAME]")
+def _of_interfaces(tables: dict, file) -> StructureCase:
+    """Case of TOML tables with [interfaces], the name of [joints] in earlier versions, by which
+    messages call them.
+    """
+    older, joints = tables["interfaces"], tables.get("joints", {})
+    if not isinstance(older, dict) or not isinstance(joints, dict):
+        raise InputError(file, "joints", joints or older, "must hold tables by name")
     if twice := set(joints) & set(older):
         key = f"joints.{min(twice)}"
         raise InputError(file, key, None, "stands in [interfaces], too: give it once")
-    others = {name: table for name, table in tables.items() if name != "joints"}
-    return others | {"interfaces": older | joints}
+    others = {name: table for name, table in tables.items() if name != "interfaces"}
+
+    def named(text: str) -> str:
+        for name in older:
+            text = text.replace(f"joints.{name}", f"interfaces.{name}")
+        return text
+
+    try:
+        return structure_from_tables(others | {"joints": older | joints}, file)
+    except InputError as error:
+        raise InputError.of_several(
+            [
+                InputError(one.file, named(one.key), one.value, named(one.allowed))
+                for one in error.all
+            ]
+        ) from None
 
 
 def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
@@ -371,7 +386,7 @@ def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
             found[key] = _built(
                 _kind_of(name, key, table, kind, file), table, file, f"{name}.{key}."
             )
-            if name == "interfaces":
+            if name == "joints":
                 found[key] = _between(found[key], grounds, file, f"{name}.{key}.")
         except InputError as error:
             errors.append(error)
@@ -463,16 +478,16 @@ def check(case: StructureCase, file) -> None:
         refuse("bodies", None, "missing; a structure needs a table [bodies.NAME] at least")
     for name, body in case.bodies.items():
         check_body(f"bodies.{name}", body, case.materials, refuse)
-    if not case.interfaces:
+    if not case.joints:
         refuse(
-            "interfaces",
+            "joints",
             None,
-            "missing; a structure needs a table [interfaces.NAME] at least, for what "
+            "missing; a structure needs a table [joints.NAME] at least, for what "
             "stands on the ground",
         )
-    for name, interface in case.interfaces.items():
-        _check_name(case, f"interfaces.{name}", interface.slave, refuse, ground=False)
-        _check_name(case, f"interfaces.{name}", interface.on, refuse)
+    for name, interface in case.joints.items():
+        _check_name(case, f"joints.{name}", interface.slave, refuse, ground=False)
+        _check_name(case, f"joints.{name}", interface.on, refuse)
     for name, link in case.links.items():
         _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
         _check_name(case, f"links.{name}.to", link.to, refuse)

@@ -59,9 +59,9 @@ def check_meetings(case, meetings, file) -> None:
             ]
             raise InputError(
                 file,
-                f"interfaces.{meeting.interface}",
+                f"joints.{meeting.interface}",
                 None,
-                f"states the joint of interfaces.{first} again: the same faces of "
+                f"states the joint of joints.{first} again: the same faces of "
                 f"{' and '.join(names)}; "
                 "leave one of the two out",
             )
@@ -81,7 +81,7 @@ def check_layout(case, layout, file) -> None:
         f'"{case.names_of(name)[number]}"' for name, number in copies if (name, number) not in held
     ]:
         raise InputError(
-            file, "interfaces", None, f"no contact path to the ground from {', '.join(loose)}"
+            file, "joints", None, f"no contact path to the ground from {', '.join(loose)}"
         )
     places = [np.array(case.bodies[name].places[number]) for name, number in copies]
     boxes = [
@@ -186,7 +186,7 @@ def check_joints(joints, standing, file) -> None:
         ):
             raise InputError(
                 file,
-                f"interfaces.{joint.name.partition(':')[0]}",
+                f"joints.{joint.name.partition(':')[0]}",
                 None,
                 f'fewer than three nodes of "{standing[joint.slave].name}" lie on '
                 f'"{standing[joint.master].name}": make its elements smaller',
@@ -295,7 +295,7 @@ def check_rest(case, structure, standing, file) -> None:
         )
         raise InputError(
             file,
-            "interfaces",
+            "joints",
             None,
             f"{names} cannot rest: no contact forces within friction hold the weight as "
             "the bodies stand; "

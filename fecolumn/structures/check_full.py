@@ -40,9 +40,9 @@ def _check_no_impacts(case, refuse) -> None:
     for key in ("restitution", "rolling_resistance"):
         if value := getattr(case.contact, key):
             refuse(f"contact.{key}", value, told)
-        for name, interface in case.interfaces.items():
+        for name, interface in case.joints.items():
             if value := getattr(interface, key, None):
-                refuse(f"interfaces.{name}.{key}", value, told)
+                refuse(f"joints.{name}.{key}", value, told)
     if case.integration.substeps == "impacts":
         refuse(
             "integration.substeps",

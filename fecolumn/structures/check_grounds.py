@@ -23,13 +23,11 @@ def check_grounds(case, refuse) -> None:
     """Refuse grounds, and joints with them and with pads, that cannot be."""
     for name, ground in case.grounds.items():
         _check_keys(case, f"grounds.{name}", ground, refuse)
-        used = [one.on for one in case.interfaces.values()] + [
-            one.to for one in case.links.values()
-        ]
+        used = [one.on for one in case.joints.values()] + [one.to for one in case.links.values()]
         if name not in used and ground != Ground():
             refuse(f"grounds.{name}", None, "nothing stands on it, and no link is held by it")
-    for name, interface in case.interfaces.items():
-        _check_interface(case, f"interfaces.{name}", interface, refuse)
+    for name, interface in case.joints.items():
+        _check_interface(case, f"joints.{name}", interface, refuse)
 
 
 def _check_keys(case, key: str, ground: Ground, refuse) -> None:

@@ -74,8 +74,8 @@ def layout_of(case, file) -> Layout:
         ):
             raise InputError(
                 file,
-                f"interfaces.{meeting.interface}.on",
-                case.interfaces[meeting.interface].on,
+                f"joints.{meeting.interface}.on",
+                case.joints[meeting.interface].on,
                 f'must be the slave: the foot of "{meeting.master[0]}" is not flat',
             )
     patches, contacts, edges = (
@@ -85,7 +85,7 @@ def layout_of(case, file) -> Layout:
         edges_of(
             case,
             drawings,
-            [one for one in meetings if case.interfaces[one.interface].stiffness_n_m3 is None],
+            [one for one in meetings if case.joints[one.interface].stiffness_n_m3 is None],
         ),
     )
     for body in case.bodies:
@@ -141,8 +141,8 @@ def _spots(case, drawings, meetings: list[Meeting]) -> dict[str, list]:
             side = (high - low).min()
             allowance = (
                 side / 4
-                if case.interfaces[meeting.interface].allowance_m is None
-                else case.interfaces[meeting.interface].allowance_m
+                if case.joints[meeting.interface].allowance_m is None
+                else case.joints[meeting.interface].allowance_m
             )
             size = (
                 side / 4 if drawings[own[0]].is_rigid or drawings[own[0]].order == 1 else side / 2
@@ -165,7 +165,7 @@ def _touching(
     """Contact points of a body as slave by the names of its surfaces, all copies together."""
     slaves, found = {}, {}
     for meeting in meetings:
-        interface = case.interfaces[meeting.interface]
+        interface = case.joints[meeting.interface]
         if meeting.slave[0] == body:
             interior = (
                 case.contact.interior_points

@@ -45,13 +45,11 @@ def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
     InputError
         an interface whose bodies do not touch, or leave a gap or overlap.
     """
-    return [
-        meeting for name in case.interfaces for meeting in _of_interface(case, name, faces, file)
-    ]
+    return [meeting for name in case.joints for meeting in _of_interface(case, name, faces, file)]
 
 
 def _of_interface(case, name: str, faces, file) -> list[Meeting]:
-    interface = case.interfaces[name]
+    interface = case.joints[name]
     slaves = _copies(case, interface.slave)
     ground = case.grounds.get(interface.on)
     masters = _copies(case, interface.on) if ground is None else [None]
@@ -72,7 +70,7 @@ def _of_interface(case, name: str, faces, file) -> list[Meeting]:
         gap, slave, master, _ = min(near, key=lambda one: abs(one[0]))
         raise InputError(
             file,
-            f"interfaces.{name}",
+            f"joints.{name}",
             None,
             f'"{_name(case, slave)}" and {_quoted(case, master)} {_gap_text(gap)}: '
             "their faces must coincide at the start",
@@ -87,7 +85,7 @@ def _of_interface(case, name: str, faces, file) -> list[Meeting]:
             )
         raise InputError(
             file,
-            f"interfaces.{name}",
+            f"joints.{name}",
             None,
             f'"{interface.slave}" does not touch "{interface.on}" at the start: {told}',
         )
@@ -135,7 +133,7 @@ def zones_of(
     3) [m].
     """
     allowance, shift = (
-        allowance_of(case.interfaces[meeting.interface], slave),
+        allowance_of(case.joints[meeting.interface], slave),
         place_of(case, meeting.slave) - place_of(case, meeting.master),
     )
     spans = (
@@ -159,7 +157,7 @@ def _of_pair(
         width = min(box[1] - box[0], box[3] - box[2])
         if master is None:
             if face.normal[2] < -1 + _OPPOSITE:
-                gap = place[2] - face.offset - case.grounds[case.interfaces[name].on].level_m
+                gap = place[2] - face.offset - case.grounds[case.joints[name].on].level_m
                 if abs(gap) <= SAME_PLANE * width:
                     found.append(Meeting(name, slave, number, None, -1))
                 else:

@@ -19,9 +19,9 @@ def pad_keys(case, interface):
     """Where the keys of the pad below an interface are stated, and their names' beginning: the
     interface's own, or its ground; None, "" without a pad.
     """
-    keys = case.interfaces[interface]
+    keys = case.joints[interface]
     if keys.stiffness_n_m3 is not None:
-        return keys, f"interfaces.{interface}"
+        return keys, f"joints.{interface}"
     ground = case.grounds.get(keys.on)
     if ground is not None and ground.kind == "pad":
         return ground, f"grounds.{keys.on}"

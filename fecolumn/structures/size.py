@@ -48,7 +48,7 @@ def _points(case, name: str, nodes: int) -> int:
     face = nodes ** (2 / 3)
     touching = [
         one
-        for one in case.interfaces.values()
+        for one in case.joints.values()
         if name in (one.on.rpartition(" ")[0] or one.on, one.slave.rpartition(" ")[0] or one.slave)
     ]
     inner = [
@@ -104,7 +104,7 @@ def made_of(case, models: dict, scene) -> Estimate:
 def _feet(case, ground: str) -> list[np.ndarray]:
     """Corners (4, 3) [m] of the rectangles around the feet on a ground, by the keys of bodies."""
     found = []
-    for one in case.interfaces.values():
+    for one in case.joints.values():
         if one.on != ground:
             continue
         name, numbers = case.meant_by(one.slave)

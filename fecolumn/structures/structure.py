@@ -87,9 +87,9 @@ def _geometry(case) -> dict:
     return {
         "bodies": bodies,
         "levels": {name: ground.level_m for name, ground in case.grounds.items()},
-        "interfaces": {
+        "joints": {
             name: [getattr(one, key) for key in keys] + [one.stiffness_n_m3 is not None]
-            for name, one in case.interfaces.items()
+            for name, one in case.joints.items()
         },
         "interior": case.contact.interior_points,
     }
@@ -264,7 +264,7 @@ def _starts(case) -> dict[tuple[str, int], Initial]:
 
 def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
     name, (body, number) = contact["interface"], contact["slave"]
-    keys, model, master = case.interfaces[name], bodies[body], contact["master"]
+    keys, model, master = case.joints[name], bodies[body], contact["master"]
     own = {
         key: getattr(keys, key)
         for key in (
@@ -286,7 +286,7 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
     if contact_keys.law == "penalty" and body not in sizes:
         raise InputError(
             file,
-            f"interfaces.{name}.law",
+            f"joints.{name}.law",
             contact_keys.law,
             f'must be augmented_lagrange where the slave, "{body}", has no elements',
         )

@@ -166,3 +166,25 @@ def test_a_broken_tendon_is_kept_as_broken_and_not_drawn(tmp_path):
     frames = Frames(result, result.states.time, 0.02, 1.0, "displacement")
     length = [np.linalg.norm(np.diff(frame.links[0], axis=0)) for frame in frames]
     assert length[0] == pytest.approx(0.8, rel=0.01) and length[-1] == 0
+
+
+def test_fields_written_while_a_structure_runs_are_those_of_its_states(gate, tmp_path):
+    folder = analysed(tmp_path / "run", GATE, TILTED, dict(output=dict(fields_every_s=0.04)))
+    result = read_result(folder)
+    assert result.fields.time == pytest.approx([0.0, 0.04, 0.08])
+    for k, time in enumerate(result.fields.time):
+        written, made = (
+            result.fields.read(k),
+            result.states.read(int(np.argmin(np.abs(result.states.time - time)))),
+        )
+        for name in ("displacement", "stress", "pressure"):
+            one, other = getattr(written, name), getattr(made, name)
+            assert np.abs(one - other).max() < 1e-5 * max(np.abs(one).max(), 1e-6)
+
+
+def test_the_history_turns_every_body_as_its_states_do(gate):
+    result = read_result(gate)
+    for number, poses in enumerate(result.poses):
+        there = poses.at(result.states.time)
+        assert there.rotation == pytest.approx(result.states.rotation[:, number], abs=1e-12)
+        assert there.foot == pytest.approx(result.states.center[:, number], abs=1e-12)
