@@ -49,8 +49,8 @@ def column_case(engine: str, **tables):
     """Case of the coarse specimen; `tables`, such as contact={"friction_coefficient": 0.8}, are
     merged over it.
     """
-    key = "engine" if engine in REDUCED else "kinematics"
-    return short_form(merge(merge(COARSE, tables), {"integration": {key: engine}}), "verification")
+    plan = {"engine": engine} if engine in REDUCED else {"engine": "full", "kinematics": engine}
+    return short_form(merge(merge(COARSE, tables), {"integration": plan}), "verification")
 
 
 def column_system(engine: str, **tables) -> System:

@@ -21,6 +21,7 @@ def coarse_case(**sections):
             "column": {"fine_height_m": 0.03},
             "base": {"slide_allowance_m": 0.01, "length_m": 0.2, "width_m": 0.2},
             "mesh": {"coarse_size_m": 0.03, "cap_size_m": 0.05, "base_size_m": 0.05},
+            "integration": {"engine": "full"},
         },
     )
     return short_form(merge(tables, sections), SPECIMEN)

@@ -5,6 +5,7 @@ import pytest
 from small_block import block, centre, trial
 
 from fecolumn import simulation
+from fecolumn.case import case_from_tables
 from fecolumn.dynamics.gravity import standing
 from fecolumn.verification.models import column_case, column_system
 from fecolumn.verification.trials import begin_trial
@@ -61,7 +62,7 @@ def test_foot_that_reaches_the_edge_of_its_plate_ends_the_analysis_as_slid_off(e
         contact={"friction_coefficient": 0.05},
         integration={"duration_s": 0.1, "dt_s": 1e-3},
     )
-    summary = simulation.run(case, tmp_path / "out", quiet=True)
+    summary = simulation.run(case_from_tables(case.tables(), "test"), tmp_path / "out", quiet=True)
     assert summary["outcome"] == "slid off" and summary["slid_off"] and not summary["overturned"]
     assert summary["slid_off_time_s"] == pytest.approx(0.005, abs=1.5e-3)  # 10 mm at 2 m/s
     assert abs(summary["slid_off_direction_deg"]) == pytest.approx(180.0, abs=1e-2)
@@ -82,7 +83,7 @@ def test_foot_that_passes_the_edge_within_one_long_step_has_slid_off(engine, tmp
         contact={"friction_coefficient": 0.05},
         integration={"duration_s": 0.1, "dt_s": 12.5e-3},
     )
-    summary = simulation.run(case, tmp_path / "out", quiet=True)
+    summary = simulation.run(case_from_tables(case.tables(), "test"), tmp_path / "out", quiet=True)
     assert summary["outcome"] == "slid off" and summary["slid_off_time_s"] == pytest.approx(0.0125)
 
 

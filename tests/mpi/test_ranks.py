@@ -34,6 +34,7 @@ source = "motion.csv"
 duration_s = 0.1
 dt_s = 2e-3
 alpha_hht = -0.05
+engine = "full"
 kinematics = "{kinematics}"
 [output]
 fields_every_s = 0.1
