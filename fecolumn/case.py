@@ -302,7 +302,7 @@ class Integration(Section):
         "structure's bodies without any give; housner: no finite elements, the planar "
         "rigid block of fecolumn help rocking; wobbling: the rigid column that rolls "
         "on its rim; rocking_frame, wobbling_frame, podium: models of a table of their "
-        "own, such as [podium]",
+        "own, such as [podium], or of columns and what stands on them in [bodies]",
         choices=("full", "reduced", "rigid", *MODEL_ENGINES),
     )
     n_modes: int = parameter(
@@ -667,7 +667,13 @@ def case_from_tables(tables: dict, file) -> Case:
         tables = {key: table for key, table in tables.items() if key not in TABLES}
         from fecolumn.structures.case import structure_from_tables
 
-        return structure_from_tables(tables, file)
+        structure = structure_from_tables(tables, file)
+        if structure.integration.engine in MODEL_ENGINES:
+            from fecolumn.rocking.of_bodies import model_of_bodies, start_of_bodies
+
+            model_of_bodies(structure, file)
+            start_of_bodies(structure, file)
+        return structure
     case = build(Case, tables, file)
     return finished(
         dataclasses.replace(

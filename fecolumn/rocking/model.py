@@ -177,7 +177,7 @@ def engine_of(tables: dict, file) -> str | None:
     engine = plan.get("engine") if isinstance(plan, dict) else None
     if engine in there:
         return engine
-    if "bodies" in tables and engine not in MODELS:
+    if "bodies" in tables:
         return None
     if engine is None and len(there) == 1:
         return next(iter(there))
