@@ -129,7 +129,7 @@ class Integration(Section):
         "structure's bodies without any give; housner: no finite elements, the planar "
         "rigid block of fecolumn help rocking; wobbling: the rigid column that rolls "
         "on its rim; rocking_frame, wobbling_frame, podium: models of a table of their "
-        "own, such as [podium]",
+        "own, such as [podium], or of columns and what stands on them in [bodies]",
         choices=("full", "reduced", "rigid", *MODEL_ENGINES),
     )
     n_modes: int = parameter(
@@ -394,9 +394,15 @@ def case_from_tables(tables: dict, file) -> StructureCase:
         return case_of_table(tables, file)
     from fecolumn.structures.case import structure_from_tables
 
-    return structure_from_tables(
+    case = structure_from_tables(
         {key: table for key, table in tables.items() if key not in TABLES}, file
     )
+    if case.integration.engine in MODEL_ENGINES and not case.short:
+        from fecolumn.rocking.of_bodies import model_of, start_of
+
+        model_of(case, file)
+        start_of(case, file)
+    return case
 
 
 def read_case(path) -> StructureCase:

@@ -11,6 +11,7 @@ import numpy as np
 
 from fecolumn.case import GRAVITY, case_from_tables
 from fecolumn.contact.problem import N_ASSEMBLED, N_CONTACT, N_ITERATIONS
+from fecolumn.reduced.observe import place_of
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 
@@ -130,7 +131,7 @@ def cost(case, model, ground: np.ndarray, first: int) -> dict:
     counts, began = engine.counts.copy(), time.process_time()
     rows, _ = engine.advance(ground[first:])
     spent, made = time.process_time() - began, engine.counts - counts
-    near = float(np.mean(rows[:, 11]))
+    near = float(np.mean(rows[:, place_of("active_nodes")]))
     return dict(
         us=1e6 * spent / len(rows),
         steps=len(rows),

@@ -174,7 +174,7 @@ def model_engine_of(tables: dict, file) -> str | None:
     engine = plan.get("engine") if isinstance(plan, dict) else None
     if engine in there:
         return engine
-    if "bodies" in tables and engine not in MODELS:
+    if "bodies" in tables:
         return None
     if engine is None and len(there) == 1:
         return next(iter(there))

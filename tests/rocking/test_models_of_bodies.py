@@ -11,6 +11,7 @@ from fecolumn.rocking.model_table import case_of_table
 from fecolumn.rocking.of_bodies import model_of, start_of
 from fecolumn.schema import InputError
 from fecolumn.simulation import run
+from fecolumn.structures.case import structure_from_tables
 
 BLOCK = dict(kind="block", length_m=0.4, width_m=0.6, height_m=1.6, density_kg_m3=2700.0)
 DRUM = dict(kind="cylinder", outer_diameter_m=0.4, height_m=1.6, density_kg_m3=2700.0)
@@ -25,7 +26,7 @@ FRAME = FOOT | dict(head=dict(between=["body", "slab"]))
 
 def case(engine, bodies, joints, **tables):
     plan = dict(engine=engine, dt_s=1e-3, duration_s=1.0)
-    return case_from_tables(
+    return structure_from_tables(
         dict(bodies=bodies, interfaces=joints, integration=plan) | tables, "case.toml"
     )
 
@@ -162,9 +163,13 @@ n_modes = 10
     ],
 )
 def test_bodies_of_another_geometry_are_refused_with_the_reason(made, told):
-    with pytest.raises(InputError, match="integration.engine|foot_radius|restitution") as refused:
-        model_of(made, "case.toml")
-    assert told in str(refused.value)
+    for read in (
+        lambda: model_of(made, "case.toml"),
+        lambda: case_from_tables(made.tables(), "case.toml"),
+    ):
+        with pytest.raises(InputError, match="integration.engine|foot_radius|restitution") as one:
+            read()
+        assert told in str(one.value)
 
 
 def test_columns_of_a_model_start_alike():
