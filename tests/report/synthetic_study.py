@@ -82,9 +82,7 @@ def write_synthetic(
                 continue
             result = store.result_folder(analysis.id)
             result.mkdir(parents=True, exist_ok=True)
-            (result / "case.json").write_text(
-                json.dumps({"case": analysis.case.as_stated()})
-            )
+            (result / "case.json").write_text(json.dumps({"case": analysis.case.as_stated()}))
             summary = _summary(analysis, effect, scatter, cost)
             (result / "summary.json").write_text(
                 json.dumps(summary | also(analysis.values, summary))
