@@ -65,7 +65,9 @@ def duration(magnitude: float, distance: float) -> float:
 def site_amplification(frequency: ArrayLike) -> NDArray[Any]:
     """Amplification of generic rock (Boore and Joyner 1997)."""
     frequency = np.maximum(np.asarray(frequency, dtype=np.float64), GENERIC_ROCK[0, 0])
-    return np.interp(np.log(frequency), np.log(GENERIC_ROCK[:, 0]), GENERIC_ROCK[:, 1])
+    rock, gain = np.log(GENERIC_ROCK[:, 0]), GENERIC_ROCK[:, 1]
+    result: NDArray[Any] = np.interp(np.log(frequency), rock, gain)
+    return result
 
 
 def fourier_amplitude(frequency: ArrayLike, magnitude: float, distance: float) -> NDArray[Any]:

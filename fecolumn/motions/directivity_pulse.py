@@ -106,17 +106,11 @@ class DirectivityPulse:
         s = np.clip(
             np.asarray(time, dtype=np.float64) / self.period, -self.gamma / 2, self.gamma / 2
         )
-        path = sum(
-            weight
-            / ratio
-            * (
-                np.sin(2 * math.pi * ratio * s + self.phase)
-                - math.sin(-math.pi * ratio * self.gamma + self.phase)
-            )
-            for weight, ratio in self._tones()
-        )
-        result: NDArray[Any] = self.envelope_amplitude * self.period / (2 * math.pi) * path
-        return result
+        path: NDArray[Any] = np.zeros_like(s)
+        for weight, ratio in self._tones():
+            start = math.sin(-math.pi * ratio * self.gamma + self.phase)
+            path = path + weight / ratio * (np.sin(2 * math.pi * ratio * s + self.phase) - start)
+        return self.envelope_amplitude * self.period / (2 * math.pi) * path
 
     def _velocity_shape(self, s: NDArray[Any]) -> NDArray[Any]:
         result: NDArray[Any] = (

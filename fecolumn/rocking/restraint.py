@@ -44,7 +44,8 @@ class Restraint:
             found += stiffness * np.array(
                 [(high**3 - low**3) / 3, (high**2 - low**2) / 2 * inside, (high - low) * inside**2]
             )
-        return tuple(found.tolist())
+        square, mixed, level = found.tolist()
+        return square, mixed, level
 
     @property
     def forces(self) -> tuple[float, float]:
@@ -54,7 +55,8 @@ class Restraint:
             found += stiffness * np.array([height, inside])
         for stiffness, low, high, inside in self.bed:
             found += stiffness * np.array([(high**2 - low**2) / 2, (high - low) * inside])
-        return tuple(found.tolist())
+        upper, lower = found.tolist()
+        return upper, lower
 
     @property
     def tendon(self) -> tuple[float, float]:

@@ -107,6 +107,6 @@ def sensitivity(
         upper_bound(difference, 1 - tail),
         float(np.quantile(np.abs(signs @ difference).max(axis=1), 0.95)),
         float(-whole[-1]),
-        float(max(-1, centre - half)),
-        float(min(1, centre + half)),
+        max(-1.0, float(centre - half)),
+        min(1.0, float(centre + half)),
     )
